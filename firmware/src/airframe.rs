@@ -1,0 +1,152 @@
+//! The vehicle's physical constants and its rotor geometry.
+//!
+//! Owns: Table 2's quantities (b, d, m, I, Jr, k1..k6), ωmax, and the matrix from squared rotor speeds to
+//! U = (U1, U2, U3, U4), Eq. 4. The values of a particular airframe come from its file on the desktop.
+
+use crate::config::ConfigError;
+use crate::math;
+
+/// Rotors of the vehicles this build flies. The mixer itself takes any number.
+pub const ROTORS: usize = 4;
+
+/// Physical constants of an airframe. Frames are NWU/FLU.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+pub struct Airframe {
+    /// Total mass m, kg.
+    pub mass_kg: f32,
+    /// Principal moments of inertia Ix, Iy, Iz, kg m².
+    pub inertia_kg_m2: [f32; 3],
+    /// Inertia of one rotor about its axis Jr, kg m².
+    pub rotor_inertia_kg_m2: f32,
+    /// Translational drag k1..k3, N s/m.
+    pub drag_n_s_m: [f32; 3],
+    /// Rotational drag k4..k6, N m s²/rad².
+    pub rotational_drag_n_m_s2: [f32; 3],
+    /// Gravitational acceleration g, m/s².
+    pub gravity_m_s2: f32,
+    /// Greatest rotor speed ωmax, rad/s.
+    pub omega_max_rad_s: f32,
+    /// Time constant of a rotor's speed, s; 0 for a rotor that follows at once.
+    pub rotor_lag_s: f32,
+    /// What each rotor contributes to U1..U4 for each unit of ω² (see [`RotorGeometry`]).
+    pub geometry: RotorGeometry,
+}
+
+/// Rows of the matrix B with U = B·(ω1², …, ωn²): U1 in N, U2..U4 in N m, each s²/rad².
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+pub struct RotorGeometry {
+    /// Thrust a rotor, U1.
+    pub thrust: [f32; ROTORS],
+    /// Roll torque a rotor, U2.
+    pub roll: [f32; ROTORS],
+    /// Pitch torque a rotor, U3.
+    pub pitch: [f32; ROTORS],
+    /// Yaw torque a rotor, U4.
+    pub yaw: [f32; ROTORS],
+}
+
+impl RotorGeometry {
+    /// The paper's plus layout (Eq. 4) from lift `b` (N s²), drag `d` (N m s²) and arm `l` (m):
+    /// rotor 1 front, 2 right, 3 rear, 4 left; 1 and 3 push towards +ψ.
+    pub const fn plus(b: f32, d: f32, l: f32) -> Self {
+        Self {
+            thrust: [b, b, b, b],
+            roll: [0.0, -l * b, 0.0, l * b],
+            pitch: [-l * b, 0.0, l * b, 0.0],
+            yaw: [d, -d, d, -d],
+        }
+    }
+
+    /// The matrix B, 4 × [`ROTORS`].
+    pub const fn rows(&self) -> [[f32; ROTORS]; 4] {
+        [self.thrust, self.roll, self.pitch, self.yaw]
+    }
+}
+
+impl Airframe {
+    /// The paper's airframe (Table 2 as printed), with ωmax for the given thrust-to-weight ratio.
+    pub fn paper(thrust_to_weight: f32) -> Self {
+        let mut airframe = Self {
+            mass_kg: 0.823,
+            inertia_kg_m2: [0.5e-2, 0.5e-2, 0.1e-2],
+            rotor_inertia_kg_m2: 28.4e-4,
+            drag_n_s_m: [0.3729; 3],
+            rotational_drag_n_m_s2: [0.0556; 3],
+            gravity_m_s2: 9.81,
+            omega_max_rad_s: 0.0,
+            rotor_lag_s: 0.0,
+            geometry: RotorGeometry::plus(29.8e-4, 33e-6, 0.350),
+        };
+        airframe.omega_max_rad_s = airframe.omega_for_thrust_to_weight(thrust_to_weight);
+        airframe
+    }
+
+    /// Weight m·g, N.
+    pub fn weight_n(&self) -> f32 {
+        self.mass_kg * self.gravity_m_s2
+    }
+
+    /// Rotor speed (rad/s) at which all rotors together lift `ratio` times the weight.
+    pub fn omega_for_thrust_to_weight(&self, ratio: f32) -> f32 {
+        let lift: f32 = self.geometry.thrust.iter().sum();
+        math::sqrt(ratio * self.weight_n() / lift)
+    }
+
+    /// Greatest thrust of all rotors together, N.
+    pub fn thrust_max_n(&self) -> f32 {
+        let lift: f32 = self.geometry.thrust.iter().sum();
+        lift * self.omega_max_rad_s * self.omega_max_rad_s
+    }
+
+    /// Ωr, the sum of the rotors' spins about +z (Eq. 2): a rotor that pushes the body towards +ψ spins the
+    /// other way, Ωr = −ω1 + ω2 − ω3 + ω4 on the plus layout.
+    #[inline]
+    pub fn rotor_spin_rad_s(&self, omega_rad_s: &[f32; ROTORS]) -> f32 {
+        let mut spin = 0.0;
+        for (omega, yaw) in omega_rad_s.iter().zip(&self.geometry.yaw) {
+            spin += if *yaw > 0.0 { -omega } else { *omega };
+        }
+        spin
+    }
+
+    /// Refuses values no vehicle can have.
+    ///
+    /// # Errors
+    /// The first field that is not finite, not positive, or negative where only ≥ 0 makes sense.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        let [ix, iy, iz] = self.inertia_kg_m2;
+        for (name, value) in [
+            ("airframe.mass_kg", self.mass_kg),
+            ("airframe.inertia_kg_m2", ix),
+            ("airframe.inertia_kg_m2", iy),
+            ("airframe.inertia_kg_m2", iz),
+            ("airframe.gravity_m_s2", self.gravity_m_s2),
+            ("airframe.omega_max_rad_s", self.omega_max_rad_s),
+        ] {
+            ConfigError::require_positive(name, value)?;
+        }
+        let [k1, k2, k3] = self.drag_n_s_m;
+        let [k4, k5, k6] = self.rotational_drag_n_m_s2;
+        for (name, value) in [
+            ("airframe.rotor_inertia_kg_m2", self.rotor_inertia_kg_m2),
+            ("airframe.drag_n_s_m", k1),
+            ("airframe.drag_n_s_m", k2),
+            ("airframe.drag_n_s_m", k3),
+            ("airframe.rotational_drag_n_m_s2", k4),
+            ("airframe.rotational_drag_n_m_s2", k5),
+            ("airframe.rotational_drag_n_m_s2", k6),
+            ("airframe.rotor_lag_s", self.rotor_lag_s),
+        ] {
+            ConfigError::require_not_negative(name, value)?;
+        }
+        if !self.geometry.rows().iter().flatten().all(|v| v.is_finite()) {
+            return Err(ConfigError::NonFinite("airframe.geometry"));
+        }
+        if !self.geometry.thrust.iter().all(|v| *v > 0.0) {
+            return Err(ConfigError::NotPositive("airframe.geometry.thrust"));
+        }
+        Ok(())
+    }
+}

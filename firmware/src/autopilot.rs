@@ -1,0 +1,288 @@
+//! The partitions put together: what runs when, and what they tell each other.
+//!
+//! [`InnerTask`] is what the tick's interrupt runs. The partitions below it each `take` their snapshot from their
+//! mailbox, `step`, and `finish` with their output: on a board in RTIC tasks of their own priority, on the desktop
+//! one after the other in [`Autopilot::tick`]. At each tick, in this order (see `schedule`): due outputs are
+//! published, partitions are released with a snapshot of their inputs, the inner loop runs, then the released
+//! partitions.
+
+use crate::commander::{Commander, CommanderInput, CommanderOutput, Commands, Replies, Request};
+use crate::config::{ConfigError, FlightConfig};
+use crate::inner::{Inner, InnerOutput};
+use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
+use crate::outer::{Outer, OuterInput, OuterOutput};
+use crate::schedule::{COMMANDER, GROUND, Mailbox, OUTER};
+use crate::signals::{AttitudeReference, FlatReference, SensorFrame, Tick};
+use nalgebra::Vector3;
+
+/// All that the partitions share.
+#[derive(Clone, Debug)]
+pub struct Mailboxes {
+    /// Inner ⇄ outer.
+    pub outer: Mailbox<OuterInput, OuterOutput>,
+    /// Inner ⇄ commander.
+    pub commander: Mailbox<CommanderInput, CommanderOutput>,
+    /// Inner ⇄ ground.
+    pub ground: Mailbox<GroundInput, GroundOutput>,
+}
+
+impl Mailboxes {
+    /// All empty.
+    pub const fn new() -> Self {
+        Self { outer: Mailbox::new(OUTER), commander: Mailbox::new(COMMANDER), ground: Mailbox::new(GROUND) }
+    }
+
+    /// Overruns since boot of outer, commander and ground.
+    pub fn overruns(&self) -> [u32; 3] {
+        [self.outer.overruns(), self.commander.overruns(), self.ground.overruns()]
+    }
+}
+
+impl Default for Mailboxes {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Which partitions a tick has released.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Released {
+    /// Guidance and position control.
+    pub outer: bool,
+    /// Arming.
+    pub commander: bool,
+    /// MAVLink.
+    pub ground: bool,
+}
+
+/// The top of the schedule: owns the inner partition and the outputs now in effect.
+#[derive(Clone, Debug)]
+pub struct InnerTask {
+    tick: Tick,
+    inner: Inner,
+    outer: OuterOutput,
+    commander: CommanderOutput,
+    /// Commands for the commander's next job, and its replies for the ground's.
+    commands: Commands,
+    replies: Replies,
+    received: RxBytes,
+    transmit: TxBytes,
+    dropped_bytes: u32,
+    timing: Option<LoopTiming>,
+    /// Set by a forced disarm the moment it is published; the rotors stay stopped until the commander has
+    /// disarmed, and is cleared then.
+    kill: bool,
+}
+
+impl InnerTask {
+    fn new(config: &FlightConfig, inner: Inner, commander: &Commander) -> Self {
+        let commander = commander.initial_output();
+        let hover = if commander.flight_start.is_some() { config.airframe.weight_n() } else { 0.0 };
+        Self {
+            tick: 0,
+            inner,
+            outer: OuterOutput {
+                attitude: AttitudeReference::level(0.0, hover),
+                s: Vector3::zeros(),
+                reference: FlatReference::standing(config.start_position(), 0.0),
+                limited: false,
+            },
+            commander,
+            commands: Commands::new(),
+            replies: Replies::new(),
+            received: RxBytes::new(),
+            transmit: TxBytes::new(),
+            dropped_bytes: 0,
+            timing: None,
+            kill: false,
+        }
+    }
+
+    /// One tick: publish, release, control. Must be called once a tick, with `None` for a missing sample.
+    #[inline]
+    pub fn tick(&mut self, mail: &mut Mailboxes, sample: Option<&SensorFrame>) -> Released {
+        let tick = self.tick;
+        self.publish(tick, mail);
+        self.inner.sense(sample);
+        let released = self.release(tick, mail);
+        let armed = self.is_armed();
+        self.inner.step(tick, &self.outer.attitude, armed);
+        self.tick = tick.wrapping_add(1);
+        released
+    }
+
+    #[inline]
+    fn publish(&mut self, tick: Tick, mail: &mut Mailboxes) {
+        if let Some(output) = mail.outer.publish(tick) {
+            self.outer = output;
+        }
+        if let Some(output) = mail.commander.publish(tick) {
+            self.kill &= output.flight_start.is_some();
+            self.replies.extend(output.replies.iter().take(self.replies.capacity() - self.replies.len()).copied());
+            self.commander = output;
+        }
+        if let Some(output) = mail.ground.publish(tick) {
+            for command in &output.commands {
+                self.kill |= command.request == Request::Disarm { force: true };
+                // A full queue drops the command; the sender repeats what is not acknowledged.
+                let _ = self.commands.push(*command);
+            }
+            self.transmit = output.transmit;
+        }
+    }
+
+    #[inline]
+    fn release(&mut self, tick: Tick, mail: &mut Mailboxes) -> Released {
+        let released = Released {
+            outer: mail.outer.is_due(tick),
+            commander: mail.commander.is_due(tick),
+            ground: mail.ground.is_due(tick),
+        };
+        if released.outer {
+            let input = OuterInput {
+                nav: *self.inner.nav(),
+                thrust_n: self.inner.thrust_n(),
+                flight_start: self.commander.flight_start,
+            };
+            mail.outer.release(tick, input);
+        }
+        if released.commander {
+            let input = CommanderInput {
+                nav: *self.inner.nav(),
+                nav_fresh: self.inner.is_nav_fresh(),
+                commands: core::mem::take(&mut self.commands),
+            };
+            mail.commander.release(tick, input);
+        }
+        if released.ground {
+            let overruns = mail.overruns();
+            mail.ground.release(tick, self.ground_input(overruns));
+        }
+        released
+    }
+
+    fn ground_input(&mut self, overruns: [u32; 3]) -> GroundInput {
+        GroundInput {
+            nav: *self.inner.nav(),
+            armed: self.is_armed(),
+            landed: self.commander.landed,
+            armable: self.commander.armable,
+            health: Health {
+                nav_fresh: self.inner.is_nav_fresh(),
+                refused_samples: self.inner.refused_samples(),
+                dropped_bytes: self.dropped_bytes,
+                overruns,
+                timing: self.timing,
+            },
+            replies: core::mem::take(&mut self.replies),
+            received: core::mem::take(&mut self.received),
+        }
+    }
+
+    fn is_armed(&self) -> bool {
+        self.commander.flight_start.is_some() && !self.kill
+    }
+
+    /// Bytes from the ground station, for the ground partition's next job. What does not fit is counted.
+    pub fn receive(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            if self.received.push(*byte).is_err() {
+                self.dropped_bytes = self.dropped_bytes.saturating_add(1);
+            }
+        }
+    }
+
+    /// Bytes for the ground station that have come into effect since the last call.
+    pub fn take_transmit(&mut self) -> TxBytes {
+        core::mem::take(&mut self.transmit)
+    }
+
+    /// True if [`take_transmit`](Self::take_transmit) has something to give.
+    #[inline]
+    pub fn has_transmit(&self) -> bool {
+        !self.transmit.is_empty()
+    }
+
+    /// What a board has measured of its loops, for telemetry.
+    pub fn report_timing(&mut self, timing: LoopTiming) {
+        self.timing = Some(timing);
+    }
+
+    /// What the inner loop did in the last tick.
+    #[inline]
+    pub fn inner_output(&self) -> &InnerOutput {
+        self.inner.output()
+    }
+
+    /// The outer loop's output now in effect.
+    #[inline]
+    pub fn outer_output(&self) -> &OuterOutput {
+        &self.outer
+    }
+
+    /// The commander's output now in effect.
+    pub fn commander_output(&self) -> &CommanderOutput {
+        &self.commander
+    }
+
+    /// The number of the next tick.
+    pub fn next_tick(&self) -> Tick {
+        self.tick
+    }
+}
+
+/// Everything that flies, for one configuration: the top of the schedule, the partitions below it, and the
+/// mailboxes between them. A board takes it apart and gives each part to its task.
+#[derive(Clone, Debug)]
+pub struct Autopilot {
+    /// Runs every tick.
+    pub inner: InnerTask,
+    /// Guidance and position control.
+    pub outer: Outer,
+    /// Arming.
+    pub commander: Commander,
+    /// MAVLink.
+    pub ground: Ground,
+    /// Between them.
+    pub mail: Mailboxes,
+}
+
+impl Autopilot {
+    /// Ready for the first tick.
+    ///
+    /// # Errors
+    /// The first field of the configuration that is out of its range.
+    pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
+        config.validate()?;
+        let commander = Commander::new(config);
+        Ok(Self {
+            inner: InnerTask::new(config, Inner::new(config)?, &commander),
+            outer: Outer::new(config)?,
+            commander,
+            ground: Ground::default(),
+            mail: Mailboxes::new(),
+        })
+    }
+
+    /// One tick of everything, in the order of the schedule: the desktop's executor.
+    #[inline]
+    pub fn tick(&mut self, sample: Option<&SensorFrame>) -> &InnerOutput {
+        let released = self.inner.tick(&mut self.mail, sample);
+        if released.outer
+            && let Some((tick, input)) = self.mail.outer.take()
+        {
+            self.mail.outer.finish(self.outer.step(tick, &input));
+        }
+        if released.commander
+            && let Some((tick, input)) = self.mail.commander.take()
+        {
+            self.mail.commander.finish(self.commander.step(tick, &input));
+        }
+        if released.ground
+            && let Some((tick, input)) = self.mail.ground.take()
+        {
+            self.mail.ground.finish(self.ground.step(tick, &input));
+        }
+        self.inner.inner_output()
+    }
+}

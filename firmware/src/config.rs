@@ -1,0 +1,141 @@
+//! What a flight is configured with, validated once before it reaches a loop.
+
+use nalgebra::Vector3;
+
+use crate::airframe::Airframe;
+use crate::control::position::PositionGains;
+use crate::control::sliding::AxisGains;
+use crate::guidance::{JoinPlan, Trajectory};
+
+/// Why a configuration is refused; each names the field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConfigError {
+    /// Not a finite number.
+    NonFinite(&'static str),
+    /// Must be above zero.
+    NotPositive(&'static str),
+    /// Must not be below zero.
+    Negative(&'static str),
+    /// Outside the range the field allows.
+    OutOfRange(&'static str),
+    /// The rotors cannot produce thrust and three torques independently.
+    SingularGeometry,
+}
+
+impl ConfigError {
+    /// # Errors
+    /// `name` unless `value` is finite and above zero.
+    pub fn require_positive(name: &'static str, value: f32) -> Result<(), Self> {
+        if !value.is_finite() {
+            Err(Self::NonFinite(name))
+        } else if value > 0.0 {
+            Ok(())
+        } else {
+            Err(Self::NotPositive(name))
+        }
+    }
+
+    /// # Errors
+    /// `name` unless `value` is finite and not below zero.
+    pub fn require_not_negative(name: &'static str, value: f32) -> Result<(), Self> {
+        if !value.is_finite() {
+            Err(Self::NonFinite(name))
+        } else if value >= 0.0 {
+            Ok(())
+        } else {
+            Err(Self::Negative(name))
+        }
+    }
+}
+
+impl core::fmt::Display for ConfigError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NonFinite(name) => write!(f, "`{name}` is not a finite number"),
+            Self::NotPositive(name) => write!(f, "`{name}` must be above zero"),
+            Self::Negative(name) => write!(f, "`{name}` must not be negative"),
+            Self::OutOfRange(name) => write!(f, "`{name}` is out of its range"),
+            Self::SingularGeometry => f.write_str("`airframe.geometry` cannot produce thrust and three torques"),
+        }
+    }
+}
+
+/// How a flight begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "kebab-case", deny_unknown_fields)
+)]
+pub enum Start {
+    /// In the air, armed, at rest; the flight's clock starts with the first tick.
+    InFlight,
+    /// On the ground, disarmed; the flight's clock starts when the vehicle is armed.
+    OnGround,
+}
+
+/// Everything the firmware needs to know before a flight.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+pub struct FlightConfig {
+    /// The vehicle, as the controller believes it to be.
+    pub airframe: Airframe,
+    /// Gains for roll, pitch and yaw.
+    pub attitude: [AxisGains; 3],
+    /// Gains and limits for x, y and z.
+    pub position: PositionGains,
+    /// What to fly.
+    pub trajectory: Trajectory,
+    /// How to get there.
+    pub join: Option<JoinPlan>,
+    /// How the flight begins.
+    pub start: Start,
+    /// Where the flight begins, m.
+    pub start_position_m: [f32; 3],
+}
+
+impl FlightConfig {
+    /// Refuses a configuration that no loop should see.
+    ///
+    /// # Errors
+    /// The first field that is out of its range.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        self.airframe.validate()?;
+        let [roll, pitch, yaw] = &self.attitude;
+        roll.validate("attitude.roll")?;
+        pitch.validate("attitude.pitch")?;
+        yaw.validate("attitude.yaw")?;
+        self.position.validate()?;
+        if !crate::math::all_finite(&self.start_position_m) {
+            return Err(ConfigError::NonFinite("start_position_m"));
+        }
+        self.trajectory.validate()
+    }
+
+    /// Start position as a vector.
+    pub fn start_position(&self) -> Vector3<f32> {
+        self.start_position_m.into()
+    }
+}
+
+/// A safe default for a board that has not been configured: on the ground, holding 2 m above it once armed.
+impl Default for FlightConfig {
+    fn default() -> Self {
+        Self {
+            airframe: Airframe::paper(2.0),
+            attitude: [
+                AxisGains::sat(60.0, 20.0, 0.5),
+                AxisGains::sat(60.0, 20.0, 0.5),
+                AxisGains::sat(30.0, 10.0, 0.5),
+            ],
+            position: PositionGains {
+                axes: [AxisGains::sat(6.0, 2.0, 2.0), AxisGains::sat(6.0, 2.0, 2.0), AxisGains::sat(6.0, 3.0, 1.5)],
+                tilt_max_rad: 0.6,
+            },
+            trajectory: Trajectory::Hold { position_m: [0.0, 0.0, 2.0], yaw_rad: 0.0 },
+            join: Some(JoinPlan { duration_s: 3.0, start_acceleration_m_s2: [0.0; 3], middle_m: heapless::Vec::new() }),
+            start: Start::OnGround,
+            start_position_m: [0.0; 3],
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! From a force and its derivatives to angles and theirs: Eq. 11 as a differentially flat map.
+//!
+//! The specific force f (thrust a unit of mass) fixes where the body's z axis must point, n = f/|f|; turned by
+//! −ψ, the corrected Eq. 11 reads φd = asin(−n′y) = asin(Ux sψ − Uy cψ), θd = asin(n′x/cφd). Differentiating it
+//! twice gives the rates and accelerations that the attitude loop needs for exact tracking.
+
+use nalgebra::Vector3;
+
+use crate::control::attitude::EulerReference;
+use crate::math;
+
+/// A specific force, m/s², with two derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceProfile {
+    /// f, m/s².
+    pub force: Vector3<f32>,
+    /// ḟ, m/s³.
+    pub rate: Vector3<f32>,
+    /// f̈, m/s⁴.
+    pub acceleration: Vector3<f32>,
+}
+
+/// Heading with two derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heading {
+    /// ψ, rad.
+    pub angle: f32,
+    /// ψ̇, rad/s.
+    pub rate: f32,
+    /// ψ̈, rad/s².
+    pub acceleration: f32,
+}
+
+/// Below this specific force (m/s²) its direction is not worth following.
+const FORCE_MIN: f32 = 0.05;
+
+/// A unit vector with two derivatives.
+struct Direction {
+    n: Vector3<f32>,
+    rate: Vector3<f32>,
+    acceleration: Vector3<f32>,
+}
+
+impl ForceProfile {
+    /// n = f/|f| with ṅ and n̈ (from f = |f| n).
+    fn direction(&self) -> Direction {
+        let magnitude = math::max(math::sqrt(self.force.norm_squared()), FORCE_MIN);
+        let inverse = 1.0 / magnitude;
+        let n = self.force * inverse;
+        let magnitude_rate = n.dot(&self.rate);
+        let rate = (self.rate - n * magnitude_rate) * inverse;
+        let magnitude_acceleration = n.dot(&self.acceleration) + magnitude * rate.norm_squared();
+        let acceleration = (self.acceleration - rate * (2.0 * magnitude_rate) - n * magnitude_acceleration) * inverse;
+        Direction { n, rate, acceleration }
+    }
+}
+
+/// The vector `v` turned by −ψ about z, given (sin ψ, cos ψ).
+fn turn_back(v: &Vector3<f32>, (sin, cos): (f32, f32)) -> Vector3<f32> {
+    Vector3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z)
+}
+
+/// `e3 × v`.
+fn across(v: &Vector3<f32>) -> Vector3<f32> {
+    Vector3::new(-v.y, v.x, 0.0)
+}
+
+/// φd, θd by the corrected Eq. 11, ψ's angle and rates as given, all with two derivatives.
+///
+/// Defined for a force that points above the horizon (|θd| < 90°); roll is kept off ±90° by 1 % in its cosine.
+pub fn euler_reference(profile: &ForceProfile, heading: &Heading) -> EulerReference {
+    let direction = profile.direction();
+    let turn = math::sin_cos(heading.angle);
+    // In the frame that turns with ψ: d/dt [Rz(−ψ) n] = Rz(−ψ)(ṅ − ψ̇ e3×n), and once more.
+    let n = turn_back(&direction.n, turn);
+    let n_rate = turn_back(&direction.rate, turn);
+    let rate = n_rate - across(&n) * heading.rate;
+    let acceleration = turn_back(&direction.acceleration, turn)
+        - across(&n_rate) * (2.0 * heading.rate)
+        - across(&n) * heading.acceleration
+        + across(&across(&n)) * (heading.rate * heading.rate);
+
+    let sin_roll = math::clamp(-n.y, -0.999_95, 0.999_95);
+    let cos_roll = math::sqrt(1.0 - sin_roll * sin_roll);
+    let roll_rate = -rate.y / cos_roll;
+    let roll_acceleration = (-acceleration.y + sin_roll * roll_rate * roll_rate) / cos_roll;
+
+    let square = math::max(n.x * n.x + n.z * n.z, 1e-4);
+    let pitch_rate = (rate.x * n.z - n.x * rate.z) / square;
+    let square_rate = 2.0 * (n.x * rate.x + n.z * rate.z);
+    let pitch_acceleration = (acceleration.x * n.z - n.x * acceleration.z - pitch_rate * square_rate) / square;
+
+    EulerReference {
+        angles: Vector3::new(math::atan2(sin_roll, cos_roll), math::atan2(n.x, n.z), heading.angle),
+        rates: Vector3::new(roll_rate, pitch_rate, heading.rate),
+        accelerations: Vector3::new(roll_acceleration, pitch_acceleration, heading.acceleration),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::attitude::Euler;
+
+    /// A made-up smooth force and heading, in f64 and exactly differentiable.
+    fn sample(t: f64) -> (ForceProfile, Heading) {
+        let (s, c) = t.sin_cos();
+        let v = |a: f64, b: f64, z: f64| Vector3::new(a as f32, b as f32, z as f32);
+        let profile = ForceProfile {
+            force: v(6.0 * s, 5.0 * c, 10.0 + 3.0 * s),
+            rate: v(6.0 * c, -5.0 * s, 3.0 * c),
+            acceleration: v(-6.0 * s, -5.0 * c, -3.0 * s),
+        };
+        let (s2, c2) = (2.0 * t).sin_cos();
+        let heading = Heading { angle: (0.7 * s2) as f32, rate: (1.4 * c2) as f32, acceleration: (-2.8 * s2) as f32 };
+        (profile, heading)
+    }
+
+    #[test]
+    fn thrust_axis_of_the_angles_is_the_force_direction() {
+        for i in 0..60 {
+            let (profile, heading) = sample(f64::from(i) * 0.1);
+            let euler = euler_reference(&profile, &heading).angles;
+            let rotation = nalgebra::Rotation3::from_euler_angles(euler.x, euler.y, euler.z);
+            let error = rotation * Vector3::z() - profile.force.normalize();
+            assert!(error.norm() < 1e-6, "{i}: {error}");
+        }
+    }
+
+    #[test]
+    fn rates_and_accelerations_are_the_derivatives() {
+        let h = 2e-3;
+        for i in 0..60 {
+            let t = f64::from(i) * 0.1;
+            let at = |dt: f64| {
+                let (profile, heading) = sample(t + dt);
+                euler_reference(&profile, &heading)
+            };
+            let (before, now, after) = (at(-h), at(0.0), at(h));
+            let rate = (after.angles - before.angles) / (2.0 * h as f32);
+            let acceleration = (after.rates - before.rates) / (2.0 * h as f32);
+            // Central differences of f32 angles: 2·6e-8/4e-3 of rounding plus h² of truncation.
+            assert!((rate - now.rates).norm() < 5e-4, "{t}: {rate} {}", now.rates);
+            assert!((acceleration - now.accelerations).norm() < 2e-3, "{t}: {acceleration} {}", now.accelerations);
+        }
+    }
+
+    #[test]
+    fn euler_rates_and_body_rates_agree_with_the_rotation() {
+        // Body rates from the rotation itself, by differences, against Euler::body_acceleration's integral.
+        let h = 1e-3_f32;
+        let (angles, rates) = (Vector3::new(0.4_f32, -0.7, 0.9), Vector3::new(1.0_f32, -0.5, 0.8));
+        let accelerations = Vector3::new(-2.0_f32, 3.0, 1.0);
+        let body_at = |t: f32| {
+            let a = angles + rates * t + accelerations * (0.5 * t * t);
+            let euler = Euler::from_angles(a);
+            let r = rates + accelerations * t;
+            // Ω = E η̇.
+            let ((sr, cr), (sp, cp)) = (euler.roll, euler.pitch);
+            Vector3::new(r.x - sp * r.z, cr * r.y + sr * cp * r.z, -sr * r.y + cr * cp * r.z)
+        };
+        let numeric = (body_at(h) - body_at(-h)) / (2.0 * h);
+        let euler = Euler::from_angles(angles);
+        let analytic = euler.body_acceleration(&rates, &accelerations);
+        assert!((numeric - analytic).norm() < 1e-3, "{numeric} {analytic}");
+        assert!((euler.rates(&body_at(0.0)) - rates).norm() < 1e-6);
+    }
+}

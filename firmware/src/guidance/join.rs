@@ -1,0 +1,196 @@
+//! The path that joins a trajectory from rest: one Bézier curve, smooth down to snap where it meets it.
+//!
+//! Its first control points follow from the start (position, rest, a given acceleration), its last five from the
+//! trajectory's position to snap at the meeting point, so the vehicle is handed over without a jerk. The points
+//! in between shape it; a planner chooses them together with the duration (`sim-host plan`).
+
+use nalgebra::Vector3;
+
+use crate::config::ConfigError;
+use crate::signals::{FlatReference, TICK_S, Tick};
+
+/// Greatest number of shaping points.
+pub const MIDDLE_POINTS: usize = 8;
+
+/// Control points fixed by the start, and by the end.
+const START_POINTS: usize = 3;
+const END_POINTS: usize = 5;
+const POINTS: usize = START_POINTS + MIDDLE_POINTS + END_POINTS;
+
+/// How to join: the choices a planner has made.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+pub struct JoinPlan {
+    /// Duration of the path, s; rounded to whole ticks.
+    pub duration_s: f32,
+    /// Acceleration at the start, m/s². It must be one the vehicle has at rest and level: along z.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub start_acceleration_m_s2: [f32; 3],
+    /// Control points between those that the start and the end fix, m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub middle_m: heapless::Vec<[f32; 3], MIDDLE_POINTS>,
+}
+
+impl JoinPlan {
+    /// Duration in ticks.
+    pub fn duration_ticks(&self) -> Tick {
+        (self.duration_s / TICK_S + 0.5) as Tick
+    }
+
+    /// Refuses a plan that is not made of finite numbers or takes no time.
+    ///
+    /// # Errors
+    /// The culprit's name.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        ConfigError::require_positive("join.duration_s", self.duration_s)?;
+        if !self.start_acceleration_m_s2.iter().all(|v| v.is_finite()) {
+            return Err(ConfigError::NonFinite("join.start_acceleration_m_s2"));
+        }
+        if !self.middle_m.iter().flatten().all(|v| v.is_finite()) {
+            return Err(ConfigError::NonFinite("join.middle_m"));
+        }
+        if self.duration_ticks() < 10 { Err(ConfigError::OutOfRange("join.duration_s")) } else { Ok(()) }
+    }
+}
+
+/// A Bézier curve in time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JoinPath {
+    duration: Tick,
+    points: heapless::Vec<Vector3<f32>, POINTS>,
+    yaw: f32,
+}
+
+impl JoinPath {
+    /// The curve from rest at `start` to `end`, as planned.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] if the plan holds more points than fit.
+    pub fn new(plan: &JoinPlan, start: Vector3<f32>, end: &FlatReference) -> Result<Self, ConfigError> {
+        let duration = plan.duration_ticks();
+        let degree = (START_POINTS + plan.middle_m.len() + END_POINTS - 1) as f32;
+        let t = duration as f32 * TICK_S;
+        // Unit of the k-th derivative: Tᵏ (n−k)!/n!.
+        let u1 = t / degree;
+        let u2 = u1 * t / (degree - 1.0);
+        let u3 = u2 * t / (degree - 2.0);
+        let u4 = u3 * t / (degree - 3.0);
+
+        let mut points = heapless::Vec::new();
+        let mut push = |p: Vector3<f32>| points.push(p).map_err(|_| ConfigError::OutOfRange("join.middle_m"));
+        // At rest P1 = P0; the second difference is the start's acceleration.
+        push(start)?;
+        push(start)?;
+        push(start + Vector3::from(plan.start_acceleration_m_s2) * u2)?;
+        for point in &plan.middle_m {
+            push(Vector3::from(*point))?;
+        }
+        // Backward differences at the end: Pn−k = Σ (−1)^j C(k,j) ∇^j Pn.
+        let (p, d1, d2, d3, d4) =
+            (end.position, end.velocity * u1, end.acceleration * u2, end.jerk * u3, end.snap * u4);
+        push(p - d1 * 4.0 + d2 * 6.0 - d3 * 4.0 + d4)?;
+        push(p - d1 * 3.0 + d2 * 3.0 - d3)?;
+        push(p - d1 * 2.0 + d2)?;
+        push(p - d1)?;
+        push(p)?;
+        Ok(Self { duration, points, yaw: end.yaw })
+    }
+
+    /// Length of the path in ticks.
+    pub fn duration_ticks(&self) -> Tick {
+        self.duration
+    }
+
+    /// Position to snap, `ticks` after the start of the flight (de Casteljau; the differences of the last five
+    /// levels are the derivatives).
+    pub fn at(&self, ticks: Tick) -> FlatReference {
+        let u = ticks as f32 / self.duration as f32;
+        let per_second = 1.0 / (self.duration as f32 * TICK_S);
+        let mut reference = FlatReference::standing(Vector3::zeros(), self.yaw);
+        let mut points = self.points.clone();
+        let degree = points.len() - 1;
+        for left in (0..=degree).rev() {
+            // `left + 1` points are left: their `left`-th difference is the derivative of that order, up to scale.
+            if left <= 4 {
+                let mut scale = 1.0;
+                for k in 0..left {
+                    scale *= (degree - k) as f32 * per_second;
+                }
+                let derivative = difference(&points) * scale;
+                match left {
+                    4 => reference.snap = derivative,
+                    3 => reference.jerk = derivative,
+                    2 => reference.acceleration = derivative,
+                    1 => reference.velocity = derivative,
+                    _ => reference.position = derivative,
+                }
+            }
+            for i in 0..left {
+                if let (Some(a), Some(b)) = (points.get(i).copied(), points.get(i + 1)) {
+                    let between = a + (b - a) * u;
+                    if let Some(slot) = points.get_mut(i) {
+                        *slot = between;
+                    }
+                }
+            }
+            points.truncate(left);
+        }
+        reference
+    }
+}
+
+/// The highest difference of up to five points: Σ (−1)^(n−i) C(n,i) Pi.
+fn difference(points: &[Vector3<f32>]) -> Vector3<f32> {
+    match *points {
+        [a] => a,
+        [a, b] => b - a,
+        [a, b, c] => c - b * 2.0 + a,
+        [a, b, c, d] => d - c * 3.0 + b * 3.0 - a,
+        [a, b, c, d, e] => e - d * 4.0 + c * 6.0 - b * 4.0 + a,
+        _ => Vector3::zeros(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::guidance::{Guidance, Trajectory};
+
+    fn plan() -> JoinPlan {
+        let mut middle_m = heapless::Vec::new();
+        for point in [[0.5, 1.5, 1.0], [1.5, 3.0, 2.0], [3.0, 3.5, 3.0]] {
+            middle_m.push(point).expect("fits");
+        }
+        JoinPlan { duration_s: 2.0, start_acceleration_m_s2: [0.0, 0.0, 3.0], middle_m }
+    }
+
+    #[test]
+    fn starts_at_rest_with_the_given_acceleration() {
+        let guidance =
+            Guidance::new(Trajectory::PAPER_HELIX, Some(&plan()), Vector3::new(1.0, 2.0, 3.0)).expect("valid");
+        let start = guidance.at(0);
+        assert!((start.position - Vector3::new(1.0, 2.0, 3.0)).norm() < 1e-6);
+        assert!(start.velocity.norm() < 1e-5);
+        assert!((start.acceleration - Vector3::new(0.0, 0.0, 3.0)).norm() < 1e-3);
+    }
+
+    #[test]
+    fn meets_the_trajectory_with_all_derivatives() {
+        let guidance = Guidance::new(Trajectory::PAPER_HELIX, Some(&plan()), Vector3::zeros()).expect("valid");
+        let end = plan().duration_ticks();
+        let join = guidance.join.as_ref().expect("planned").at(end);
+        let trajectory = guidance.trajectory_at(end);
+        assert!((join.position - trajectory.position).norm() < 2e-6);
+        assert!((join.velocity - trajectory.velocity).norm() < 2e-5);
+        assert!((join.acceleration - trajectory.acceleration).norm() < 5e-4);
+        assert!((join.jerk - trajectory.jerk).norm() < 5e-3);
+        assert!((join.snap - trajectory.snap).norm() < 5e-2);
+    }
+
+    #[test]
+    fn a_plan_out_of_range_is_refused() {
+        let bad = JoinPlan { duration_s: f32::NAN, ..plan() };
+        let built = Guidance::new(Trajectory::PAPER_HELIX, Some(&bad), Vector3::zeros());
+        assert_eq!(built, Err(ConfigError::NonFinite("join.duration_s")));
+    }
+}

@@ -1,0 +1,269 @@
+//! Guidance: where the vehicle ought to be, with four derivatives, as a function of flight time.
+//!
+//! Owns the reference trajectories and the path that joins one from rest. Evaluated by the outer partition for
+//! the tick at which its output takes effect. Time is a tick count, so a reference is as exact after an hour as
+//! after a second.
+
+mod join;
+
+pub use join::{JoinPath, JoinPlan, MIDDLE_POINTS};
+
+use nalgebra::Vector3;
+
+use crate::config::ConfigError;
+use crate::math::{self, Phase};
+use crate::signals::{FlatReference, TICK_S, TICK_S_EXACT, Tick};
+
+/// A reference trajectory; t is the flight time in s. World frame NWU, m and rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "kebab-case", deny_unknown_fields)
+)]
+pub enum Trajectory {
+    /// Stand still.
+    Hold {
+        /// Where, m.
+        position_m: [f32; 3],
+        /// Heading ψd, rad.
+        yaw_rad: f32,
+    },
+    /// Stand still at one place, then, all at once, at another.
+    Step {
+        /// Place before the step, m.
+        from_m: [f32; 3],
+        /// Place after the step, m.
+        to_m: [f32; 3],
+        /// Flight time of the step, s.
+        at_s: f32,
+        /// Heading ψd, rad.
+        yaw_rad: f32,
+    },
+    /// `(a sin ωt, b cos ωt, z0 + c t)`; the paper's is a = 4, b = 5, ω = 1, z0 = 2, c = 1.
+    Helix {
+        /// a and b, m.
+        amplitude_m: [f32; 2],
+        /// ω, rad/s.
+        rate_rad_s: f32,
+        /// z0, m.
+        base_m: f32,
+        /// c, m/s.
+        climb_m_s: f32,
+        /// Heading ψd, rad.
+        yaw_rad: f32,
+    },
+    /// A lying eight about a centre: `(a sin ωt, b sin 2ωt, 0)`.
+    FigureEight {
+        /// Centre, m.
+        center_m: [f32; 3],
+        /// a and b, m.
+        amplitude_m: [f32; 2],
+        /// ω, rad/s.
+        rate_rad_s: f32,
+        /// Heading ψd, rad.
+        yaw_rad: f32,
+    },
+}
+
+impl Trajectory {
+    /// The paper's helix, (4 sin t, 5 cos t, 2 + t).
+    pub const PAPER_HELIX: Self =
+        Self::Helix { amplitude_m: [4.0, 5.0], rate_rad_s: 1.0, base_m: 2.0, climb_m_s: 1.0, yaw_rad: 0.0 };
+
+    /// Refuses a trajectory that is not made of finite numbers.
+    ///
+    /// # Errors
+    /// The trajectory's name.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        let (name, finite) = match self {
+            Self::Hold { position_m, yaw_rad } => {
+                ("trajectory.hold", math::all_finite(position_m) && yaw_rad.is_finite())
+            }
+            Self::Step { from_m, to_m, at_s, yaw_rad } => (
+                "trajectory.step",
+                math::all_finite(from_m) && math::all_finite(to_m) && math::all_finite(&[*at_s, *yaw_rad]),
+            ),
+            Self::Helix { amplitude_m, rate_rad_s, base_m, climb_m_s, yaw_rad } => (
+                "trajectory.helix",
+                math::all_finite(amplitude_m) && math::all_finite(&[*rate_rad_s, *base_m, *climb_m_s, *yaw_rad]),
+            ),
+            Self::FigureEight { center_m, amplitude_m, rate_rad_s, yaw_rad } => (
+                "trajectory.figure-eight",
+                math::all_finite(center_m)
+                    && math::all_finite(amplitude_m)
+                    && math::all_finite(&[*rate_rad_s, *yaw_rad]),
+            ),
+        };
+        if finite { Ok(()) } else { Err(ConfigError::NonFinite(name)) }
+    }
+}
+
+/// A wave `amplitude·(sin, cos)(angle)` with derivatives: entry k is the k-th derivative of the sine.
+#[derive(Clone, Copy)]
+struct Wave {
+    sine: f32,
+    cosine: f32,
+    rate: f32,
+}
+
+impl Wave {
+    fn new(angle: f32, rate: f32) -> Self {
+        let (sine, cosine) = math::sin_cos(angle);
+        Self { sine, cosine, rate }
+    }
+
+    /// sin with four derivatives, times `amplitude`.
+    fn sine(self, amplitude: f32) -> [f32; 5] {
+        self.derivatives(amplitude, self.sine, self.cosine)
+    }
+
+    /// cos with four derivatives, times `amplitude`.
+    fn cosine(self, amplitude: f32) -> [f32; 5] {
+        self.derivatives(amplitude, self.cosine, -self.sine)
+    }
+
+    /// f, f′, −f, −f′, f, each with its power of ω.
+    fn derivatives(self, amplitude: f32, value: f32, slope: f32) -> [f32; 5] {
+        let w = self.rate;
+        let w2 = w * w;
+        [
+            amplitude * value,
+            amplitude * w * slope,
+            -amplitude * w2 * value,
+            -amplitude * w2 * w * slope,
+            amplitude * w2 * w2 * value,
+        ]
+    }
+}
+
+/// Puts three axes' derivatives together.
+fn flat(x: [f32; 5], y: [f32; 5], z: [f32; 5], yaw: f32) -> FlatReference {
+    let vector = |k: usize| Vector3::new(x[k], y[k], z[k]);
+    FlatReference {
+        position: vector(0),
+        velocity: vector(1),
+        acceleration: vector(2),
+        jerk: vector(3),
+        snap: vector(4),
+        yaw,
+        yaw_rate: 0.0,
+        yaw_acceleration: 0.0,
+    }
+}
+
+/// A trajectory made ready for the loop, with the path that joins it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guidance {
+    trajectory: Trajectory,
+    phase: Phase,
+    join: Option<JoinPath>,
+}
+
+impl Guidance {
+    /// Makes a trajectory ready and plans the path to it from rest at `start`.
+    ///
+    /// # Errors
+    /// What of the trajectory or the plan is out of its range.
+    pub fn new(trajectory: Trajectory, plan: Option<&JoinPlan>, start: Vector3<f32>) -> Result<Self, ConfigError> {
+        trajectory.validate()?;
+        let rate = match trajectory {
+            Trajectory::Helix { rate_rad_s, .. } | Trajectory::FigureEight { rate_rad_s, .. } => rate_rad_s,
+            Trajectory::Hold { .. } | Trajectory::Step { .. } => 0.0,
+        };
+        let mut guidance = Self { trajectory, phase: Phase::new(rate, TICK_S_EXACT), join: None };
+        if let Some(plan) = plan {
+            plan.validate()?;
+            let end = guidance.trajectory_at(plan.duration_ticks());
+            guidance.join = Some(JoinPath::new(plan, start, &end)?);
+        }
+        Ok(guidance)
+    }
+
+    /// What to fly `ticks` after the start of the flight: the joining path first, then the trajectory.
+    pub fn at(&self, ticks: Tick) -> FlatReference {
+        match &self.join {
+            Some(join) if ticks < join.duration_ticks() => join.at(ticks),
+            _ => self.trajectory_at(ticks),
+        }
+    }
+
+    /// The trajectory itself.
+    pub fn trajectory_at(&self, ticks: Tick) -> FlatReference {
+        let t = ticks as f32 * TICK_S;
+        match self.trajectory {
+            Trajectory::Hold { position_m, yaw_rad } => FlatReference::standing(position_m.into(), yaw_rad),
+            Trajectory::Step { from_m, to_m, at_s, yaw_rad } => {
+                FlatReference::standing(if t < at_s { from_m } else { to_m }.into(), yaw_rad)
+            }
+            Trajectory::Helix { amplitude_m: [a, b], rate_rad_s, base_m, climb_m_s, yaw_rad } => {
+                let wave = Wave::new(self.phase.at(ticks), rate_rad_s);
+                let climb = [base_m + climb_m_s * t, climb_m_s, 0.0, 0.0, 0.0];
+                flat(wave.sine(a), wave.cosine(b), climb, yaw_rad)
+            }
+            Trajectory::FigureEight { center_m, amplitude_m: [a, b], rate_rad_s, yaw_rad } => {
+                let angle = self.phase.at(ticks);
+                let once = Wave::new(angle, rate_rad_s);
+                let twice = Wave::new(2.0 * angle, 2.0 * rate_rad_s);
+                let mut reference = flat(once.sine(a), twice.sine(b), [0.0; 5], yaw_rad);
+                reference.position += Vector3::from(center_m);
+                reference
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trajectories() -> [Trajectory; 2] {
+        [
+            Trajectory::PAPER_HELIX,
+            Trajectory::FigureEight {
+                center_m: [1.0, 2.0, 3.0],
+                amplitude_m: [4.0, 2.0],
+                rate_rad_s: 1.3,
+                yaw_rad: 0.2,
+            },
+        ]
+    }
+
+    fn assert_derivatives(at: impl Fn(Tick) -> FlatReference, ticks: Tick) {
+        let h = 20;
+        let (before, now, after) = (at(ticks - h), at(ticks), at(ticks + h));
+        let span = 2.0 * h as f32 * TICK_S;
+        for (name, higher, low, high) in [
+            ("velocity", now.velocity, before.position, after.position),
+            ("acceleration", now.acceleration, before.velocity, after.velocity),
+            ("jerk", now.jerk, before.acceleration, after.acceleration),
+            ("snap", now.snap, before.jerk, after.jerk),
+        ] {
+            let error = (high - low) / span - higher;
+            // h²/6 of truncation on the next derivative but one, and f32 rounding over 40 ms.
+            assert!(error.norm() < 2e-3 * (1.0 + higher.norm()), "{name} at {ticks}: {error}");
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_position() {
+        for trajectory in trajectories() {
+            let guidance = Guidance::new(trajectory, None, Vector3::zeros()).expect("valid");
+            for ticks in [100, 1_234, 7_777] {
+                assert_derivatives(|t| guidance.at(t), ticks);
+            }
+        }
+    }
+
+    #[test]
+    fn the_helix_is_the_papers() {
+        let guidance = Guidance::new(Trajectory::PAPER_HELIX, None, Vector3::zeros()).expect("valid");
+        for ticks in [0_u32, 500, 3_141, 20_000] {
+            let t = f64::from(ticks) * 1e-3;
+            let exact = [4.0 * t.sin(), 5.0 * t.cos(), 2.0 + t];
+            for (value, exact) in guidance.at(ticks).position.iter().zip(exact) {
+                assert!((f64::from(*value) - exact).abs() < 3e-6, "{ticks}: {value} {exact}");
+            }
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! The firmware's only door to `f32` mathematics.
+//!
+//! Owns: which implementation computes each function, with its error bound. Everything here is written out in
+//! `f32` or comes from `libm`, so desktop and Cortex-M4F give the same bits; `std`'s methods and the target's
+//! own `max`/`min` do not, and `clippy.toml` forbids them elsewhere in this crate.
+
+use core::f32::consts::{FRAC_PI_2, PI, TAU};
+
+/// Square root, correctly rounded.
+#[inline]
+pub fn sqrt(x: f32) -> f32 {
+    libm::sqrtf(x)
+}
+
+/// The larger of two numbers; `b` where either is NaN. Unlike `f32::max`, the same everywhere for ±0.
+#[inline]
+pub fn max(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers; `b` where either is NaN. Unlike `f32::min`, the same everywhere for ±0.
+#[inline]
+pub fn min(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// `x` limited to `low ..= high`; `low` where `x` is NaN.
+#[inline]
+pub fn clamp(x: f32, low: f32, high: f32) -> f32 {
+    min(max(x, low), high)
+}
+
+/// Magnitude.
+#[inline]
+pub fn abs(x: f32) -> f32 {
+    f32::from_bits(x.to_bits() & 0x7fff_ffff)
+}
+
+/// Sine and cosine of an angle (rad), by Cody–Waite reduction and the Cephes `sinf`/`cosf` polynomials.
+///
+/// Absolute error below 1.0e-7 for |x| ≤ 2π and below 1e-4 up to 1e3; larger angles are to be wrapped before
+/// they come here (see [`Phase`]).
+#[inline]
+pub fn sin_cos(x: f32) -> (f32, f32) {
+    // π/2 in three parts, the first two with few enough bits that k·part is exact.
+    const PART_1: f32 = 1.570_312_5;
+    const PART_2: f32 = 4.837_513e-4;
+    const PART_3: f32 = 7.549_79e-8;
+    let scaled = x * core::f32::consts::FRAC_2_PI;
+    let k = (scaled + if scaled < 0.0 { -0.5 } else { 0.5 }) as i32;
+    let kf = k as f32;
+    let r = ((x - kf * PART_1) - kf * PART_2) - kf * PART_3;
+    let z = r * r;
+    let sine = r + r * z * (-1.666_665_5e-1 + z * (8.332_161e-3 - z * 1.951_529_6e-4));
+    let cosine = 1.0 - 0.5 * z + z * z * (4.166_664_6e-2 + z * (-1.388_731_6e-3 + z * 2.443_315_7e-5));
+    match k & 3 {
+        0 => (sine, cosine),
+        1 => (cosine, -sine),
+        2 => (-sine, -cosine),
+        _ => (-cosine, sine),
+    }
+}
+
+/// Angle of the point (x, y) from the x axis, rad in −π..=π; `libm`'s, below 1 ulp.
+#[inline]
+pub fn atan2(y: f32, x: f32) -> f32 {
+    libm::atan2f(y, x)
+}
+
+/// Arc sine, rad; the argument is limited to −1..=1, so rounding in its computation never makes a NaN.
+#[inline]
+pub fn asin(x: f32) -> f32 {
+    libm::asinf(clamp(x, -1.0, 1.0))
+}
+
+/// Hyperbolic tangent; `libm`'s.
+#[inline]
+pub fn tanh(x: f32) -> f32 {
+    libm::tanhf(x)
+}
+
+/// `x^exponent` for x ≥ 0 by micromath: relative error below 8 % for 0 < exponent ≤ 1.
+///
+/// Only for the shaping of reaching laws, where it scales a gain that has far more slack than that: a reaching
+/// law with a gain 8 % off has the same sliding surface and a reaching time 8 % off. Zero maps to zero.
+#[inline]
+pub fn shape_power(x: f32, exponent: f32) -> f32 {
+    if x > 0.0 { micromath::F32(x).powf(micromath::F32(exponent)).0 } else { 0.0 }
+}
+
+/// An angle brought to −π..π, for |angle| up to a few turns.
+#[inline]
+pub fn wrap_angle(angle: f32) -> f32 {
+    if angle > PI {
+        angle - TAU * (((angle + PI) / TAU) as i32) as f32
+    } else if angle < -PI {
+        angle + TAU * (((PI - angle) / TAU) as i32) as f32
+    } else {
+        angle
+    }
+}
+
+/// A turning angle counted in 2⁻⁶⁴ turns a tick, so that it is as exact after a day as after a second.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Phase {
+    per_tick: u64,
+}
+
+impl Phase {
+    /// A phase that advances by `rate_rad_s` with ticks `tick_s` apart. Slow (soft `f64` on the target): for
+    /// configuration, not for the loop.
+    pub fn new(rate_rad_s: f32, tick_s: f64) -> Self {
+        let turns = f64::from(rate_rad_s) * tick_s / core::f64::consts::TAU;
+        let scaled = turns * 18_446_744_073_709_551_616.0;
+        Self { per_tick: (scaled as i64) as u64 }
+    }
+
+    /// The angle after `ticks`, rad in −π..π.
+    #[inline]
+    pub fn at(self, ticks: u32) -> f32 {
+        let turns = self.per_tick.wrapping_mul(u64::from(ticks));
+        let signed = (turns >> 32) as i32;
+        signed as f32 * (PI / 2_147_483_648.0)
+    }
+}
+
+/// True if every number is finite.
+#[inline]
+pub fn all_finite(values: &[f32]) -> bool {
+    values.iter().all(|v| v.is_finite())
+}
+
+/// A right angle, rad.
+pub const RIGHT_ANGLE: f32 = FRAC_PI_2;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sweep(low: f64, high: f64) -> impl Iterator<Item = f32> {
+        (0..=200_000).map(move |i| (low + (high - low) * f64::from(i) / 200_000.0) as f32)
+    }
+
+    #[test]
+    fn sin_cos_error_is_below_1e_7_within_a_turn() {
+        for x in sweep(-2.0 * core::f64::consts::PI, 2.0 * core::f64::consts::PI) {
+            let (s, c) = sin_cos(x);
+            assert!((f64::from(s) - f64::from(x).sin()).abs() < 1.0e-7, "sin {x}");
+            assert!((f64::from(c) - f64::from(x).cos()).abs() < 1.0e-7, "cos {x}");
+        }
+    }
+
+    #[test]
+    fn shape_power_error_is_below_8_percent_and_zero_is_zero() {
+        for exponent in [0.25_f32, 0.5, 0.75, 1.0] {
+            for x in sweep(1e-4, 50.0) {
+                let exact = f64::from(x).powf(f64::from(exponent));
+                let relative = (f64::from(shape_power(x, exponent)) - exact).abs() / exact;
+                assert!(relative < 0.08, "{x}^{exponent}: {relative}");
+            }
+            assert_eq!(shape_power(0.0, exponent), 0.0);
+        }
+    }
+
+    #[test]
+    fn phase_keeps_its_accuracy_for_a_day() {
+        let phase = Phase::new(1.0, 1e-3);
+        for ticks in [0_u32, 1, 20_000, 3_600_000, 86_400_000] {
+            let exact = (f64::from(ticks) * 1e-3).rem_euclid(core::f64::consts::TAU);
+            let difference = (f64::from(phase.at(ticks)) - exact).rem_euclid(core::f64::consts::TAU);
+            let error = difference.min(core::f64::consts::TAU - difference);
+            assert!(error < 3e-7, "{ticks}: {error}");
+        }
+    }
+
+    #[test]
+    fn angles_wrap_to_half_a_turn() {
+        for x in sweep(-20.0, 20.0) {
+            let wrapped = wrap_angle(x);
+            assert!((-PI - 1e-6..=PI + 1e-6).contains(&wrapped), "{x} -> {wrapped}");
+            assert!((f64::from(wrapped).sin() - f64::from(x).sin()).abs() < 4e-6);
+        }
+    }
+
+    #[test]
+    fn not_a_number_is_limited_not_passed_on() {
+        assert_eq!(clamp(f32::NAN, -1.0, 1.0), -1.0);
+        assert_eq!(asin(1.000_001), FRAC_PI_2);
+    }
+}

@@ -1,0 +1,139 @@
+//! Logical execution time: when a partition's inputs are read and its outputs take effect.
+//!
+//! A partition with period T and output offset D, both in ticks, is released at every multiple of T with a
+//! snapshot of its inputs; what it produces is published D ticks later, whenever it really finished. So the
+//! flight does not depend on how long a job takes, as long as it takes less than D; a job that takes longer is an
+//! overrun: its output is dropped, the old one stays, and it is counted.
+
+use crate::signals::Tick;
+
+/// Period and output offset of a partition, in ticks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Timing {
+    /// Released at every multiple of this.
+    pub period: Tick,
+    /// Outputs are published this long after the release; at most the period.
+    pub offset: Tick,
+}
+
+/// Guidance and position control: 250 Hz.
+pub const OUTER: Timing = Timing { period: 4, offset: 2 };
+/// Arming, modes and failsafes: 50 Hz.
+pub const COMMANDER: Timing = Timing { period: 20, offset: 4 };
+/// MAVLink: 100 Hz.
+pub const GROUND: Timing = Timing { period: 10, offset: 10 };
+
+/// Where a partition's current job is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Job<O> {
+    /// None under way.
+    Idle,
+    /// Released at the tick, not yet finished.
+    Running(Tick),
+    /// Finished, to be published.
+    Done(Tick, O),
+    /// Overran: still running, its output will be dropped.
+    Late,
+}
+
+/// The mailbox between the inner loop and one partition: one input snapshot in, one output out.
+#[derive(Clone, Debug)]
+pub struct Mailbox<I, O> {
+    timing: Timing,
+    input: Option<(Tick, I)>,
+    job: Job<O>,
+    overruns: u32,
+}
+
+impl<I, O: Clone> Mailbox<I, O> {
+    /// An empty mailbox.
+    pub const fn new(timing: Timing) -> Self {
+        Self { timing, input: None, job: Job::Idle, overruns: 0 }
+    }
+
+    /// Step 1 of a tick: the output that is due now, if its job has finished. Counts an overrun if it has not.
+    #[inline]
+    pub fn publish(&mut self, tick: Tick) -> Option<O> {
+        match &self.job {
+            Job::Running(released) if tick.wrapping_sub(*released) >= self.timing.offset => {
+                self.job = Job::Late;
+                self.overruns = self.overruns.saturating_add(1);
+                None
+            }
+            Job::Done(released, output) if tick.wrapping_sub(*released) >= self.timing.offset => {
+                let output = output.clone();
+                self.job = Job::Idle;
+                Some(output)
+            }
+            _ => None,
+        }
+    }
+
+    /// True if the partition is to be released at `tick`: its period says so, and its last job has ended.
+    #[inline]
+    pub fn is_due(&self, tick: Tick) -> bool {
+        tick.is_multiple_of(self.timing.period) && matches!(self.job, Job::Idle)
+    }
+
+    /// Step 2 of a tick, if the partition is due: leaves the snapshot for it.
+    #[inline]
+    pub fn release(&mut self, tick: Tick, input: I) {
+        self.input = Some((tick, input));
+        self.job = Job::Running(tick);
+    }
+
+    /// Step 4, in the partition's own task: the snapshot to work on, once a release.
+    #[inline]
+    pub fn take(&mut self) -> Option<(Tick, I)> {
+        self.input.take()
+    }
+
+    /// Hands back the job's output, to be published when it is due; dropped if the job overran.
+    #[inline]
+    pub fn finish(&mut self, output: O) {
+        self.job = match self.job {
+            Job::Running(released) => Job::Done(released, output),
+            _ => Job::Idle,
+        };
+    }
+
+    /// Jobs that had not finished when their output was due.
+    pub fn overruns(&self) -> u32 {
+        self.overruns
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn output_appears_exactly_at_its_offset() {
+        let mut mailbox: Mailbox<u32, u32> = Mailbox::new(Timing { period: 4, offset: 2 });
+        assert!(mailbox.is_due(8) && !mailbox.is_due(9));
+        mailbox.release(8, 80);
+        let (tick, input) = mailbox.take().expect("released");
+        mailbox.finish(input + tick);
+        assert_eq!(mailbox.publish(9), None);
+        assert_eq!(mailbox.publish(10), Some(88));
+        assert_eq!(mailbox.publish(11), None);
+        assert_eq!(mailbox.overruns(), 0);
+    }
+
+    #[test]
+    fn a_late_job_is_counted_once_and_its_output_dropped() {
+        let mut mailbox: Mailbox<u32, u32> = Mailbox::new(Timing { period: 4, offset: 2 });
+        mailbox.release(0, 1);
+        assert_eq!(mailbox.publish(2), None);
+        assert_eq!(mailbox.publish(3), None);
+        assert_eq!(mailbox.overruns(), 1);
+        assert!(!mailbox.is_due(4), "still under way");
+        mailbox.finish(7);
+        assert_eq!(mailbox.publish(5), None);
+        assert!(mailbox.is_due(8));
+        mailbox.release(8, 3);
+        mailbox.take();
+        mailbox.finish(9);
+        assert_eq!(mailbox.publish(10), Some(9));
+    }
+}

@@ -1,0 +1,160 @@
+//! The plain data that flows between the partitions (see the picture in the crate docs).
+//!
+//! World frame NWU (north, west, up), body frame FLU (forward, left, up), SI units. Only `frames` knows others.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use crate::airframe::ROTORS;
+
+/// Number of the inner loop's tick, [`TICK_US`] apart, counted from boot.
+pub type Tick = u32;
+
+/// Length of a tick, µs: the inner loop runs at 1 kHz.
+pub const TICK_US: u32 = 1_000;
+
+/// Length of a tick, s.
+pub const TICK_S: f32 = 1e-3;
+
+/// Length of a tick, s, for what must not drift over hours.
+pub const TICK_S_EXACT: f64 = TICK_US as f64 * 1e-6;
+
+/// What is known of the vehicle's motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NavState {
+    /// Position in the world, m.
+    pub position: Vector3<f32>,
+    /// Velocity in the world, m/s.
+    pub velocity: Vector3<f32>,
+    /// Rotation that takes body vectors to the world.
+    pub attitude: UnitQuaternion<f32>,
+    /// Angular velocity Ω = (p, q, r) in the body, rad/s.
+    pub rates: Vector3<f32>,
+}
+
+impl NavState {
+    /// At rest at the origin, level, heading north.
+    pub fn at_rest() -> Self {
+        Self {
+            position: Vector3::zeros(),
+            velocity: Vector3::zeros(),
+            attitude: UnitQuaternion::identity(),
+            rates: Vector3::zeros(),
+        }
+    }
+
+    /// True if every component is a finite number and the attitude is a unit quaternion within 1 %.
+    pub fn is_valid(&self) -> bool {
+        let q: &Quaternion<f32> = self.attitude.quaternion();
+        let finite = self.position.iter().chain(self.velocity.iter()).chain(self.rates.iter()).all(|v| v.is_finite());
+        let norm = q.norm_squared();
+        finite && norm > 0.98 && norm < 1.02
+    }
+}
+
+/// What the sensors deliver for one tick. The ideal sensor delivers the state itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SensorFrame {
+    /// The vehicle's motion at this tick.
+    pub nav: NavState,
+}
+
+/// Speeds the rotors are to turn at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotorCommand {
+    /// One speed a rotor, rad/s, 0..=ωmax.
+    pub omega_rad_s: [f32; ROTORS],
+}
+
+impl MotorCommand {
+    /// All rotors stopped.
+    pub const STOPPED: Self = Self { omega_rad_s: [0.0; ROTORS] };
+}
+
+/// Where the reference trajectory is, down to its fourth derivative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlatReference {
+    /// Position, m.
+    pub position: Vector3<f32>,
+    /// Velocity, m/s.
+    pub velocity: Vector3<f32>,
+    /// Acceleration, m/s².
+    pub acceleration: Vector3<f32>,
+    /// Jerk, m/s³.
+    pub jerk: Vector3<f32>,
+    /// Snap, m/s⁴.
+    pub snap: Vector3<f32>,
+    /// Yaw ψd, rad.
+    pub yaw: f32,
+    /// ψ̇d, rad/s.
+    pub yaw_rate: f32,
+    /// ψ̈d, rad/s².
+    pub yaw_acceleration: f32,
+}
+
+impl FlatReference {
+    /// Standing still at a place.
+    pub fn standing(position: Vector3<f32>, yaw: f32) -> Self {
+        let zero = Vector3::zeros();
+        Self {
+            position,
+            velocity: zero,
+            acceleration: zero,
+            jerk: zero,
+            snap: zero,
+            yaw,
+            yaw_rate: 0.0,
+            yaw_acceleration: 0.0,
+        }
+    }
+}
+
+/// What the outer loop asks of the inner: Euler angles with two derivatives, and the thrust.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AttitudeReference {
+    /// The tick for which the values hold; inner extrapolates from there.
+    pub valid_at: Tick,
+    /// φd, θd, ψd, rad.
+    pub angles: Vector3<f32>,
+    /// φ̇d, θ̇d, ψ̇d, rad/s.
+    pub rates: Vector3<f32>,
+    /// φ̈d, θ̈d, ψ̈d, rad/s².
+    pub accelerations: Vector3<f32>,
+    /// Thrust U1, N.
+    pub thrust_n: f32,
+    /// U̇1, N/s.
+    pub thrust_rate_n_s: f32,
+}
+
+impl AttitudeReference {
+    /// Level, at the given heading and thrust.
+    pub fn level(yaw: f32, thrust_n: f32) -> Self {
+        Self {
+            valid_at: 0,
+            angles: Vector3::new(0.0, 0.0, yaw),
+            rates: Vector3::zeros(),
+            accelerations: Vector3::zeros(),
+            thrust_n,
+            thrust_rate_n_s: 0.0,
+        }
+    }
+}
+
+/// The four control inputs of Eq. 4.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ControlInput {
+    /// U1, N.
+    pub thrust_n: f32,
+    /// U2, N m.
+    pub roll_n_m: f32,
+    /// U3, N m.
+    pub pitch_n_m: f32,
+    /// U4, N m.
+    pub yaw_n_m: f32,
+}
+
+impl ControlInput {
+    /// As U1..U4.
+    pub const fn as_array(&self) -> [f32; 4] {
+        [self.thrust_n, self.roll_n_m, self.pitch_n_m, self.yaw_n_m]
+    }
+}
