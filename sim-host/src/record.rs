@@ -1,0 +1,68 @@
+//! What a flight leaves behind: one row a tick, and who takes it.
+
+/// One tick of a flight. World frame NWU, body frame FLU, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Time, s.
+    pub t: f64,
+    /// True position at t, m.
+    pub position: [f64; 3],
+    /// True velocity at t, m/s.
+    pub velocity: [f64; 3],
+    /// True attitude at t, body to world: w, x, y, z.
+    pub attitude: [f64; 4],
+    /// True body rates p, q, r at t, rad/s.
+    pub rates: [f64; 3],
+    /// Rotor speeds that act from t to the next row, rad/s; with rotor lag, the speeds at t.
+    pub omega: [f64; 4],
+    /// Commanded rotor speeds that act from t to the next row, rad/s.
+    pub omega_command: [f64; 4],
+    /// Reference position (m) and yaw (rad) at t: the paper's own trajectory, not the path that joins it.
+    pub reference: [f64; 4],
+    /// U1 (N), U2..U4 (N m) as the controller demanded them at t.
+    pub u: [f64; 4],
+    /// Sliding variables s1, s2, s3 (rad/s), sx, sy, sz (m/s).
+    pub s: [f64; 6],
+}
+
+/// Takes the rows of a flight, in order.
+pub trait Recorder {
+    /// False where rows would be thrown away, so that the loop need not make them.
+    const ENABLED: bool = true;
+
+    /// Takes the next row.
+    fn record(&mut self, row: &Row);
+}
+
+/// Takes nothing: for benchmarks.
+impl Recorder for () {
+    const ENABLED: bool = false;
+
+    fn record(&mut self, _row: &Row) {}
+}
+
+/// Keeps everything.
+impl Recorder for Vec<Row> {
+    fn record(&mut self, row: &Row) {
+        self.push(*row);
+    }
+}
+
+/// Gives each row to two recorders.
+impl<A: Recorder, B: Recorder> Recorder for (A, B) {
+    const ENABLED: bool = A::ENABLED || B::ENABLED;
+
+    fn record(&mut self, row: &Row) {
+        self.0.record(row);
+        self.1.record(row);
+    }
+}
+
+/// Gives each row to somebody else's recorder.
+impl<A: Recorder> Recorder for &mut A {
+    const ENABLED: bool = A::ENABLED;
+
+    fn record(&mut self, row: &Row) {
+        (**self).record(row);
+    }
+}
