@@ -1,3 +1,11 @@
 //! Glissade on the desktop: the world that the firmware flies in, and the front end to it.
 
+pub mod airframe;
+pub mod decoupled;
+pub mod flight;
+pub mod noise;
+pub mod plant;
 pub mod record;
+pub mod reference;
+pub mod scenario;
+pub mod sil;
