@@ -4,6 +4,7 @@ pub mod airframe;
 pub mod decoupled;
 pub mod flight;
 pub mod noise;
+pub mod plan;
 pub mod plant;
 pub mod record;
 pub mod reference;
