@@ -3,10 +3,12 @@
 pub mod airframe;
 pub mod decoupled;
 pub mod flight;
+pub mod link;
 pub mod noise;
 pub mod plan;
 pub mod plant;
 pub mod record;
 pub mod reference;
 pub mod scenario;
+pub mod serve;
 pub mod sil;
