@@ -1,0 +1,2 @@
+//! What a person or a script gets from a flight.
+pub mod truth;
