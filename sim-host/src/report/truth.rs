@@ -209,7 +209,9 @@ mod tests {
     fn write(rows: &[Row]) -> (String, String) {
         let mut text = Vec::new();
         let mut writer = TruthWriter::new(&mut text);
-        rows.iter().for_each(|row| writer.record(row));
+        for row in rows {
+            writer.record(row);
+        }
         let hash = writer.finish().expect("a vector takes every byte");
         (String::from_utf8(text).expect("CSV is ASCII"), hash)
     }
@@ -272,7 +274,9 @@ mod tests {
         assert!(text.len() > 2 * BLOCK, "the test must cross the edge of a block");
         assert_eq!(hash, hex(&Sha256::digest(text.as_bytes())));
         let mut sink = TruthWriter::hash_only();
-        rows.iter().for_each(|row| sink.record(row));
+        for row in &rows {
+            sink.record(row);
+        }
         assert_eq!(sink.finish().expect("a sink takes every byte"), hash);
     }
 
