@@ -80,12 +80,20 @@ pub struct Recovery {
     pub y: Option<f64>,
     /// Up.
     pub z: Option<f64>,
-    /// Roll; only a case that knows the desired roll can fill it in.
-    pub roll: Option<f64>,
-    /// Pitch; only a case that knows the desired pitch can fill it in.
-    pub pitch: Option<f64>,
     /// Heading.
     pub yaw: Option<f64>,
+    /// Roll and pitch, from a case that knows what was desired of them; else no keys at all.
+    #[serde(flatten)]
+    pub tilt: Option<TiltRecovery>,
+}
+
+/// [`Recovery`]'s part for the angles whose reference is not in a row.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct TiltRecovery {
+    /// Roll.
+    pub roll: Option<f64>,
+    /// Pitch.
+    pub pitch: Option<f64>,
 }
 
 /// Watches an error until it stays in a band for good.
@@ -267,11 +275,11 @@ impl Metrics {
         ControlEffort { thrust_rms_n, roll_rms_n_m, pitch_rms_n_m, yaw_rms_n_m }
     }
 
-    /// Recovery from a disturbance that set in at `onset_s`. Roll and pitch have no reference in a row and stay
-    /// `None`; a case that knows the desired angles watches them with [`Settling`].
+    /// Recovery from a disturbance that set in at `onset_s`. Roll and pitch have no reference in a row; a case that
+    /// knows the desired angles watches them with [`Settling`] and fills in `tilt`.
     pub fn recovery(&self, onset_s: f64) -> Recovery {
         let [x, y, z, _] = self.axes.map(|axis| axis.wide.after(onset_s));
-        Recovery { x, y, z, roll: None, pitch: None, yaw: self.yaw_recovery.after(onset_s) }
+        Recovery { x, y, z, yaw: self.yaw_recovery.after(onset_s), tilt: None }
     }
 }
 

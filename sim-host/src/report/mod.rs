@@ -1,4 +1,7 @@
 //! What a person or a script gets from a flight.
 pub mod angles;
 pub mod metrics;
+pub mod progress;
+pub mod summary;
+pub mod table;
 pub mod truth;
