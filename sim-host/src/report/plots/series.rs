@@ -56,26 +56,31 @@ fn lowest_and_highest(bucket: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)>
     std::iter::once(bucket[low.min(high)]).chain(second)
 }
 
-/// Thins a path that may go anywhere: drops points that lie too close to the last one kept to be seen.
+/// Thins a path that may go anywhere: drops points that lie too close to the last one kept to be seen, and of one
+/// that jumps all over the panel, evenly many.
 pub(super) fn thin_path(mut points: Points) -> Points {
     points.retain(visible);
     let size = |range: Option<(f64, f64)>| range.map_or(1.0, |(low, high)| high - low);
     let (width, height) = (size(extent(points.iter().map(|p| p.0))), size(extent(points.iter().map(|p| p.1))));
-    let mut closeness = 1.0e-3;
-    while points.len() > MOST_POINTS && closeness < 1.0 {
-        let mut last = None;
-        points.retain(|&(x, y)| {
-            let far = last.is_none_or(|(a, b): (f64, f64)| {
-                (x - a).abs() > closeness * width || (y - b).abs() > closeness * height
-            });
-            if far {
-                last = Some((x, y));
-            }
-            far
-        });
-        closeness *= 2.0;
+    for closeness in [0.001, 0.002, 0.004, 0.008] {
+        if points.len() > MOST_POINTS {
+            drop_close(&mut points, closeness * width, closeness * height);
+        }
     }
-    points
+    let stride = points.len().div_ceil(MOST_POINTS).max(1);
+    points.into_iter().step_by(stride).collect()
+}
+
+/// Drops the points that lie within `dx` and `dy` of the last one kept.
+fn drop_close(points: &mut Points, dx: f64, dy: f64) {
+    let mut last = None;
+    points.retain(|&(x, y)| {
+        let far = last.is_none_or(|(a, b): (f64, f64)| (x - a).abs() > dx || (y - b).abs() > dy);
+        if far {
+            last = Some((x, y));
+        }
+        far
+    });
 }
 
 /// Beyond this a flight has diverged and the rest of it is not drawn: pixels would overflow.
