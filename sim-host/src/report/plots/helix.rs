@@ -72,8 +72,8 @@ impl Frame {
         let x = self.ticks(0).map(|x| ([x, y0, z0], format!(" {x}"), below(HPos::Left)));
         let y = self.ticks(1).map(|y| ([x0, y, z0], format!("{y} "), below(HPos::Right)));
         let z = self.ticks(2).map(|z| ([x0, y1, z], format!("{z}  "), Pos::new(HPos::Right, VPos::Center)));
-        // The upright's lowest label would stand on the floor's.
-        x.chain(y).chain(z.skip(1)).collect()
+        // At two corners two labels would stand on each other.
+        x.skip(1).chain(y).chain(z.skip(1)).collect()
     }
 
     /// The axes' names, beyond the middle of the edges that carry their ticks.

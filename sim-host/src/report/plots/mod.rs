@@ -34,6 +34,37 @@ pub struct Disturbance<'a> {
     pub linear_unit: &'a str,
     /// What roll, pitch and yaw hold, such as `rad/s²`.
     pub angular_unit: &'a str,
+    /// From when to when it acts, s.
+    pub acting: (f64, f64),
+}
+
+/// Everything that a flight's figures need.
+#[derive(Clone, Copy, Debug)]
+pub struct Figures<'a> {
+    /// The flight.
+    pub rows: &'a [Row],
+    /// Desired roll, pitch, yaw (rad) of each row, where the case knows them.
+    pub desired_attitude: Option<&'a [[f64; 3]]>,
+    /// The disturbance, where there is one; without, Figures 5 and 6 are left out.
+    pub disturbance: Option<Disturbance<'a>>,
+}
+
+impl Figures<'_> {
+    /// Draws every figure that applies into `folder`. Returns the files written, in the paper's order.
+    ///
+    /// # Errors
+    /// When a file cannot be written; the message names it.
+    pub fn draw(&self, folder: &Path) -> Result<Vec<PathBuf>> {
+        let Self { rows, desired_attitude, .. } = *self;
+        let mut files =
+            vec![altitude(folder, rows)?, position(folder, rows)?, attitude(folder, rows, desired_attitude)?];
+        if let Some(applied) = &self.disturbance {
+            files.push(disturbance(folder, applied)?);
+            files.push(disturbed(folder, rows, desired_attitude, applied.acting)?);
+        }
+        files.push(helix(folder, rows)?);
+        Ok(files)
+    }
 }
 
 /// Figure 2: altitude, its error during the approach, phase portrait, thrust. Returns the file written.
@@ -147,10 +178,9 @@ pub fn helix(folder: &Path, rows: &[Row]) -> Result<PathBuf> {
     let above = Panel { lines, equal_scales: true, ..Panel::path("from above", "x (north), m", "y (west), m", vec![]) };
     let path = folder.join("fig7-helix.svg");
     save(&path, (1100, 820), "Path in space (paper's Figure 7)", &FOLLOWING_A_PATH, |area| {
-        let (left, right) = area.split_horizontally(panel::px(660));
+        let (left, right) = area.split_horizontally(panel::px(600));
         helix::draw(&left, rows)?;
-        let (_, lower) = right.split_vertically(panel::px(300));
-        above.draw(&lower)
+        above.draw(&right.margin(panel::px(110), panel::px(110), 0, 0))
     })?;
     Ok(path)
 }
@@ -192,4 +222,4 @@ fn angle_panel(rows: &[Row], desired: Option<&[[f64; 3]]>, axis: usize) -> Panel
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -130,8 +130,8 @@ impl Panel {
             let inner = (width.saturating_sub(px(LABELS_LEFT + 26)), height.saturating_sub(px(LABELS_BELOW + 40)));
             return equalised(padded(across, 0.06), up, inner);
         }
-        // Time runs from edge to edge; a path keeps clear of the frame.
-        (padded(across, if self.mark_start { 0.06 } else { 0.0 }), up)
+        // A path keeps clear of the frame. Time runs from edge to edge, but for the tick that a flight ends before.
+        (padded(across, if self.mark_start { 0.06 } else { 1e-4 }), up)
     }
 
     fn draw_shade(&self, chart: &mut Chart, across: (f64, f64), up: (f64, f64)) -> Result<()> {
@@ -170,8 +170,8 @@ impl Panel {
 }
 
 /// Room for the tick labels and the axis' name, in shown pixels.
-const LABELS_LEFT: u32 = 66;
-const LABELS_BELOW: u32 = 42;
+const LABELS_LEFT: u32 = 60;
+const LABELS_BELOW: u32 = 36;
 /// Height of a figure's heading, in shown pixels.
 const HEADING: u32 = 44;
 
@@ -192,12 +192,13 @@ pub(super) fn save(
         draw(&rest)?;
         page.present()?;
     }
+    // The view box keeps the fine units. Joins are round because wide lines over thinned points would show spikes.
     let (fine, shown) = (dimensions(px(size.0), px(size.1)), dimensions(size.0, size.1));
-    fs::write(path, svg.replacen(&fine, &shown, 1))
+    fs::write(path, svg.replacen(&fine, &(shown + " stroke-linejoin=\"round\""), 1))
         .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))
 }
 
-/// The size attributes of the page; the view box keeps the fine units.
+/// How the page begins.
 fn dimensions(width: u32, height: u32) -> String {
     format!("<svg width=\"{width}\" height=\"{height}\"")
 }
@@ -209,31 +210,36 @@ pub(super) fn grid(area: &Area, columns: usize, panels: &[Panel]) -> Result<()> 
 }
 
 fn draw_heading(area: &Area, heading: &str, legend: &[Key]) -> Result<()> {
-    let (width, middle) = (area.dim_in_pixel().0 as i32, px(HEADING / 2) as i32);
+    let (width, middle) = (area.dim_in_pixel().0.cast_signed(), at(HEADING / 2));
     let left = Pos::new(HPos::Left, VPos::Center);
-    area.draw(&Text::new(heading, (px(14) as i32, middle), text(18).pos(left)))?;
-    let mut x = width - px(10) as i32;
+    area.draw(&Text::new(heading, (at(14), middle), text(18).pos(left)))?;
+    let mut x = width - at(10);
     for key in legend.iter().rev() {
         // About 7.5 pixels a letter at this size, and the sample.
-        x -= px(44) as i32 + (px(15) as usize * key.name().len() / 2) as i32;
+        x -= at(44 + 15 * key.name().len() as u32 / 2);
         draw_sample(area, *key, x, middle)?;
-        area.draw(&Text::new(key.name(), (x + px(32) as i32, middle), text(13).pos(left)))?;
+        area.draw(&Text::new(key.name(), (x + at(32), middle), text(13).pos(left)))?;
     }
     Ok(())
 }
 
 fn draw_sample(area: &Area, key: Key, x: i32, middle: i32) -> Result<()> {
-    let (end, half) = (x + px(26) as i32, px(6) as i32);
+    let (end, half) = (x + at(26), at(6));
     let line = |role: Role| PathElement::new(vec![(x, middle), (end, middle)], role.style());
     match key {
         Key::Reference => area.draw(&line(Role::Reference))?,
         Key::Flown => area.draw(&line(Role::Flown))?,
-        Key::Start => area.draw(&Circle::new((x + px(20) as i32, middle), px(4), palette::START.filled()))?,
+        Key::Start => area.draw(&Circle::new((x + at(20), middle), px(4), palette::START.filled()))?,
         Key::Disturbed => {
             area.draw(&Rectangle::new([(x, middle - half), (end, middle + half)], palette::DISTURBED.filled()))?;
         }
     }
     Ok(())
+}
+
+/// A coordinate in the page's units, from shown pixels.
+fn at(shown: u32) -> i32 {
+    px(shown).cast_signed()
 }
 
 /// Shown pixels in the page's units.

@@ -43,7 +43,10 @@ pub(super) fn thin_series(mut points: Points) -> Points {
     if points.len() <= MOST_POINTS {
         return points;
     }
-    points.chunks(points.len().div_ceil(BUCKETS)).flat_map(lowest_and_highest).collect()
+    // The ends stay, so that all panels of a figure cover the same time.
+    let inner = &points[1..points.len() - 1];
+    let thinned = inner.chunks(inner.len().div_ceil(BUCKETS)).flat_map(lowest_and_highest);
+    points.first().copied().into_iter().chain(thinned).chain(points.last().copied()).collect()
 }
 
 /// A bucket's lowest and highest point, in the order in which they came.
@@ -114,7 +117,8 @@ mod tests {
         points[12_345].1 = 99.0;
         points[777].1 = f64::NAN;
         let thin = thin_series(points);
-        assert!(thin.len() <= 2 * BUCKETS);
+        assert!(thin.len() <= 2 * BUCKETS + 2);
+        assert_eq!((thin[0].0, thin[thin.len() - 1].0), (0.0, 19_999.0));
         assert!(thin.contains(&(12_345.0, 99.0)));
         assert!(thin.is_sorted_by(|a, b| a.0 < b.0));
     }

@@ -16,7 +16,7 @@ pub(super) fn approach(e0: f64, t: f64) -> (f64, f64) {
 }
 
 /// Made-up rows of a flight of the paper's helix from the origin.
-pub(super) fn flight(seconds: f64) -> Vec<Row> {
+pub(in crate::report) fn flight(seconds: f64) -> Vec<Row> {
     (0..=(seconds * 1000.0) as u32).map(|k| row(f64::from(k) / 1000.0)).collect()
 }
 
@@ -25,7 +25,7 @@ fn row(t: f64) -> Row {
     let [ex, ey, ez] = [0.0, 5.0, 2.0].map(|e0| approach(e0, t));
     let [roll, pitch, yaw] = angles(t);
     let q = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
-    let chatter = if (t * 1000.0) as u32 % 2 == 0 { 0.05 } else { -0.05 };
+    let chatter = if ((t * 1000.0) as u32).is_multiple_of(2) { 0.05 } else { -0.05 };
     Row {
         t,
         position: [reference[0] - ex.0, reference[1] - ey.0, reference[2] - ez.0],
@@ -59,17 +59,11 @@ fn draw_all(name: &str, rows: &[Row]) -> Vec<(PathBuf, String)> {
     let folder = base.join(name);
     fs::create_dir_all(&folder).expect("a folder for the figures");
     let desired: Vec<_> = rows.iter().map(|row| angles(row.t)).collect();
-    let applied = Disturbance { samples: &samples(), linear_unit: "m/s²", angular_unit: "rad/s²" };
-    let files = [
-        altitude(&folder, rows),
-        position(&folder, rows),
-        attitude(&folder, rows, Some(&desired)),
-        disturbance(&folder, &applied),
-        disturbed(&folder, rows, Some(&desired), (5.0, 10.0)),
-        helix(&folder, rows),
-    ];
+    let applied =
+        Disturbance { samples: &samples(), linear_unit: "m/s²", angular_unit: "rad/s²", acting: (5.0, 10.0) };
+    let files = Figures { rows, desired_attitude: Some(&desired), disturbance: Some(applied) }.draw(&folder);
     let read = |file: PathBuf| (file.clone(), fs::read_to_string(file).expect("the file was written"));
-    let texts = files.into_iter().map(|file| read(file.expect("drawn"))).collect();
+    let texts = files.expect("drawn").into_iter().map(read).collect();
     if kept.is_none() {
         fs::remove_dir_all(&folder).expect("the folder is there");
     }
@@ -112,11 +106,20 @@ fn empty_and_diverged_flights_are_drawn_too() {
     draw_all("one", &flight(0.0));
     let mut rows = flight(6.0);
     for (k, row) in rows.iter_mut().enumerate().skip(3000) {
-        row.position = [10_f64.powi(k as i32 / 10 - 300); 3];
+        row.position = [10_f64.powf(k as f64 / 10.0 - 300.0); 3];
         row.attitude = [f64::NAN; 4];
         row.u = [f64::INFINITY; 4];
     }
     draw_all("diverged", &rows);
+}
+
+#[test]
+fn without_a_disturbance_two_figures_are_left_out() {
+    let folder = std::env::temp_dir().join(format!("glissade-{}-calm", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder for the figures");
+    let files = Figures { rows: &flight(1.0), desired_attitude: None, disturbance: None }.draw(&folder);
+    fs::remove_dir_all(&folder).expect("the folder is there");
+    assert_eq!(files.map(|files| files.len()).expect("drawn"), 4);
 }
 
 #[test]
