@@ -9,6 +9,7 @@ pub mod plan;
 pub mod plant;
 pub mod record;
 pub mod reference;
+pub mod report;
 pub mod scenario;
 pub mod serve;
 pub mod sil;
