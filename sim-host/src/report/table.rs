@@ -83,12 +83,11 @@ fn last_settling(summary: &Summary) -> Option<f64> {
 
 fn bound(summary: &Summary) -> String {
     let Some(bound) = summary.time_optimal_s else { return String::new() };
-    let last = last_settling(summary);
-    let ratio = last.map_or_else(String::new, |last| format!(", {:.2} × the bound", last / bound));
-    format!(
-        "time-optimal bound  {bound:.2} s to join the reference exactly; all of xyz within 5 cm from {}{ratio}\n",
-        seconds(last)
-    )
+    let reached = last_settling(summary).map_or_else(
+        || "xyz never all within 5 cm".into(),
+        |last| format!("all of xyz within 5 cm from {last:.3} s, {:.2} × the bound", last / bound),
+    );
+    format!("time-optimal bound  {bound:.2} s to join the reference exactly; {reached}\n")
 }
 
 fn recovery(recovery: &Recovery) -> String {
