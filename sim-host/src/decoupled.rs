@@ -132,6 +132,7 @@ impl Decoupled {
             omega: [0.0; 4],
             omega_command: [0.0; 4],
             reference,
+            desired_attitude: self.attitude_reference(t),
             u: [thrust, control.torque.x, control.torque.y, control.torque.z],
             s: control.s,
         }

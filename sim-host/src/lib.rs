@@ -1,6 +1,7 @@
 //! Glissade on the desktop: the world that the firmware flies in, and the front end to it.
 
 pub mod airframe;
+pub mod cli;
 pub mod decoupled;
 pub mod flight;
 pub mod link;

@@ -105,6 +105,7 @@ impl<P: Plant> Flight<P> {
             omega,
             omega_command: command,
             reference: reference::at(&self.trajectory, self.flight_time(t)),
+            desired_attitude: outer.attitude.angles.map(f64::from).into(),
             u: inner.demand.as_array().map(f64::from),
             s: [inner.s.x, inner.s.y, inner.s.z, outer.s.x, outer.s.y, outer.s.z].map(f64::from),
         }

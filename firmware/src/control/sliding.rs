@@ -161,7 +161,7 @@ mod tests {
             s -= gains.reach(s) * 1e-4;
             t += 1e-4;
         }
-        assert!((t - 2.0).abs() < 0.24, "{t}");
+        assert!(crate::math::abs(t - 2.0) < 0.24, "{t}");
     }
 
     #[test]
@@ -170,7 +170,7 @@ mod tests {
             let gains = AxisGains { lambda: 1.0, gain: 3.0, switching };
             for s in [-1.2_f32, -0.3, 0.01, 0.2, 0.8] {
                 let numeric = (gains.reach(s + 1e-3) - gains.reach(s - 1e-3)) / 2e-3;
-                assert!((gains.reach_slope(s) - numeric).abs() < 0.02, "{switching:?} at {s}");
+                assert!(math::abs(gains.reach_slope(s) - numeric) < 0.02, "{switching:?} at {s}");
             }
         }
     }

@@ -6,7 +6,7 @@
 
 use serde::Serialize;
 
-use super::angles::{wrap, yaw};
+use super::angles::{roll_pitch_yaw, wrap, yaw};
 use crate::record::{Recorder, Row};
 
 /// RMS and maximum error are taken from here on, s: what comes before is the approach.
@@ -71,6 +71,19 @@ pub struct ControlEffort {
     pub yaw_rms_n_m: Option<f64>,
 }
 
+/// How roll and pitch followed the desired attitude after 4 s, rad.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct TiltFigures {
+    /// Root mean square of the error in roll.
+    pub roll_rms_rad: Option<f64>,
+    /// Greatest error in roll.
+    pub roll_max_rad: Option<f64>,
+    /// Root mean square of the error in pitch.
+    pub pitch_rms_rad: Option<f64>,
+    /// Greatest error in pitch.
+    pub pitch_max_rad: Option<f64>,
+}
+
 /// Time from a disturbance's onset until the error stays within 5 cm, or 2° for an angle, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Recovery {
@@ -82,14 +95,6 @@ pub struct Recovery {
     pub z: Option<f64>,
     /// Heading.
     pub yaw: Option<f64>,
-    /// Roll and pitch, from a case that knows what was desired of them; else no keys at all.
-    #[serde(flatten)]
-    pub tilt: Option<TiltRecovery>,
-}
-
-/// [`Recovery`]'s part for the angles whose reference is not in a row.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct TiltRecovery {
     /// Roll.
     pub roll: Option<f64>,
     /// Pitch.
@@ -236,7 +241,9 @@ impl Variation {
 #[derive(Clone, Debug)]
 pub struct Metrics {
     axes: [Axis; 4],
-    yaw_recovery: Settling,
+    /// Roll, pitch, yaw.
+    angles: [Settling; 3],
+    tilt: [Size; 2],
     chattering: Variation,
     chattering_after_4s: Variation,
     effort: [Size; 4],
@@ -247,7 +254,8 @@ impl Metrics {
     pub fn new() -> Self {
         Self {
             axes: [Axis::new(); 4],
-            yaw_recovery: Settling::new(ANGLE_RECOVERY_BAND),
+            angles: [Settling::new(ANGLE_RECOVERY_BAND); 3],
+            tilt: [Size::default(); 2],
             chattering: Variation::from(f64::NEG_INFINITY),
             chattering_after_4s: Variation::from(TRACKING_FROM_S),
             effort: [Size::default(); 4],
@@ -275,11 +283,22 @@ impl Metrics {
         ControlEffort { thrust_rms_n, roll_rms_n_m, pitch_rms_n_m, yaw_rms_n_m }
     }
 
-    /// Recovery from a disturbance that set in at `onset_s`. Roll and pitch have no reference in a row; a case that
-    /// knows the desired angles watches them with [`Settling`] and fills in `tilt`.
+    /// How roll and pitch followed what was desired of them, after 4 s, rad.
+    pub fn tilt(&self) -> TiltFigures {
+        let [roll, pitch] = self.tilt;
+        TiltFigures {
+            roll_rms_rad: roll.rms(),
+            roll_max_rad: roll.max(),
+            pitch_rms_rad: pitch.rms(),
+            pitch_max_rad: pitch.max(),
+        }
+    }
+
+    /// Recovery from a disturbance that set in at `onset_s`.
     pub fn recovery(&self, onset_s: f64) -> Recovery {
         let [x, y, z, _] = self.axes.map(|axis| axis.wide.after(onset_s));
-        Recovery { x, y, z, yaw: self.yaw_recovery.after(onset_s), tilt: None }
+        let [roll, pitch, yaw] = self.angles.map(|angle| angle.after(onset_s));
+        Recovery { x, y, z, yaw, roll, pitch }
     }
 }
 
@@ -295,7 +314,15 @@ impl Recorder for Metrics {
         for (axis, error) in self.axes.iter_mut().zip(errors) {
             axis.take(row.t, error);
         }
-        self.yaw_recovery.take(row.t, errors[3]);
+        let angles = angle_errors(row);
+        for (settling, error) in self.angles.iter_mut().zip(angles) {
+            settling.take(row.t, error);
+        }
+        if row.t >= TRACKING_FROM_S {
+            for (size, error) in self.tilt.iter_mut().zip(angles) {
+                size.take(error);
+            }
+        }
         self.chattering.take(row.t, row.omega_command);
         self.chattering_after_4s.take(row.t, row.omega_command);
         for (effort, u) in self.effort.iter_mut().zip(row.u) {
@@ -308,6 +335,12 @@ impl Recorder for Metrics {
 pub fn errors(row: &Row) -> [f64; 4] {
     let ([x, y, z], [ref_x, ref_y, ref_z, ref_yaw]) = (row.position, row.reference);
     [ref_x - x, ref_y - y, ref_z - z, wrap(ref_yaw - yaw(row.attitude))]
+}
+
+/// Desired attitude − truth: roll, pitch, yaw, rad in [−π, π].
+pub fn angle_errors(row: &Row) -> [f64; 3] {
+    let flown = roll_pitch_yaw(row.attitude);
+    core::array::from_fn(|i| wrap(row.desired_attitude[i] - flown[i]))
 }
 
 /// `None` for what JSON cannot hold.

@@ -70,6 +70,7 @@ mod tests {
             omega: [0.0; 4],
             omega_command: [0.0; 4],
             reference: [0.0; 4],
+            desired_attitude: [0.0; 3],
             u: [0.0; 4],
             s: [0.0; 6],
         }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use serde::Serialize;
 
-use super::metrics::{Axes, AxisFigures, ControlEffort, Metrics, Recovery};
+use super::metrics::{Axes, AxisFigures, ControlEffort, Metrics, Recovery, TiltFigures};
 
 /// What the loop knows about a flight and its rows do not tell.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,6 +62,8 @@ pub struct Summary {
     pub saturated_fraction: f64,
     /// Root mean squares of U1..U4.
     pub control_effort: ControlEffort,
+    /// How roll and pitch followed the desired attitude.
+    pub tilt: TiltFigures,
     /// Recovery from the disturbance; null without one.
     pub recovery_s: Option<Recovery>,
 }
@@ -84,6 +86,7 @@ impl Summary {
             chattering_after_4s: metrics.chattering_after_4s(),
             saturated_fraction: flight.saturated_fraction,
             control_effort: metrics.control_effort(),
+            tilt: metrics.tilt(),
             recovery_s: recovery.map(|r| if survived { r } else { Recovery::default() }),
         }
     }
@@ -174,6 +177,7 @@ pub(super) mod tests {
             omega: [26.0; 4],
             omega_command: [26.0; 4],
             reference: [0.0; 4],
+            desired_attitude: [0.0; 3],
             u: [8.0, 0.0, 0.0, 0.0],
             s: [0.0; 6],
         }

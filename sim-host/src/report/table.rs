@@ -91,9 +91,8 @@ fn bound(summary: &Summary) -> String {
 }
 
 fn recovery(recovery: &Recovery) -> String {
-    let Recovery { x, y, z, yaw, tilt } = *recovery;
-    let mut axes = vec![("x", x), ("y", y), ("z", z), ("yaw", yaw)];
-    axes.extend(tilt.iter().flat_map(|tilt| [("roll", tilt.roll), ("pitch", tilt.pitch)]));
+    let Recovery { x, y, z, yaw, roll, pitch } = *recovery;
+    let axes = [("x", x), ("y", y), ("z", z), ("roll", roll), ("pitch", pitch), ("yaw", yaw)];
     let each: Vec<_> = axes.iter().map(|(name, time)| format!("{name} {}", seconds(*time))).collect();
     format!(
         "disturbance         from its onset to within 5 cm (2°) for good: {} (paper: under {} s)\n",

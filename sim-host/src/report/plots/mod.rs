@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 
 use self::panel::{Key, Panel, Role, grid, save};
-use self::series::{Points, angles_deg, beside_rows, over_time, phase, thin_path, thin_series};
+use self::series::{Points, angles_deg, over_time, phase, thin_path, thin_series};
 use super::metrics::errors;
 use crate::record::Row;
 
@@ -43,8 +43,6 @@ pub struct Disturbance<'a> {
 pub struct Figures<'a> {
     /// The flight.
     pub rows: &'a [Row],
-    /// Desired roll, pitch, yaw (rad) of each row, where the case knows them.
-    pub desired_attitude: Option<&'a [[f64; 3]]>,
     /// The disturbance, where there is one; without, Figures 5 and 6 are left out.
     pub disturbance: Option<Disturbance<'a>>,
 }
@@ -55,12 +53,11 @@ impl Figures<'_> {
     /// # Errors
     /// When a file cannot be written; the message names it.
     pub fn draw(&self, folder: &Path) -> Result<Vec<PathBuf>> {
-        let Self { rows, desired_attitude, .. } = *self;
-        let mut files =
-            vec![altitude(folder, rows)?, position(folder, rows)?, attitude(folder, rows, desired_attitude)?];
+        let rows = self.rows;
+        let mut files = vec![altitude(folder, rows)?, position(folder, rows)?, attitude(folder, rows)?];
         if let Some(applied) = &self.disturbance {
             files.push(disturbance(folder, applied)?);
-            files.push(disturbed(folder, rows, desired_attitude, applied.acting)?);
+            files.push(disturbed(folder, rows, applied.acting)?);
         }
         files.push(helix(folder, rows)?);
         Ok(files)
@@ -101,17 +98,16 @@ pub fn position(folder: &Path, rows: &[Row]) -> Result<PathBuf> {
     Ok(path)
 }
 
-/// Figure 4: roll, pitch and yaw beside the torques demanded. `desired` holds the desired roll, pitch and yaw (rad) of
-/// each row where the case knows them; without, only yaw has a reference, the row's. Returns the file written.
+/// Figure 4: roll, pitch and yaw beside the torques demanded. Returns the file written.
 ///
 /// # Errors
 /// As [`altitude`].
-pub fn attitude(folder: &Path, rows: &[Row], desired: Option<&[[f64; 3]]>) -> Result<PathBuf> {
+pub fn attitude(folder: &Path, rows: &[Row]) -> Result<PathBuf> {
     let panels: Vec<_> = (0..3)
         .flat_map(|axis| {
             let torque = over_time(rows, |row| row.u[axis + 1]);
             let (title, up) = (format!("{} torque demanded", ANGLES[axis]), format!("U{}, N m", axis + 2));
-            [angle_panel(rows, desired, axis), Panel::over_time(&title, &up, vec![(Role::Flown, torque)])]
+            [angle_panel(rows, axis), Panel::over_time(&title, &up, vec![(Role::Flown, torque)])]
         })
         .collect();
     let path = folder.join("fig4-attitude.svg");
@@ -139,20 +135,19 @@ pub fn disturbance(folder: &Path, applied: &Disturbance) -> Result<PathBuf> {
     Ok(path)
 }
 
-/// Figure 6: all six coordinates around a disturbance that acts during `acting` (s, from and to). `desired` is as for
-/// [`attitude`]. Returns the file written.
+/// Figure 6: all six coordinates around a disturbance that acts during `acting` (s, from and to). Returns the file
+/// written.
 ///
 /// # Errors
 /// As [`altitude`].
-pub fn disturbed(folder: &Path, rows: &[Row], desired: Option<&[[f64; 3]]>, acting: (f64, f64)) -> Result<PathBuf> {
+pub fn disturbed(folder: &Path, rows: &[Row], acting: (f64, f64)) -> Result<PathBuf> {
     let first = rows.partition_point(|row| row.t < acting.0 - AROUND_DISTURBANCE_S);
     let last = rows.partition_point(|row| row.t <= acting.1 + AROUND_DISTURBANCE_S).max(first);
     let shown = &rows[first..last];
-    let desired = desired.map(|all| all.get(first..).unwrap_or_default());
     let panel = |axis: usize| {
         let panel = match axis {
             0..3 => Panel::over_time(POSITIONS[axis], &format!("{}, m", POSITIONS[axis]), tracking(shown, axis)),
-            _ => angle_panel(shown, desired, axis - 3),
+            _ => angle_panel(shown, axis - 3),
         };
         Panel { shaded: Some(acting), ..panel }
     };
@@ -210,14 +205,10 @@ fn phase_panel(rows: &[Row], axis: usize) -> Panel {
     Panel::path(&title, &format!("{name} error, m"), &format!("{name} error rate, m/s"), phase(rows, axis))
 }
 
-fn angle_panel(rows: &[Row], desired: Option<&[[f64; 3]]>, axis: usize) -> Panel {
-    let reference = match (desired, axis) {
-        (Some(desired), _) => Some(beside_rows(rows, desired, |angles| angles[axis].to_degrees())),
-        (None, 2) => Some(over_time(rows, |row| row.reference[3].to_degrees())),
-        (None, _) => None,
-    };
+fn angle_panel(rows: &[Row], axis: usize) -> Panel {
+    let reference = over_time(rows, |row| row.desired_attitude[axis].to_degrees());
     let flown = over_time(rows, |row| angles_deg(row)[axis]);
-    let lines = reference.map(|points| (Role::Reference, points)).into_iter().chain([(Role::Flown, flown)]).collect();
+    let lines = vec![(Role::Reference, reference), (Role::Flown, flown)];
     Panel::over_time(ANGLES[axis], &format!("{}, °", ANGLES[axis]), lines)
 }
 

@@ -17,11 +17,6 @@ pub(super) fn over_time(rows: &[Row], value: impl Fn(&Row) -> f64) -> Points {
     thin_series(rows.iter().map(|row| (row.t, value(row))).collect())
 }
 
-/// A quantity of each element beside the rows (attitude references, say) over time.
-pub(super) fn beside_rows<T>(rows: &[Row], beside: &[T], value: impl Fn(&T) -> f64) -> Points {
-    thin_series(rows.iter().zip(beside).map(|(row, other)| (row.t, value(other))).collect())
-}
-
 /// Error rate over error of one axis: (e, ė), with ė by central differences, since a row has no reference rate.
 pub(super) fn phase(rows: &[Row], axis: usize) -> Points {
     let error = |row: &Row| errors(row)[axis];

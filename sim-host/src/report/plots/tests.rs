@@ -35,6 +35,7 @@ fn row(t: f64) -> Row {
         omega: [26.0; 4],
         omega_command: [26.0; 4],
         reference,
+        desired_attitude: [roll, pitch, yaw],
         u: [8.1 + 8.0 * (-3.0 * t).exp(), chatter + 0.4 * (-3.0 * t).exp(), chatter, 0.1 * chatter],
         s: [0.0; 6],
     }
@@ -58,10 +59,9 @@ fn draw_all(name: &str, rows: &[Row]) -> Vec<(PathBuf, String)> {
     let base = kept.clone().unwrap_or_else(|| std::env::temp_dir().join(format!("glissade-{}", std::process::id())));
     let folder = base.join(name);
     fs::create_dir_all(&folder).expect("a folder for the figures");
-    let desired: Vec<_> = rows.iter().map(|row| angles(row.t)).collect();
     let applied =
         Disturbance { samples: &samples(), linear_unit: "m/s²", angular_unit: "rad/s²", acting: (5.0, 10.0) };
-    let files = Figures { rows, desired_attitude: Some(&desired), disturbance: Some(applied) }.draw(&folder);
+    let files = Figures { rows, disturbance: Some(applied) }.draw(&folder);
     let read = |file: PathBuf| (file.clone(), fs::read_to_string(file).expect("the file was written"));
     let texts = files.expect("drawn").into_iter().map(read).collect();
     if kept.is_none() {
@@ -117,7 +117,7 @@ fn empty_and_diverged_flights_are_drawn_too() {
 fn without_a_disturbance_two_figures_are_left_out() {
     let folder = std::env::temp_dir().join(format!("glissade-{}-calm", std::process::id()));
     fs::create_dir_all(&folder).expect("a folder for the figures");
-    let files = Figures { rows: &flight(1.0), desired_attitude: None, disturbance: None }.draw(&folder);
+    let files = Figures { rows: &flight(1.0), disturbance: None }.draw(&folder);
     fs::remove_dir_all(&folder).expect("the folder is there");
     assert_eq!(files.map(|files| files.len()).expect("drawn"), 4);
 }
