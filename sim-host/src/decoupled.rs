@@ -18,8 +18,10 @@ use crate::reference;
 use crate::scenario::{AttitudeWave, Scenario};
 use crate::sil::Outcome;
 
+/// Plant steps a second.
+const STEPS_A_SECOND: f64 = 1e5;
 /// Plant step, s.
-const STEP_S: f64 = 1e-5;
+const STEP_S: f64 = 1.0 / STEPS_A_SECOND;
 /// Plant steps in a row of the record.
 const STEPS_A_ROW: u32 = 100;
 /// Further than this from its reference the vehicle is lost, m.
@@ -77,14 +79,14 @@ impl Decoupled {
             trajectory: config.trajectory,
             guidance,
             wave: scenario.file.attitude,
-            noise: Noise::new(scenario.file.disturbance.as_ref(), seed, 1.0 / STEP_S),
+            noise: Noise::new(scenario.file.disturbance.as_ref(), seed, STEPS_A_SECOND),
             state: PaperState::at_rest(Vector3::from(scenario.file.start_position_m)),
             step: 0,
         })
     }
 
     fn time(&self) -> f64 {
-        f64::from(self.step) * STEP_S
+        f64::from(self.step) / STEPS_A_SECOND
     }
 
     /// φd, θd, ψd at time `t`, rad.

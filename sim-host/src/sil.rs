@@ -8,7 +8,7 @@ use firmware::autopilot::Autopilot;
 use firmware::guidance::Trajectory;
 use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
-use firmware::signals::{SensorFrame, TICK_S_EXACT};
+use firmware::signals::{SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::noise::{Disturbed, Noise};
@@ -93,7 +93,7 @@ impl<P: Plant> Flight<P> {
     /// The record of this tick, with what the firmware has made of it.
     pub fn row(&self, inner: &InnerOutput, outer: &OuterOutput) -> Row {
         let motion = self.plant.motion();
-        let t = f64::from(self.tick) * TICK_S_EXACT;
+        let t = time(self.tick);
         let command: [f64; ROTORS] = inner.motors.omega_rad_s.map(f64::from);
         let omega = self.plant.omega_during(&command);
         Row {
@@ -114,13 +114,19 @@ impl<P: Plant> Flight<P> {
     /// Time on the flight's clock, s: 0 while disarmed.
     fn flight_time(&self, t: f64) -> f64 {
         let start = self.autopilot.inner.commander_output().flight_start;
-        start.map_or(0.0, |start| t - f64::from(start) * TICK_S_EXACT)
+        start.map_or(0.0, |start| t - time(start))
     }
 
     /// How the flight has gone so far.
     pub fn outcome(&self) -> Outcome {
         self.outcome
     }
+}
+
+/// Time of a tick, s: correctly rounded, so that it prints as k/1000.
+#[inline]
+fn time(tick: Tick) -> f64 {
+    f64::from(tick) * f64::from(TICK_US) / 1e6
 }
 
 /// An ideal sensor, with the disturbances that a scenario puts on its outputs.

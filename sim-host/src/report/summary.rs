@@ -197,7 +197,7 @@ pub(super) mod tests {
         let documented = [
             ["scenario", "seed", "duration_s", "truth_sha256", "real_time_factor"].as_slice(),
             &["axes", "chattering", "saturated_fraction", "time_optimal_s", "survived"],
-            &["chattering_after_4s", "control_effort", "recovery_s"],
+            &["chattering_after_4s", "control_effort", "tilt", "recovery_s"],
         ];
         assert_eq!(keys(&json), documented.concat().into_iter().collect());
         assert_eq!(keys(&json["axes"]), BTreeSet::from(["x", "y", "z", "yaw"]));

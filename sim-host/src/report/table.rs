@@ -190,7 +190,7 @@ mean xyz      0.333 s                                                           
 yaw: within 0.05 rad and 0.002 rad; its errors are in mrad
 
 time-optimal bound  1.31 s to join the reference exactly; all of xyz within 5 cm from 1.000 s, 0.76 × the bound
-disturbance         from its onset to within 5 cm (2°) for good: x 0.100 s, y 0.000 s, z 0.000 s, yaw 0.000 s (paper: under 0.2 s)
+disturbance         from its onset to within 5 cm (2°) for good: x 0.100 s, y 0.000 s, z 0.000 s, roll 0.000 s, pitch 0.000 s, yaw 0.000 s (paper: under 0.2 s)
 chattering          0 (rad/s)²/s, 0 after 4 s: total variation of ω²
 control effort      U1 8.00 N, U2 0.0000 N m, U3 0.0000 N m, U4 0.0000 N m RMS
 saturated           1.23 % of the ticks
