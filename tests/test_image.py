@@ -29,7 +29,7 @@ class Board:
             port = server.getsockname()[1]
             self.process = subprocess.Popen(
                 [
-                    QEMU, "-M", "mps2-an386", "-kernel", str(IMAGE), "-icount", "shift=3",
+                    QEMU, "-M", "mps2-an386", "-kernel", str(IMAGE), "-icount", "shift=3,sleep=off",
                     "-display", "none", "-monitor", "none", "-serial", f"tcp:127.0.0.1:{port},nodelay=on",
                     "-semihosting-config", "enable=on,target=native",
                 ],
@@ -37,7 +37,11 @@ class Board:
                 stdout=log,
                 stderr=subprocess.STDOUT,
             )
-            self.uart, _ = server.accept()
+            try:
+                self.uart, _ = server.accept()
+            except TimeoutError:
+                self.process.kill()
+                raise
         self.uart.settimeout(HANG_S)
         self.mav = mavlink.MAVLink(None, srcSystem=255, srcComponent=190)
         # The line may begin in the middle of a frame.
@@ -97,7 +101,20 @@ def test_no_job_overruns(board):
     assert (status.errors_count2, status.errors_count3, status.errors_count4) == (0, 0, 0)
 
 
-def test_it_answers_commands(board):
-    board.send(board.mav.command_long_encode(1, 1, mavlink.MAV_CMD_DO_SET_SERVO, 0, 0, 0, 0, 0, 0, 0, 0))
-    ack = board.wait(lambda message: message.get_type() == "COMMAND_ACK")
-    assert (ack.command, ack.result) == (mavlink.MAV_CMD_DO_SET_SERVO, mavlink.MAV_RESULT_UNSUPPORTED)
+def result_of(board, command, param1=0):
+    board.send(board.mav.command_long_encode(1, 1, command, 0, param1, 0, 0, 0, 0, 0, 0))
+    return board.wait(lambda message: message.get_type() == "COMMAND_ACK" and message.command == command).result
+
+
+def test_unsupported_commands_are_answered(board):
+    assert result_of(board, mavlink.MAV_CMD_DO_SET_SERVO) == mavlink.MAV_RESULT_UNSUPPORTED
+
+
+def test_it_arms_and_disarms(board):
+    for armed in (1, 0):
+        assert result_of(board, mavlink.MAV_CMD_COMPONENT_ARM_DISARM, armed) == mavlink.MAV_RESULT_ACCEPTED
+        flag = armed * mavlink.MAV_MODE_FLAG_SAFETY_ARMED
+        board.wait(
+            lambda message: message.get_type() == "HEARTBEAT"
+            and message.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED == flag
+        )
