@@ -359,11 +359,27 @@ fn a_command_inside_another_message_is_not_carried_out() {
 #[test]
 fn a_command_after_half_a_frame_is_carried_out_in_time() {
     let mut bench = Bench::silent();
-    let mut bytes = vec![0xfd, 255, 0, 0, 0, 255, 190, 76, 0, 0, 1, 2, 3];
+    let mut bytes = vec![0xfd, 64, 0, 0, 0, 255, 190, 76, 0, 0, 1, 2, 3];
     bytes.extend(command(NAV_WAYPOINT, 0.0, 0.0));
     bench.job(&bytes);
     let messages = bench.jobs(15);
     assert_eq!(count(&messages, 77), 1, "within 150 ms, where senders wait 500");
+}
+
+#[test]
+fn fields_to_come_are_ignored_and_absurd_lengths_are_no_frame() {
+    let with_length = |length: u8| {
+        let mut bytes = vec![0xfd, length, 0, 0, 0, 255, 190, 75, 0, 0];
+        let int = COMMAND_INT_DATA { target_system: 1, command: NAV_WAYPOINT, ..COMMAND_INT_DATA::DEFAULT };
+        let mut payload = vec![1; usize::from(length)];
+        int.ser(MavlinkVersion::V2, &mut payload);
+        bytes.extend(payload);
+        bytes.extend(calculate_crc(&bytes[1..], COMMAND_INT_DATA::EXTRA_CRC).to_le_bytes());
+        bytes
+    };
+    let mut bench = Bench::silent();
+    assert!(bench.result_of(&with_length(64)).is_some());
+    assert_eq!(bench.result_of(&with_length(65)), None);
 }
 
 #[test]
