@@ -18,7 +18,7 @@ use crate::airframe::ROTORS;
 pub struct Peripherals {
     /// TIMER0: the tick.
     pub tick: PeriodicTimer,
-    /// TIMER1: a clock that is independent of the tick.
+    /// TIMER1: a clock that does not depend on the tick's being served.
     pub clock: FreeRunning,
     /// UART0.
     pub uart: Uart,
@@ -30,11 +30,9 @@ impl Peripherals {
     /// The peripherals, the first time it is called.
     pub fn take() -> Option<Self> {
         static TAKEN: AtomicBool = AtomicBool::new(false);
-        (!TAKEN.swap(true, Ordering::Relaxed)).then(|| Self {
-            tick: PeriodicTimer::new(),
-            clock: FreeRunning::start(),
-            uart: Uart::new(),
-            pwm: pwm::channels(),
+        (!TAKEN.swap(true, Ordering::Relaxed)).then(|| {
+            let clock = FreeRunning::start();
+            Self { tick: PeriodicTimer::new(clock), clock, uart: Uart::new(), pwm: pwm::channels() }
         })
     }
 }

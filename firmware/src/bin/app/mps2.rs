@@ -145,7 +145,7 @@ mod app {
     #[task(binds = TIMER0, priority = 6, local = [top], shared = [mail, outer_jobs, timing])]
     fn inner(mut cx: inner::Context) {
         let top = cx.local.top;
-        top.tick.acknowledge();
+        top.tick.next();
         let sample = top.imu.sample();
         let outer_jobs = cx.shared.outer_jobs.lock(core::mem::take);
         if let Some(timing) = top.meter.activation(top.clock.now(), outer_jobs) {

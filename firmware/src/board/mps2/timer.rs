@@ -16,27 +16,45 @@ const INTERRUPT: usize = 0xc;
 const ENABLE: u32 = 1;
 const ENABLE_WITH_INTERRUPT: u32 = 1 | 1 << 3;
 
-/// TIMER0, which interrupts at a fixed period.
+/// TIMER0 as the compare unit of [`FreeRunning`]: interrupts whenever another period of that clock is over.
+///
+/// Each count-down is started anew and stops at zero, with no reload: QEMU with `-icount sleep=off` skips
+/// every second interrupt of a timer that reloads itself while the core sleeps (it moves its clock on to the next
+/// deadline as the reload is noted, before the interrupt that wakes the core).
 pub struct PeriodicTimer {
     registers: Registers,
+    clock: FreeRunning,
+    period: u32,
+    /// The clock at the next interrupt.
+    due: u32,
 }
 
 impl PeriodicTimer {
-    pub(super) fn new() -> Self {
-        Self { registers: Registers { base: TIMER0 } }
+    pub(super) fn new(clock: FreeRunning) -> Self {
+        Self { registers: Registers { base: TIMER0 }, clock, period: 0, due: 0 }
     }
 
     /// The first interrupt comes one period from now.
     pub fn start(&mut self, period_us: u32) {
-        let reload = period_us.saturating_mul(COUNTS_PER_US).saturating_sub(1);
-        self.registers.write(RELOAD, reload);
-        self.registers.write(VALUE, reload);
+        self.period = period_us.saturating_mul(COUNTS_PER_US);
+        self.due = self.clock.now();
+        self.registers.write(RELOAD, 0);
         self.registers.write(CTRL, ENABLE_WITH_INTERRUPT);
+        self.next();
     }
 
-    /// To be called once an interrupt.
-    pub fn acknowledge(&mut self) {
+    /// To be called once an interrupt. The time that the call is late is not lost; a whole period is, and with it its
+    /// interrupt.
+    pub fn next(&mut self) {
         self.registers.write(INTERRUPT, 1);
+        let now = self.clock.now();
+        self.due = self.due.wrapping_add(self.period);
+        let mut left = self.due.wrapping_sub(now);
+        if left == 0 || left > self.period {
+            self.due = now.wrapping_add(self.period);
+            left = self.period;
+        }
+        self.registers.write(VALUE, left);
     }
 }
 
