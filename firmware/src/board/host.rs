@@ -99,9 +99,10 @@ impl Diagnostics {
 pub fn start(pwm: [RecordingPwm; ROTORS], clock: FreeRunning) -> Result<Start<Imu, Rotors, Diagnostics>, StartError> {
     let arguments = semihosting::experimental::env::args::<PATH_MAX>().map_err(|_| StartError::NoHost)?;
     let directory = (&arguments).next().and_then(Result::ok).ok_or(StartError::NoHost)?;
-    let mut from_host = open(directory, "to-image", |path| File::open(path))?;
     let to_host = open(directory, "from-image", |path| File::create(path))?;
     interrupt::free(|section| TO_HOST.borrow(section).replace(Some(to_host)));
+    // Second, because it waits for the host: when the host has its end of this one, both are open.
+    let mut from_host = open(directory, "to-image", |path| File::open(path))?;
     let mut bytes = [0; HELLO_BYTES];
     from_host.read_exact(&mut bytes).map_err(|_| StartError::NoHost)?;
     let Hello { config, busy, fault } = Hello::decode(&bytes).map_err(StartError::Hello)?;
