@@ -14,7 +14,7 @@ mod image {
     #[cortex_m_rt::entry]
     fn main() -> ! {
         let Ok(Autopilot { mut inner, mut mail, .. }) = Autopilot::new(&black_box(FlightConfig::default())) else {
-            loop {}
+            end()
         };
         let mut sample = Some(SensorFrame { nav: NavState::at_rest() });
         loop {
@@ -22,9 +22,15 @@ mod image {
         }
     }
 
+    fn end() -> ! {
+        loop {
+            cortex_m::asm::wfi();
+        }
+    }
+
     #[panic_handler]
     fn panic(_: &core::panic::PanicInfo) -> ! {
-        loop {}
+        end()
     }
 }
 

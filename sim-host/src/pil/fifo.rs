@@ -33,7 +33,7 @@ impl Directory {
         made.with_context(|| format!("{} cannot be made", path.display()))?;
         let directory = Self { path };
         // The program and not the call, which macOS has under another name.
-        let status = Command::new("mkfifo").arg(directory.to_image()).arg(directory.from_image()).status();
+        let status = Command::new("mkfifo").arg(directory.towards_image()).arg(directory.out_of_image()).status();
         ensure!(
             status.context("`mkfifo` cannot be run")?.success(),
             "`mkfifo` has failed in {}",
@@ -46,11 +46,11 @@ impl Directory {
         &self.path
     }
 
-    pub(super) fn to_image(&self) -> PathBuf {
+    pub(super) fn towards_image(&self) -> PathBuf {
         self.path.join("to-image")
     }
 
-    pub(super) fn from_image(&self) -> PathBuf {
+    pub(super) fn out_of_image(&self) -> PathBuf {
         self.path.join("from-image")
     }
 }
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn every_wait_ends() {
         let directory = Directory::create().expect("a folder");
-        let path = directory.to_image();
+        let path = directory.towards_image();
         let alone = open_to_write(&path, SHORT, || Ok(())).expect_err("nobody reads");
         assert!(alone.to_string().contains("within 20ms"), "{alone}");
         let mut reader = open_to_read(&path).expect("does not wait for a writer");
@@ -151,8 +151,8 @@ mod tests {
     #[test]
     fn a_writer_that_has_gone_is_an_end() {
         let directory = Directory::create().expect("a folder");
-        let mut reader = open_to_read(&directory.from_image()).expect("does not wait");
-        drop(open_to_write(&directory.from_image(), SHORT, || Ok(())).expect("there is a reader"));
+        let mut reader = open_to_read(&directory.out_of_image()).expect("does not wait");
+        drop(open_to_write(&directory.out_of_image(), SHORT, || Ok(())).expect("there is a reader"));
         assert_eq!(read(&mut reader, &mut [0], SHORT).map_err(|e| e.kind()), Err(ErrorKind::UnexpectedEof));
         let path = directory.path().to_owned();
         drop(directory);

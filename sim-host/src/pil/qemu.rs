@@ -27,10 +27,10 @@ impl Qemu {
     pub(super) fn start(image: &Path, timeout: Duration) -> Result<Self> {
         ensure!(image.is_file(), "there is no image {}: build it with `cargo fw-pil`", image.display());
         let directory = Directory::create()?;
-        let from_image = fifo::open_to_read(&directory.from_image())?;
+        let from_image = fifo::open_to_read(&directory.out_of_image())?;
         let mut process = Process::spawn(image, directory.path())?;
         // The image opens its writing end before its reading end: from here on both are open.
-        let to_image = fifo::open_to_write(&directory.to_image(), timeout, || process.check())?;
+        let to_image = fifo::open_to_write(&directory.towards_image(), timeout, || process.check())?;
         Ok(Self { process, to_image, from_image, timeout, _directory: directory })
     }
 

@@ -39,8 +39,8 @@ impl PeriodicTimer {
         self.period = period_us.saturating_mul(COUNTS_PER_US);
         self.due = self.clock.now();
         self.registers.write(RELOAD, 0);
-        self.registers.write(CTRL, ENABLE_WITH_INTERRUPT);
         self.next();
+        self.registers.write(CTRL, ENABLE_WITH_INTERRUPT);
     }
 
     /// To be called once an interrupt. The time that the call is late is not lost; a whole period is, and with it its
