@@ -1,19 +1,20 @@
 //! No tick of the inner partition can panic: the image that holds nothing else has no function of `core::panicking`.
 //! Ignored by default, because it needs the images (`cargo fw && cargo fw-pil`).
 
-use std::path::PathBuf;
+mod common;
 
+use common::image;
 use object::{Object, ObjectSymbol};
 
 /// Parts of the names of all functions through which a panic goes; the last one is the way into the handler.
 const PANICS: [&str; 3] = ["panicking", "unwrap_failed", "rust_begin_unwind"];
 
-fn panicking_symbols(image: &str) -> Vec<String> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../target/thumbv7em-none-eabihf/release").join(image);
+fn panicking_symbols(name: &str) -> Vec<String> {
+    let path = image(name);
     let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}: `cargo fw-pil`", path.display()));
     let file = object::File::parse(&*bytes).expect("an ELF file");
     let names: Vec<_> = file.symbols().filter_map(|symbol| symbol.name().ok().map(str::to_owned)).collect();
-    assert!(names.iter().any(|name| name == "Reset"), "{image} has symbols");
+    assert!(names.iter().any(|name| name == "Reset"), "{name} has symbols");
     names.into_iter().filter(|name| PANICS.iter().any(|part| name.contains(part))).collect()
 }
 

@@ -3,10 +3,12 @@
 
 #![cfg(unix)]
 
-use std::path::PathBuf;
+mod common;
+
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use common::image;
 use firmware::autopilot::Autopilot;
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
@@ -16,10 +18,6 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use sim_host::pil::{BusyWait, Fault, Overrun, Pil, PilOptions, Stopped, compare};
 
 const TICKS: u32 = 20_000;
-
-fn image(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../target/thumbv7em-none-eabihf/release").join(name)
-}
 
 fn config() -> FlightConfig {
     FlightConfig { trajectory: Trajectory::PAPER_HELIX, start: Start::InFlight, ..FlightConfig::default() }
