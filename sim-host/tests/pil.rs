@@ -15,7 +15,7 @@ use firmware::guidance::Trajectory;
 use firmware::pil::Cause;
 use firmware::signals::{NavState, SensorFrame, TICK_S};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use sim_host::pil::{BusyWait, Fault, Overrun, Pil, PilOptions, Stopped, compare};
+use sim_host::pil::{BusyWait, Difference, Fault, Overrun, Pil, PilOptions, Stopped, compare};
 
 const TICKS: u32 = 20_000;
 
@@ -37,6 +37,11 @@ fn motion(tick: u32) -> SensorFrame {
 
 /// Flies the made-up motion on both sides.
 fn lockstep(options: &PilOptions, ticks: u32) -> anyhow::Result<()> {
+    lockstep_with(options, ticks, |_, _| {})
+}
+
+/// The same, with something done to the image's samples.
+fn lockstep_with(options: &PilOptions, ticks: u32, disturb: fn(u32, &mut SensorFrame)) -> anyhow::Result<()> {
     let mut sil = Autopilot::new(options.config).expect("valid");
     let mut pil = Pil::start(options)?;
     let started = Instant::now();
@@ -46,8 +51,9 @@ fn lockstep(options: &PilOptions, ticks: u32) -> anyhow::Result<()> {
             sample.nav.rates.x = f32::NAN;
         }
         let missing = tick % 997 == 500;
-        let output = if missing { pil.tick_without_sample()? } else { pil.tick(&sample)? };
         sil.tick((!missing).then_some(&sample));
+        disturb(tick, &mut sample);
+        let output = if missing { pil.tick_without_sample()? } else { pil.tick(&sample)? };
         compare(tick, sil.inner.inner_output(), sil.inner.outer_output(), &output)?;
     }
     println!("{:.1} µs a tick", started.elapsed().as_secs_f64() * 1e6 / f64::from(ticks));
@@ -59,6 +65,21 @@ fn lockstep(options: &PilOptions, ticks: u32) -> anyhow::Result<()> {
 fn twenty_thousand_ticks_are_the_same_bit_for_bit() {
     let config = config();
     lockstep(&PilOptions::new(image("mps2-pil"), &config), TICKS).expect("the same");
+}
+
+/// Or the test above could not fail.
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_sample_that_is_one_bit_off_is_found_and_named() {
+    let config = config();
+    let error = lockstep_with(&PilOptions::new(image("mps2-pil"), &config), 100, |tick, sample| {
+        if tick == 50 {
+            sample.nav.rates.x = f32::from_bits(sample.nav.rates.x.to_bits() ^ 1);
+        }
+    });
+    let error = error.expect_err("a bit is off");
+    let difference = error.downcast_ref::<Difference>().unwrap_or_else(|| panic!("{error:#}"));
+    assert_eq!((difference.tick, difference.field), (50, "s1"));
 }
 
 #[test]

@@ -18,19 +18,24 @@ pub fn end() -> ! {
     semihosting::process::exit(1)
 }
 
-/// Defines the handler of hard faults, which calls the given function of no arguments that never returns.
+/// Defines the handlers of hard faults and of interrupts that nobody expects; both call the given function of no
+/// arguments, an `extern "C" fn() -> !`.
 ///
-/// It runs on a fresh stack: the old one may be why it is called. An application needs it once.
+/// It runs on a fresh stack: the old one may be why it is called. An application needs this once.
 #[macro_export]
-macro_rules! hard_fault_handler {
+macro_rules! fault_handlers {
     ($stopped:path) => {
-        // SAFETY: the name is the one that cortex-m-rt's vector table asks for, and nothing else defines it.
+        $crate::fault_handlers!(@ HardFault, $stopped);
+        $crate::fault_handlers!(@ DefaultHandler, $stopped);
+    };
+    (@ $name:ident, $stopped:path) => {
+        // SAFETY: the name is one that cortex-m-rt's vector table asks for, and nothing else defines it.
         // The function needs no prologue: it only moves the stack pointer to the top of the stack, whose contents
         // are not needed any more because `$stopped` does not return, and jumps.
-        #[allow(unsafe_code)]
+        #[allow(unsafe_code, non_snake_case)]
         #[unsafe(naked)]
         #[unsafe(no_mangle)]
-        extern "C" fn HardFault() -> ! {
+        extern "C" fn $name() -> ! {
             ::core::arch::naked_asm!(
                 "ldr r0, =_stack_start",
                 "mov sp, r0",

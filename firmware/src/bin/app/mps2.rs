@@ -282,7 +282,7 @@ fn panic(info: &PanicInfo) -> ! {
     fault::end()
 }
 
-firmware::hard_fault_handler!(after_hard_fault);
+firmware::fault_handlers!(after_hard_fault);
 
 extern "C" fn after_hard_fault() -> ! {
     if fault::stop_rotors() {
