@@ -12,8 +12,7 @@ use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::outer::{Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, GROUND, Mailbox, OUTER};
-use crate::signals::{AttitudeReference, FlatReference, SensorFrame, Tick};
-use nalgebra::Vector3;
+use crate::signals::{SensorFrame, Tick};
 
 /// All that the partitions share.
 #[derive(Clone, Debug)]
@@ -75,18 +74,18 @@ pub struct InnerTask {
 }
 
 impl InnerTask {
-    fn new(config: &FlightConfig, inner: Inner, commander: &Commander) -> Self {
+    /// The outer loop has run once for the first tick, hovering at the start, as if it had always been there.
+    fn new(config: &FlightConfig, inner: Inner, outer: &Outer, commander: &Commander) -> Self {
         let commander = commander.initial_output();
-        let hover = if commander.flight_start.is_some() { config.airframe.weight_n() } else { 0.0 };
+        let before = OuterInput {
+            nav: *inner.nav(),
+            thrust_n: config.airframe.weight_n(),
+            flight_start: commander.flight_start,
+        };
         Self {
             tick: 0,
             inner,
-            outer: OuterOutput {
-                attitude: AttitudeReference::level(0.0, hover),
-                s: Vector3::zeros(),
-                reference: FlatReference::standing(config.start_position(), 0.0),
-                limited: false,
-            },
+            outer: outer.step(0_u32.wrapping_sub(OUTER.offset), &before),
             commander,
             commands: Commands::new(),
             replies: Replies::new(),
@@ -258,9 +257,10 @@ impl Autopilot {
     pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
         config.validate()?;
         let commander = Commander::new(config);
+        let outer = Outer::new(config)?;
         Ok(Self {
-            inner: InnerTask::new(config, Inner::new(config)?, &commander),
-            outer: Outer::new(config)?,
+            inner: InnerTask::new(config, Inner::new(config)?, &outer, &commander),
+            outer,
             commander,
             ground: Ground::default(),
             mail: Mailboxes::new(),

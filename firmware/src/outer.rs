@@ -91,6 +91,10 @@ impl Outer {
             position::force_profile(axes, &self.airframe, &reference, &demand, &now.velocity, &now.acceleration);
         let (force, limited) = position::limit_force(&demand.force, self.force_max, self.gains.tilt_max_rad);
         profile.force = force;
+        if limited {
+            profile.rate = Vector3::zeros();
+            profile.acceleration = Vector3::zeros();
+        }
         let heading = Heading { angle: now.heading, rate: now.heading_rate, acceleration: reference.yaw_acceleration };
         let mut target = flatness::euler_reference(&profile, &heading);
         target.angles.z = reference.yaw;

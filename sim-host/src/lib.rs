@@ -1,5 +1,18 @@
 //! Glissade on the desktop: the world that the firmware flies in, and the front end to it.
 
+pub mod airframe;
+pub mod cli;
+pub mod decoupled;
+pub mod flight;
+pub mod link;
+pub mod noise;
 #[cfg(unix)]
 pub mod pil;
+pub mod plan;
+pub mod plant;
 pub mod record;
+pub mod reference;
+pub mod report;
+pub mod scenario;
+pub mod serve;
+pub mod sil;

@@ -19,6 +19,8 @@ pub struct Row {
     pub omega_command: [f64; 4],
     /// Reference position (m) and yaw (rad) at t: the paper's own trajectory, not the path that joins it.
     pub reference: [f64; 4],
+    /// Desired roll, pitch, yaw in effect at t, rad.
+    pub desired_attitude: [f64; 3],
     /// U1 (N), U2..U4 (N m) as the controller demanded them at t.
     pub u: [f64; 4],
     /// Sliding variables s1, s2, s3 (rad/s), sx, sy, sz (m/s).

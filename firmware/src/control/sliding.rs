@@ -29,7 +29,7 @@ pub enum Switching {
         rho: f32,
     },
     /// `|s|^α sgn(s)`, 0 < α < 1 (the power-rate law): reaches s = 0 in |s0|^(1−α)/((1−α)K) without a jump; a
-    /// disturbance D leaves |s| ≤ (D/K)^(1/α). Its power is good to 10 %, which moves these figures by as much.
+    /// disturbance D leaves |s| ≤ (D/K)^(1/α). Its power is good to 12 %, which moves these figures by as much.
     Power {
         /// Exponent α.
         alpha: f32,
@@ -154,14 +154,14 @@ mod tests {
 
     #[test]
     fn power_law_reaches_zero_in_its_closed_form_time() {
-        // |s|^½ from s0 = 4 with K = 2: T = s0^½ / (½·2) = 2 s; micromath's 10 % allows as much.
+        // |s|^½ from s0 = 4 with K = 2: T = s0^½ / (½·2) = 2 s; micromath's 12 % allows as much.
         let gains = AxisGains { lambda: 1.0, gain: 2.0, switching: Switching::Power { alpha: 0.5 } };
         let (mut s, mut t) = (4.0_f32, 0.0_f32);
         while s > 1e-4 {
             s -= gains.reach(s) * 1e-4;
             t += 1e-4;
         }
-        assert!((t - 2.0).abs() < 0.2, "{t}");
+        assert!(crate::math::abs(t - 2.0) < 0.24, "{t}");
     }
 
     #[test]
@@ -170,7 +170,7 @@ mod tests {
             let gains = AxisGains { lambda: 1.0, gain: 3.0, switching };
             for s in [-1.2_f32, -0.3, 0.01, 0.2, 0.8] {
                 let numeric = (gains.reach(s + 1e-3) - gains.reach(s - 1e-3)) / 2e-3;
-                assert!((gains.reach_slope(s) - numeric).abs() < 0.02, "{switching:?} at {s}");
+                assert!(math::abs(gains.reach_slope(s) - numeric) < 0.02, "{switching:?} at {s}");
             }
         }
     }

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use crate::config::ConfigError;
 use crate::math::{self, Phase};
-use crate::signals::{FlatReference, TICK_S, TICK_S_EXACT, Tick};
+use crate::signals::{FlatReference, TICK_S_EXACT, Tick};
 
 /// A reference trajectory; t is the flight time in s. World frame NWU, m and rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,6 +157,7 @@ fn flat(x: [f32; 5], y: [f32; 5], z: [f32; 5], yaw: f32) -> FlatReference {
 pub struct Guidance {
     trajectory: Trajectory,
     phase: Phase,
+    tick_s: f32,
     join: Option<JoinPath>,
 }
 
@@ -166,18 +167,26 @@ impl Guidance {
     /// # Errors
     /// What of the trajectory or the plan is out of its range.
     pub fn new(trajectory: Trajectory, plan: Option<&JoinPlan>, start: Vector3<f32>) -> Result<Self, ConfigError> {
-        trajectory.validate()?;
-        let rate = match trajectory {
-            Trajectory::Helix { rate_rad_s, .. } | Trajectory::FigureEight { rate_rad_s, .. } => rate_rad_s,
-            Trajectory::Hold { .. } | Trajectory::Step { .. } => 0.0,
-        };
-        let mut guidance = Self { trajectory, phase: Phase::new(rate, TICK_S_EXACT), join: None };
+        let mut guidance = Self::with_tick(trajectory, TICK_S_EXACT)?;
         if let Some(plan) = plan {
             plan.validate()?;
             let end = guidance.trajectory_at(plan.duration_ticks());
             guidance.join = Some(JoinPath::new(plan, start, &end)?);
         }
         Ok(guidance)
+    }
+
+    /// A trajectory alone, with ticks of another length than the inner loop's (s).
+    ///
+    /// # Errors
+    /// What of the trajectory is out of its range.
+    pub fn with_tick(trajectory: Trajectory, tick_s: f64) -> Result<Self, ConfigError> {
+        trajectory.validate()?;
+        let rate = match trajectory {
+            Trajectory::Helix { rate_rad_s, .. } | Trajectory::FigureEight { rate_rad_s, .. } => rate_rad_s,
+            Trajectory::Hold { .. } | Trajectory::Step { .. } => 0.0,
+        };
+        Ok(Self { trajectory, phase: Phase::new(rate, tick_s), tick_s: tick_s as f32, join: None })
     }
 
     /// What to fly `ticks` after the start of the flight: the joining path first, then the trajectory.
@@ -190,7 +199,7 @@ impl Guidance {
 
     /// The trajectory itself.
     pub fn trajectory_at(&self, ticks: Tick) -> FlatReference {
-        let t = ticks as f32 * TICK_S;
+        let t = ticks as f32 * self.tick_s;
         match self.trajectory {
             Trajectory::Hold { position_m, yaw_rad } => FlatReference::standing(position_m.into(), yaw_rad),
             Trajectory::Step { from_m, to_m, at_s, yaw_rad } => {
@@ -216,6 +225,7 @@ impl Guidance {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::signals::TICK_S;
 
     fn trajectories() -> [Trajectory; 2] {
         [

@@ -1,9 +1,28 @@
 //! The ground partition, 100 Hz: MAVLink.
 //!
-//! Bytes in, bytes out; the board or the host only carries them. Knows NED/FRD through `frames` alone.
+//! Bytes in, bytes out; the board or the host only carries them. [`parser`] makes received bytes into messages,
+//! [`command`] carries out what they ask, [`telemetry`] says when what is sent, [`writer`] makes it into bytes.
+//! Answers wait in a queue until they fit into a job's bytes. Knows NED/FRD through `frames` alone.
 
-use crate::commander::{Commands, Replies};
-use crate::signals::{NavState, Tick};
+mod command;
+mod parser;
+mod telemetry;
+#[cfg(test)]
+mod tests;
+mod writer;
+
+use glissade_dialect::{MISSION_COUNT_DATA, MavResult, TIMESYNC_DATA};
+
+use self::parser::{CommandMessage, Incoming, Parser, Sender};
+use self::telemetry::{Report, Telemetry};
+use self::writer::Writer;
+use crate::commander::{Commands, Outcome, Refusal, Replies};
+use crate::signals::{NavState, TICK_US, Tick};
+
+/// MAVLink system of this vehicle.
+pub const SYSTEM_ID: u8 = 1;
+/// MAVLink component: the autopilot.
+pub const COMPONENT_ID: u8 = 1;
 
 /// Bytes that can arrive between two jobs.
 pub const RX_CAPACITY: usize = 512;
@@ -70,13 +89,125 @@ pub struct GroundOutput {
     pub commands: Commands,
 }
 
+/// Answers that wait for room.
+const OUTBOX_CAPACITY: usize = 16;
+/// Bytes of a job that answers may take, so that many questions do not silence the telemetry.
+const OUTBOX_SHARE: usize = TX_CAPACITY / 2;
+
+/// Something to be sent once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Outgoing {
+    /// How a command ended.
+    Ack { command: u16, result: MavResult, to: Sender },
+    /// Why a command was refused, for the pilot.
+    Refusal(Refusal),
+    /// A message that was asked for.
+    Report(Report),
+    /// There are no missions of any type yet; ground stations want to be told.
+    NoMission { mission_type: u8, to: Sender },
+    /// The time at which a question for the time was read, and the time in the question.
+    Timesync { tc1: i64, ts1: i64, to: Sender },
+}
+
 /// The ground partition.
 #[derive(Clone, Debug, Default)]
-pub struct Ground {}
+pub struct Ground {
+    parser: Parser,
+    telemetry: Telemetry,
+    outbox: heapless::Deque<Outgoing, OUTBOX_CAPACITY>,
+    sequence: u8,
+}
 
 impl Ground {
     /// One job, released at `released`.
-    pub fn step(&mut self, _released: Tick, _input: &GroundInput) -> GroundOutput {
-        GroundOutput::default()
+    pub fn step(&mut self, released: Tick, input: &GroundInput) -> GroundOutput {
+        let mut output = GroundOutput::default();
+        self.parser.push(&input.received);
+        while let Some((sender, message)) = self.parser.next() {
+            self.handle(released, input, sender, message, &mut output.commands);
+        }
+        self.post_replies(&input.replies);
+        self.transmit(released, input, &mut output.transmit);
+        output
+    }
+
+    fn handle(
+        &mut self,
+        now: Tick,
+        input: &GroundInput,
+        sender: Sender,
+        message: Incoming,
+        to_commander: &mut Commands,
+    ) {
+        match message {
+            Incoming::Command(command) => self.handle_command(now, input, sender, &command, to_commander),
+            Incoming::MissionRequestList { mission_type } => {
+                self.post(Outgoing::NoMission { mission_type, to: sender });
+            }
+            Incoming::Timesync { ts1 } => {
+                let tc1 = i64::from(now) * i64::from(TICK_US) * 1000;
+                self.post(Outgoing::Timesync { tc1, ts1, to: sender });
+            }
+        }
+    }
+
+    fn handle_command(
+        &mut self,
+        now: Tick,
+        input: &GroundInput,
+        sender: Sender,
+        message: &CommandMessage,
+        to_commander: &mut Commands,
+    ) {
+        let answer = command::carry_out(message, sender, now, input, &mut self.telemetry, to_commander);
+        if let Some(answer) = answer {
+            self.post(Outgoing::Ack { command: message.command, result: answer.result, to: sender });
+            if let Some(report) = answer.report {
+                self.post(Outgoing::Report(report));
+            }
+        }
+    }
+
+    fn post_replies(&mut self, replies: &Replies) {
+        for reply in replies {
+            self.post(command::ack_of(*reply));
+            if let Outcome::TemporarilyRejected(refusal) = reply.outcome {
+                self.post(Outgoing::Refusal(refusal));
+            }
+        }
+    }
+
+    fn post(&mut self, outgoing: Outgoing) {
+        // With a full queue the answer is lost; whoever gets none asks again.
+        let _ = self.outbox.push_back(outgoing);
+    }
+
+    fn transmit(&mut self, now: Tick, input: &GroundInput, bytes: &mut TxBytes) {
+        let bad_checksums = self.parser.bad_checksums();
+        let mut out = Writer::new(bytes, &mut self.sequence);
+        out.set_limit(OUTBOX_SHARE);
+        while let Some(next) = self.outbox.front() {
+            if !write(next, now, input, bad_checksums, &mut out) {
+                break;
+            }
+            self.outbox.pop_front();
+        }
+        out.set_limit(TX_CAPACITY);
+        self.telemetry.send(now, input, bad_checksums, &mut out);
+    }
+}
+
+/// Appends an answer; false, and nothing done, if it does not fit.
+fn write(outgoing: &Outgoing, now: Tick, input: &GroundInput, bad_checksums: u32, out: &mut Writer) -> bool {
+    match *outgoing {
+        Outgoing::Ack { command, result, to } => command::write_ack(command, result, to, out),
+        Outgoing::Refusal(refusal) => command::write_refusal(refusal, out),
+        Outgoing::Report(report) => telemetry::write(report, now, input, bad_checksums, out),
+        Outgoing::NoMission { mission_type, to: (target_system, target_component) } => {
+            out.write(&MISSION_COUNT_DATA { target_system, target_component, count: 0, mission_type })
+        }
+        Outgoing::Timesync { tc1, ts1, to: (target_system, target_component) } => {
+            out.write(&TIMESYNC_DATA { tc1, ts1, target_system, target_component })
+        }
     }
 }

@@ -1,0 +1,127 @@
+//! Commands: what each one does, and how it is answered.
+//!
+//! Arming goes to the commander, which answers through a [`Reply`]; the rest is answered here. Nothing remembers
+//! earlier commands: a repeated one is carried out and answered again, which does no harm for any of them.
+
+use glissade_dialect::mavlink_core::types::CharArray;
+use glissade_dialect::num_traits::FromPrimitive;
+use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavResult, MavSeverity, STATUSTEXT_DATA};
+
+use super::parser::{CommandMessage, Sender};
+use super::telemetry::{IntervalError, Report, Telemetry, is_available, report_by_id};
+use super::writer::Writer;
+use super::{GroundInput, Outgoing};
+use crate::commander::{Command, Commands, Outcome, Refusal, Reply, Request};
+use crate::signals::Tick;
+
+/// `param2` of arming and disarming that skips the checks: MAVLink's and QGroundControl's.
+const FORCE: [f32; 2] = [21_196.0, 2_989.0];
+
+/// What the sender of a command gets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Answer {
+    /// For `COMMAND_ACK`.
+    pub(super) result: MavResult,
+    /// A message that it has asked for.
+    pub(super) report: Option<Report>,
+}
+
+impl From<MavResult> for Answer {
+    fn from(result: MavResult) -> Self {
+        Self { result, report: None }
+    }
+}
+
+/// Carries out a command. `None` if it has been passed on to the commander, who will answer.
+pub(super) fn carry_out(
+    message: &CommandMessage,
+    sender: Sender,
+    now: Tick,
+    input: &GroundInput,
+    telemetry: &mut Telemetry,
+    to_commander: &mut Commands,
+) -> Option<Answer> {
+    match MavCmd::from_u16(message.command) {
+        Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => pass_on(message, sender, to_commander),
+        Some(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL) => Some(set_message_interval(message, now, telemetry).into()),
+        Some(MavCmd::MAV_CMD_REQUEST_MESSAGE) => Some(request_message(message, input)),
+        Some(MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES) => Some(request_capabilities(message)),
+        None => Some(MavResult::MAV_RESULT_UNSUPPORTED.into()),
+    }
+}
+
+fn pass_on(message: &CommandMessage, sender: Sender, to_commander: &mut Commands) -> Option<Answer> {
+    match arm_request(message) {
+        Some(request) if to_commander.push(Command { request, sender }).is_ok() => None,
+        Some(_) => Some(MavResult::MAV_RESULT_TEMPORARILY_REJECTED.into()),
+        None => Some(MavResult::MAV_RESULT_DENIED.into()),
+    }
+}
+
+/// `None` if it is neither arming nor disarming; a NaN is neither.
+fn arm_request(message: &CommandMessage) -> Option<Request> {
+    let force = FORCE.contains(&message.param2);
+    if message.param1 == 1.0 {
+        Some(Request::Arm { force })
+    } else if message.param1 == 0.0 {
+        Some(Request::Disarm { force })
+    } else {
+        None
+    }
+}
+
+fn set_message_interval(message: &CommandMessage, now: Tick, telemetry: &mut Telemetry) -> MavResult {
+    match telemetry.set_interval(now, message.param1, message.param2) {
+        Ok(()) => MavResult::MAV_RESULT_ACCEPTED,
+        Err(IntervalError::UnknownMessage) => MavResult::MAV_RESULT_UNSUPPORTED,
+        Err(IntervalError::Refused) => MavResult::MAV_RESULT_DENIED,
+    }
+}
+
+fn request_message(message: &CommandMessage, input: &GroundInput) -> Answer {
+    match report_by_id(message.param1) {
+        Some(report) if is_available(report, input) => {
+            Answer { result: MavResult::MAV_RESULT_ACCEPTED, report: Some(report) }
+        }
+        Some(_) => MavResult::MAV_RESULT_TEMPORARILY_REJECTED.into(),
+        None => MavResult::MAV_RESULT_UNSUPPORTED.into(),
+    }
+}
+
+fn request_capabilities(message: &CommandMessage) -> Answer {
+    if message.param1 == 1.0 {
+        Answer { result: MavResult::MAV_RESULT_ACCEPTED, report: Some(Report::AutopilotVersion) }
+    } else {
+        MavResult::MAV_RESULT_DENIED.into()
+    }
+}
+
+/// The acknowledgement of a command that the commander has decided.
+pub(super) fn ack_of(reply: Reply) -> Outgoing {
+    let result = match reply.outcome {
+        Outcome::Accepted => MavResult::MAV_RESULT_ACCEPTED,
+        Outcome::TemporarilyRejected(_) => MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
+    };
+    Outgoing::Ack { command: MavCmd::MAV_CMD_COMPONENT_ARM_DISARM as u16, result, to: reply.command.sender }
+}
+
+/// Sends an acknowledgement; false if it does not fit.
+pub(super) fn write_ack(command: u16, result: MavResult, to: Sender, out: &mut Writer) -> bool {
+    let (target_system, target_component) = to;
+    out.write(&COMMAND_ACK_DATA { command, result, target_system, target_component, ..COMMAND_ACK_DATA::DEFAULT })
+}
+
+/// Sends why a command was refused, for the pilot to read; false if it does not fit.
+pub(super) fn write_refusal(refusal: Refusal, out: &mut Writer) -> bool {
+    let reason: &[u8] = match refusal {
+        Refusal::NoNavigation => b"Arming refused: position unknown",
+        Refusal::NotLevel => b"Arming refused: not level",
+        Refusal::Moving => b"Arming refused: moving",
+        Refusal::InAir => b"Disarming refused: in the air",
+    };
+    let mut text = [0; 50];
+    for (to, from) in text.iter_mut().zip(reason) {
+        *to = *from;
+    }
+    out.write(&STATUSTEXT_DATA { severity: MavSeverity::MAV_SEVERITY_WARNING, text: CharArray::new(text) })
+}

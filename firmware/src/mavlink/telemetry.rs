@@ -1,0 +1,295 @@
+//! What is sent without being asked: one table of messages and periods, and how each message is filled in.
+//!
+//! Owns when each message is next due; a ground station may change the periods (`MAV_CMD_SET_MESSAGE_INTERVAL`).
+//! A message that does not fit into a job's bytes is sent by a later job.
+
+use glissade_dialect::mavlink_core::{MessageData, types::CharArray};
+use glissade_dialect::{
+    ATTITUDE_DATA, AUTOPILOT_VERSION_DATA, EXTENDED_SYS_STATE_DATA, HEARTBEAT_DATA, LOCAL_POSITION_NED_DATA,
+    MavAutopilot, MavLandedState, MavModeFlag, MavProtocolCapability, MavState, MavSysStatusSensor, MavType,
+    NAMED_VALUE_INT_DATA, SYS_STATUS_DATA,
+};
+
+use super::writer::{Writer, frame_len};
+use super::{GroundInput, LoopTiming};
+use crate::control::attitude::Euler;
+use crate::frames::flip_vector;
+use crate::schedule::GROUND;
+use crate::signals::{TICK_US, Tick};
+
+/// A message that can be sent periodically or on request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Report {
+    Heartbeat,
+    Attitude,
+    LocalPosition,
+    SysStatus,
+    ExtendedSysState,
+    LoopTiming,
+    AutopilotVersion,
+}
+
+/// A row of the table of telemetry.
+struct Stream {
+    report: Report,
+    /// MAVLink's number of the message.
+    id: u32,
+    /// Default, in ticks; 0 for never.
+    period: Tick,
+    /// First due at this tick, so that not everything comes in one job.
+    phase: Tick,
+}
+
+const fn stream<D: MessageData>(report: Report, period: Tick, phase: Tick) -> Stream {
+    Stream { report, id: D::ID, period, phase }
+}
+
+const STREAM_COUNT: usize = 7;
+
+/// Every message that can be sent, its default period and first tick.
+const STREAMS: [Stream; STREAM_COUNT] = [
+    stream::<HEARTBEAT_DATA>(Report::Heartbeat, 1000, 0),
+    stream::<ATTITUDE_DATA>(Report::Attitude, 20, 0),
+    stream::<LOCAL_POSITION_NED_DATA>(Report::LocalPosition, 20, 10),
+    stream::<SYS_STATUS_DATA>(Report::SysStatus, 500, 50),
+    stream::<EXTENDED_SYS_STATE_DATA>(Report::ExtendedSysState, 500, 150),
+    stream::<NAMED_VALUE_INT_DATA>(Report::LoopTiming, 1000, 250),
+    stream::<AUTOPILOT_VERSION_DATA>(Report::AutopilotVersion, 0, 0),
+];
+
+/// Why an interval is not set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum IntervalError {
+    /// Not a message that can be sent.
+    UnknownMessage,
+    /// Not an interval, or one that this message must not have.
+    Refused,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Slot {
+    /// 0 for never.
+    period: Tick,
+    next: Tick,
+}
+
+/// When each message is due.
+#[derive(Clone, Debug)]
+pub(super) struct Telemetry {
+    /// In the order of [`STREAMS`].
+    slots: [Slot; STREAM_COUNT],
+}
+
+impl Default for Telemetry {
+    fn default() -> Self {
+        Self { slots: STREAMS.map(|stream| Slot { period: stream.period, next: stream.phase }) }
+    }
+}
+
+impl Telemetry {
+    /// Sends what is due at `now` and fits.
+    pub(super) fn send(&mut self, now: Tick, input: &GroundInput, bad_checksums: u32, out: &mut Writer) {
+        for (slot, stream) in self.slots.iter_mut().zip(&STREAMS) {
+            if slot.period == 0 || now.wrapping_sub(slot.next) > Tick::MAX / 2 {
+                continue;
+            }
+            if write(stream.report, now, input, bad_checksums, out) {
+                let late = now.wrapping_sub(slot.next);
+                // Keeps the average rate, unless a whole period has been missed.
+                let from = if late < slot.period { slot.next } else { now };
+                slot.next = from.wrapping_add(slot.period);
+            }
+        }
+    }
+
+    /// Sets a message's interval, µs: 0 for its default, −1 for never.
+    ///
+    /// The heartbeat's is fixed: others take its absence for the loss of the vehicle.
+    pub(super) fn set_interval(&mut self, now: Tick, id: f32, interval_us: f32) -> Result<(), IntervalError> {
+        let (slot, stream) = self
+            .slots
+            .iter_mut()
+            .zip(&STREAMS)
+            .find(|(_, s)| s.id as f32 == id)
+            .ok_or(IntervalError::UnknownMessage)?;
+        let period = if interval_us == 0.0 {
+            stream.period
+        } else if interval_us == -1.0 && stream.report != Report::Heartbeat {
+            0
+        } else if interval_us > 0.0 && interval_us.is_finite() && stream.report != Report::Heartbeat {
+            keepable((interval_us / TICK_US as f32) as Tick)
+        } else {
+            return Err(IntervalError::Refused);
+        };
+        *slot = Slot { period, next: now };
+        Ok(())
+    }
+}
+
+/// The nearest period that can be kept.
+fn keepable(period: Tick) -> Tick {
+    // A quarter of the clock's range at most, or "due" could not be told from "not yet due".
+    period.clamp(GROUND.period, Tick::MAX / 4)
+}
+
+/// The message with this number, if it can be sent.
+pub(super) fn report_by_id(id: f32) -> Option<Report> {
+    STREAMS.iter().find(|stream| stream.id as f32 == id).map(|stream| stream.report)
+}
+
+/// True if there is something to fill the report with.
+pub(super) fn is_available(report: Report, input: &GroundInput) -> bool {
+    report != Report::LoopTiming || input.health.timing.is_some()
+}
+
+/// Appends a report; false, and nothing done, if it does not fit.
+pub(super) fn write(report: Report, now: Tick, input: &GroundInput, bad_checksums: u32, out: &mut Writer) -> bool {
+    match report {
+        Report::Heartbeat => out.write(&heartbeat(input)),
+        Report::Attitude => out.write(&attitude(now, input)),
+        Report::LocalPosition => out.write(&local_position(now, input)),
+        Report::SysStatus => out.write(&sys_status(input, bad_checksums)),
+        Report::ExtendedSysState => out.write(&extended_sys_state(input)),
+        Report::LoopTiming => input.health.timing.is_none_or(|timing| write_timing(now, timing, out)),
+        Report::AutopilotVersion => out.write(&autopilot_version()),
+    }
+}
+
+/// A tick as MAVLink's time since boot.
+fn boot_ms(tick: Tick) -> u32 {
+    // A tick is a millisecond; spelt out for the day it is not.
+    (u64::from(tick) * u64::from(TICK_US) / 1000) as u32
+}
+
+/// PX4's mode number of "flying by itself, holding": main mode 4 (auto), sub mode 3 (loiter).
+const MODE_AUTO_LOITER: u32 = 4 << 16 | 3 << 24;
+
+fn heartbeat(input: &GroundInput) -> HEARTBEAT_DATA {
+    let mode = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+        | MavModeFlag::MAV_MODE_FLAG_STABILIZE_ENABLED
+        | MavModeFlag::MAV_MODE_FLAG_GUIDED_ENABLED
+        | MavModeFlag::MAV_MODE_FLAG_AUTO_ENABLED;
+    let (armed, state) = if input.armed {
+        (MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, MavState::MAV_STATE_ACTIVE)
+    } else {
+        (MavModeFlag::empty(), MavState::MAV_STATE_STANDBY)
+    };
+    HEARTBEAT_DATA {
+        custom_mode: MODE_AUTO_LOITER,
+        mavtype: MavType::MAV_TYPE_QUADROTOR,
+        autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
+        base_mode: mode | armed,
+        system_status: state,
+        mavlink_version: glissade_dialect::MINOR_MAVLINK_VERSION,
+    }
+}
+
+fn attitude(now: Tick, input: &GroundInput) -> ATTITUDE_DATA {
+    let angles = flip_vector(&Euler::from_quaternion(&input.nav.attitude).angles);
+    let rates = flip_vector(&input.nav.rates);
+    ATTITUDE_DATA {
+        time_boot_ms: boot_ms(now),
+        roll: angles.x,
+        pitch: angles.y,
+        yaw: angles.z,
+        rollspeed: rates.x,
+        pitchspeed: rates.y,
+        yawspeed: rates.z,
+    }
+}
+
+fn local_position(now: Tick, input: &GroundInput) -> LOCAL_POSITION_NED_DATA {
+    let position = flip_vector(&input.nav.position);
+    let velocity = flip_vector(&input.nav.velocity);
+    LOCAL_POSITION_NED_DATA {
+        time_boot_ms: boot_ms(now),
+        x: position.x,
+        y: position.y,
+        z: position.z,
+        vx: velocity.x,
+        vy: velocity.y,
+        vz: velocity.z,
+    }
+}
+
+fn sys_status(input: &GroundInput, bad_checksums: u32) -> SYS_STATUS_DATA {
+    let controllers = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ANGULAR_RATE_CONTROL
+        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION
+        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_YAW_POSITION
+        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_Z_ALTITUDE_CONTROL
+        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL
+        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS;
+    let navigation =
+        MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_EXTERNAL_GROUND_TRUTH | MavSysStatusSensor::MAV_SYS_STATUS_AHRS;
+    let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
+    let present = controllers | navigation | prearm;
+    let mut health = controllers;
+    health.set(navigation, input.health.nav_fresh);
+    health.set(prearm, input.armable);
+    let [outer, commander, ground] = input.health.overruns.map(saturate);
+    SYS_STATUS_DATA {
+        onboard_control_sensors_present: present,
+        onboard_control_sensors_enabled: present,
+        onboard_control_sensors_health: health,
+        voltage_battery: u16::MAX,
+        current_battery: -1,
+        battery_remaining: -1,
+        errors_comm: saturate(input.health.dropped_bytes.saturating_add(bad_checksums)),
+        errors_count1: saturate(input.health.refused_samples),
+        errors_count2: outer,
+        errors_count3: commander,
+        errors_count4: ground,
+        ..SYS_STATUS_DATA::DEFAULT
+    }
+}
+
+fn saturate(count: u32) -> u16 {
+    u16::try_from(count).unwrap_or(u16::MAX)
+}
+
+fn extended_sys_state(input: &GroundInput) -> EXTENDED_SYS_STATE_DATA {
+    let landed_state =
+        if input.landed { MavLandedState::MAV_LANDED_STATE_ON_GROUND } else { MavLandedState::MAV_LANDED_STATE_IN_AIR };
+    EXTENDED_SYS_STATE_DATA { landed_state, ..EXTENDED_SYS_STATE_DATA::DEFAULT }
+}
+
+/// All four numbers or none.
+fn write_timing(now: Tick, timing: LoopTiming, out: &mut Writer) -> bool {
+    let (shortest, longest) = timing.inner_period_us;
+    let values: [(&[u8; 10], u16); 4] = [
+        (b"inner_hz\0\0", timing.inner_hz),
+        (b"outer_hz\0\0", timing.outer_hz),
+        (b"min_us\0\0\0\0", shortest),
+        (b"max_us\0\0\0\0", longest),
+    ];
+    out.has_room(values.len() * frame_len::<NAMED_VALUE_INT_DATA>())
+        && values.into_iter().all(|(name, value)| {
+            out.write(&NAMED_VALUE_INT_DATA {
+                time_boot_ms: boot_ms(now),
+                value: value.into(),
+                name: CharArray::new(*name),
+            })
+        })
+}
+
+fn autopilot_version() -> AUTOPILOT_VERSION_DATA {
+    AUTOPILOT_VERSION_DATA {
+        capabilities: MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_COMMAND_INT
+            | MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_MAVLINK2,
+        flight_sw_version: SOFTWARE_VERSION,
+        ..AUTOPILOT_VERSION_DATA::DEFAULT
+    }
+}
+
+/// This crate's version: major, minor, patch, and 0 for a development version. QGroundControl compares the
+/// version of any other type with PX4's.
+const SOFTWARE_VERSION: u32 = decimal(env!("CARGO_PKG_VERSION_MAJOR")) << 24
+    | decimal(env!("CARGO_PKG_VERSION_MINOR")) << 16
+    | decimal(env!("CARGO_PKG_VERSION_PATCH")) << 8;
+
+const fn decimal(text: &str) -> u32 {
+    match u8::from_str_radix(text, 10) {
+        Ok(number) => number as u32,
+        Err(_) => 0,
+    }
+}

@@ -1,0 +1,118 @@
+//! Airframe files: a vehicle's constants, read once, for the plant (f64) and for the firmware (f32) alike.
+
+use anyhow::{Result, ensure};
+use firmware::airframe::{Airframe, ROTORS, RotorGeometry};
+use nalgebra::{Matrix4, Vector3, Vector4};
+use serde::{Deserialize, Serialize};
+
+use crate::plant::Constants;
+
+/// One rotor.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rotor {
+    /// Where it is, forward of the centre of mass, m.
+    pub x_m: f64,
+    /// Where it is, left of the centre of mass, m.
+    pub y_m: f64,
+    /// Thrust for each unit of ω², N s²/rad².
+    pub lift_n_s2: f64,
+    /// Yaw torque on the body for each unit of ω², N m s²/rad²: above zero if it pushes towards +ψ.
+    pub yaw_n_m_s2: f64,
+}
+
+/// An airframe file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AirframeFile {
+    /// What it is, and where its figures come from.
+    pub summary: String,
+    /// m, kg.
+    pub mass_kg: f64,
+    /// Ix, Iy, Iz, kg m².
+    pub inertia_kg_m2: [f64; 3],
+    /// Jr, kg m².
+    pub rotor_inertia_kg_m2: f64,
+    /// k1..k3, N s/m.
+    pub drag_n_s_m: [f64; 3],
+    /// k4..k6, N m s²/rad².
+    pub rotational_drag_n_m_s2: [f64; 3],
+    /// g, m/s².
+    pub gravity_m_s2: f64,
+    /// Greatest thrust over weight; ωmax follows from it.
+    pub thrust_to_weight: f64,
+    /// Time constant of the rotors' speed, s.
+    pub rotor_lag_s: f64,
+    /// Whether spinning the rotors up turns the body.
+    pub spin_up_reaction: bool,
+    /// The rotors.
+    pub rotors: [Rotor; ROTORS],
+}
+
+impl AirframeFile {
+    /// Refuses values from which no vehicle can be made; what the firmware refuses, it refuses itself.
+    ///
+    /// # Errors
+    /// The key that is out of its range.
+    pub fn validate(&self) -> Result<()> {
+        let positive = |name: &str, value: f64| {
+            ensure!(value.is_finite() && value > 0.0, "`airframe.{name}` must be a number above zero, not {value}");
+            Ok(())
+        };
+        positive("mass_kg", self.mass_kg)?;
+        positive("gravity_m_s2", self.gravity_m_s2)?;
+        positive("thrust_to_weight", self.thrust_to_weight)?;
+        for rotor in &self.rotors {
+            positive("rotors.lift_n_s2", rotor.lift_n_s2)?;
+        }
+        Ok(())
+    }
+
+    /// ωmax, rad/s: the speed at which the rotors lift `thrust_to_weight` times the weight.
+    pub fn omega_max(&self) -> f64 {
+        let lift: f64 = self.rotors.iter().map(|rotor| rotor.lift_n_s2).sum();
+        (self.thrust_to_weight * self.mass_kg * self.gravity_m_s2 / lift).sqrt()
+    }
+
+    /// B in U = B ω²: thrust, roll (y b), pitch (−x b) and yaw a rotor.
+    fn geometry(&self) -> Matrix4<f64> {
+        Matrix4::from_columns(&self.rotors.map(|rotor| {
+            let lift = rotor.lift_n_s2;
+            Vector4::new(lift, rotor.y_m * lift, -rotor.x_m * lift, rotor.yaw_n_m_s2)
+        }))
+    }
+
+    /// For the plant.
+    pub fn constants(&self) -> Constants {
+        Constants {
+            mass: self.mass_kg,
+            inertia: Vector3::from(self.inertia_kg_m2),
+            rotor_inertia: self.rotor_inertia_kg_m2,
+            drag: Vector3::from(self.drag_n_s_m),
+            rotational_drag: Vector3::from(self.rotational_drag_n_m_s2),
+            gravity: self.gravity_m_s2,
+            geometry: self.geometry(),
+            spin: Vector4::from(self.rotors.map(|rotor| if rotor.yaw_n_m_s2 > 0.0 { -1.0 } else { 1.0 })),
+            rotor_lag: self.rotor_lag_s,
+            spin_up_reaction: self.spin_up_reaction,
+        }
+    }
+
+    /// For the firmware.
+    pub fn flight(&self) -> Airframe {
+        let vector = |v: [f64; 3]| v.map(|x| x as f32);
+        let b = self.geometry();
+        let row = |i: usize| core::array::from_fn(|j| b[(i, j)] as f32);
+        Airframe {
+            mass_kg: self.mass_kg as f32,
+            inertia_kg_m2: vector(self.inertia_kg_m2),
+            rotor_inertia_kg_m2: self.rotor_inertia_kg_m2 as f32,
+            drag_n_s_m: vector(self.drag_n_s_m),
+            rotational_drag_n_m_s2: vector(self.rotational_drag_n_m_s2),
+            gravity_m_s2: self.gravity_m_s2 as f32,
+            omega_max_rad_s: self.omega_max() as f32,
+            rotor_lag_s: self.rotor_lag_s as f32,
+            geometry: RotorGeometry { thrust: row(0), roll: row(1), pitch: row(2), yaw: row(3) },
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! The command line: arguments, typed, and one module a command.
+//!
+//! Standard output is the result, standard error is progress and complaints. A complaint is one line and exit
+//! code 2; a flight that ends badly is a result, not a complaint.
+
+mod bench;
+mod demo;
+mod plan;
+mod run;
+mod scenarios;
+mod serve;
+
+use std::io::Write as _;
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail};
+use clap::{Args, Parser, Subcommand};
+
+/// Glissade on the desktop: flies the firmware against a plant model, in lockstep.
+///
+/// Without a command: flies `helix` and the paper's disturbed case, and leaves plots in runs/.
+#[derive(Debug, Parser)]
+#[command(name = "sim-host", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Fly a scenario, for one seed or many.
+    Run(RunArgs),
+    /// List the built-in scenarios.
+    Scenarios {
+        /// Print a JSON array.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Fly in real time for a ground station, over MAVLink and UDP.
+    Serve(ServeArgs),
+    /// Measure how fast the simulation is.
+    Bench {
+        /// Simulated seconds a run.
+        #[arg(long, default_value_t = 2000.0)]
+        seconds: f64,
+        /// Runs; the median counts.
+        #[arg(long, default_value_t = 5)]
+        runs: usize,
+        /// Print a JSON object.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Plan the path that joins a scenario's trajectory, and print it as that scenario's `[join]` table.
+    Plan {
+        /// Name of a built-in scenario, or path of a file.
+        scenario: String,
+        /// Seed of the search.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// Flights to spend at most.
+        #[arg(long, default_value_t = 30_000)]
+        flights: usize,
+        #[command(flatten)]
+        settings: Settings,
+    },
+}
+
+#[derive(Args, Clone, Debug)]
+struct Settings {
+    /// Set a key of the scenario, or of its airframe with `airframe.` before it. Repeatable.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+#[derive(Args, Clone, Debug)]
+struct RunArgs {
+    /// Name of a built-in scenario, or path of a file.
+    scenario: String,
+    /// Seed of the random numbers.
+    #[arg(long, default_value_t = 1, conflicts_with = "seeds")]
+    seed: u64,
+    /// Seeds to fly, first and last.
+    #[arg(long, value_name = "A..B", value_parser = parse_seeds)]
+    seeds: Option<Seeds>,
+    /// Flights at once; as many as there are cores by default. The results do not depend on it.
+    #[arg(long, value_name = "J")]
+    jobs: Option<usize>,
+    #[command(flatten)]
+    settings: Settings,
+    /// Write truth.csv, summary.json and figures there; with several seeds, into a folder a seed.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print a JSON object, or an array for several seeds.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Args, Clone, Debug)]
+struct ServeArgs {
+    /// Name of a built-in scenario, or path of a file.
+    #[arg(default_value = "pad")]
+    scenario: String,
+    /// Address to receive on.
+    #[arg(long, default_value = crate::link::DEFAULT_LISTEN)]
+    listen: SocketAddr,
+    /// Address to send to. Repeatable.
+    #[arg(long = "peer", default_values = crate::link::DEFAULT_PEERS)]
+    peers: Vec<SocketAddr>,
+    /// Simulated seconds a second.
+    #[arg(long, default_value_t = 1.0)]
+    speed: f64,
+    /// Seed of the random numbers.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    #[command(flatten)]
+    settings: Settings,
+}
+
+/// A range of seeds, both ends included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Seeds {
+    first: u64,
+    last: u64,
+}
+
+fn parse_seeds(text: &str) -> Result<Seeds> {
+    let (first, last) = text.split_once("..").context("use A..B, as in 1..8")?;
+    let number = |text: &str| text.parse::<u64>().with_context(|| format!("`{text}` is not a seed"));
+    let seeds = Seeds { first: number(first)?, last: number(last.trim_start_matches('='))? };
+    if seeds.first > seeds.last || seeds.last - seeds.first >= 1_000_000 {
+        bail!("the first seed comes first, and a million are enough");
+    }
+    Ok(seeds)
+}
+
+/// Runs the program.
+pub fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        None => demo::run(),
+        Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Scenarios { json }) => scenarios::run(json),
+        Some(Command::Serve(args)) => serve::run(&args),
+        Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
+        Some(Command::Plan { scenario, seed, flights, settings }) => plan::run(&scenario, seed, flights, &settings.set),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("sim-host: {}", one_line(&error));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn one_line(error: &anyhow::Error) -> String {
+    format!("{error:#}").replace('\n', " ")
+}
+
+/// Writes a result to standard output. A reader that has gone away is not an error.
+fn say(text: &str) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error).context("cannot write the result"),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn seeds_are_two_numbers_in_order() {
+        assert_eq!(parse_seeds("1..8").expect("valid"), Seeds { first: 1, last: 8 });
+        for bad in ["", "1", "8..1", "a..b", "1..", "0..18446744073709551615"] {
+            assert!(parse_seeds(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! `run`: flies a scenario, for one seed or many, and reports.
+
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+
+use super::RunArgs;
+use crate::flight;
+use crate::noise::Noise;
+use crate::record::{Recorder, Row};
+use crate::report::{Disturbance, Figures, Flight, Metrics, OutFolder, Progress, Summary, TruthWriter};
+use crate::report::{progress, summary, table};
+use crate::scenario::Scenario;
+use crate::sil::Outcome;
+
+/// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
+const FIGURES_UP_TO_S: f64 = 600.0;
+
+pub(super) fn run(args: &RunArgs) -> Result<()> {
+    let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
+    let Some(seeds) = args.seeds else {
+        let summary = fly(&scenario, args.seed, args.out.as_deref(), !args.json)?;
+        return super::say(&if args.json { summary.to_json() } else { table::render(&summary) });
+    };
+    let bar = progress::of_flights(seeds.last - seeds.first + 1, !args.json);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.jobs.unwrap_or(0))
+        .build()
+        .context("cannot start the threads that --jobs asks for")?;
+    let summaries: Vec<Summary> = pool.install(|| {
+        let fly_one = |seed: u64| {
+            let folder = args.out.as_ref().map(|out| out.join(format!("seed-{seed}")));
+            let summary = fly(&scenario, seed, folder.as_deref(), false);
+            bar.inc(1);
+            summary
+        };
+        (seeds.first..=seeds.last).into_par_iter().map(fly_one).collect::<Result<_>>()
+    })?;
+    bar.finish_and_clear();
+    super::say(&if args.json { summary::to_json_array(&summaries) } else { sweep_table(&summaries) })
+}
+
+/// A flight and how long it took, s.
+struct Flown {
+    outcome: Outcome,
+    wall_s: f64,
+}
+
+fn timed(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Flown> {
+    let start = Instant::now();
+    let outcome = flight::fly(scenario, seed, recorder)?;
+    Ok(Flown { outcome, wall_s: start.elapsed().as_secs_f64() })
+}
+
+/// Flies one seed; with a folder, leaves truth.csv, summary.json and the figures there.
+pub(super) fn fly(scenario: &Scenario, seed: u64, out: Option<&Path>, visible: bool) -> Result<Summary> {
+    let bar = Progress::new(scenario.file.duration_s, visible);
+    let Some(path) = out else {
+        let mut recorder = ((Metrics::new(), TruthWriter::hash_only()), bar);
+        let flown = timed(scenario, seed, &mut recorder)?;
+        let ((metrics, truth), bar) = recorder;
+        bar.finish();
+        return Ok(summarise(scenario, seed, &flown, truth.finish()?, &metrics));
+    };
+    let folder = OutFolder::create(path)?;
+    let mut recorder = (((Metrics::new(), folder.truth()?), bar), Rows::new(scenario));
+    let flown = timed(scenario, seed, &mut recorder)?;
+    let (((metrics, truth), bar), rows) = recorder;
+    bar.finish();
+    let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics);
+    folder.summary(&summary)?;
+    draw(scenario, seed, &folder, &rows.kept)?;
+    Ok(summary)
+}
+
+/// Keeps the rows of a flight that is short enough to be drawn.
+struct Rows {
+    kept: Vec<Row>,
+    keep: bool,
+}
+
+impl Rows {
+    fn new(scenario: &Scenario) -> Self {
+        Self { kept: Vec::new(), keep: scenario.file.duration_s <= FIGURES_UP_TO_S }
+    }
+}
+
+impl Recorder for Rows {
+    fn record(&mut self, row: &Row) {
+        if self.keep {
+            self.kept.push(*row);
+        }
+    }
+}
+
+fn summarise(scenario: &Scenario, seed: u64, flown: &Flown, truth_sha256: String, metrics: &Metrics) -> Summary {
+    let outcome = flown.outcome;
+    let duration_s = f64::from(outcome.ticks) * 1e-3;
+    let flight = Flight {
+        scenario: scenario.name.clone(),
+        seed,
+        duration_s,
+        truth_sha256,
+        real_time_factor: duration_s / flown.wall_s,
+        saturated_fraction: f64::from(outcome.saturated_ticks) / f64::from(outcome.ticks.max(1)),
+        time_optimal_s: scenario.file.time_optimal_s,
+        disturbance_onset_s: scenario.file.disturbance.map(|d| d.from_s),
+        survived: outcome.survived,
+    };
+    Summary::new(flight, metrics)
+}
+
+fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, rows: &[Row]) -> Result<()> {
+    if rows.is_empty() {
+        return Ok(());
+    }
+    let samples = disturbance_samples(scenario, seed);
+    let disturbance = scenario.file.disturbance.map(|d| {
+        let on_outputs = d.acceleration_m_s2 == 0.0 && d.angular_acceleration_rad_s2 == 0.0;
+        let (linear_unit, angular_unit) = if on_outputs { ("m", "rad") } else { ("m/s²", "rad/s²") };
+        Disturbance { samples: &samples, linear_unit, angular_unit, acting: (d.from_s, d.to_s) }
+    });
+    folder.figures(&Figures { rows, disturbance })?;
+    Ok(())
+}
+
+/// The disturbances of a scenario as they were applied, a sample a tick: on the accelerations, or, where there are
+/// none, on the outputs.
+fn disturbance_samples(scenario: &Scenario, seed: u64) -> Vec<(f64, [f64; 6])> {
+    let mut noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
+    let sample = |tick: u32| {
+        let now = noise.at(tick);
+        let (a, b) = (now.push.acceleration + now.position, now.push.angular_acceleration + now.angles);
+        (f64::from(tick) * 1e-3, [a.x, a.y, a.z, b.x, b.y, b.z])
+    };
+    if scenario.file.disturbance.is_some() { (0..scenario.ticks()).map(sample).collect() } else { Vec::new() }
+}
+
+/// One line a seed.
+fn sweep_table(summaries: &[Summary]) -> String {
+    let mut lines =
+        vec![format!("{:>8}  {:>9}  {:>9}  {:>9}  {:>9}  end", "seed", "settle s", "x RMS m", "y RMS m", "z RMS m")];
+    for s in summaries {
+        let number = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
+        let axes = [&s.axes.x, &s.axes.y, &s.axes.z];
+        let settle = axes.iter().try_fold(0.0_f64, |most, axis| Some(most.max(axis.settle_5cm_s?)));
+        let [x, y, z] = axes.map(|axis| number(axis.rms_m, 6));
+        let end = if s.survived { "survived" } else { "LOST" };
+        lines.push(format!("{:>8}  {:>9}  {x:>9}  {y:>9}  {z:>9}  {end}", s.seed, number(settle, 3)));
+    }
+    lines.join("\n")
+}

@@ -1,0 +1,163 @@
+//! The paper's figures: Eq. 2 with the specific force and the torques as direct inputs of any size and sign, and
+//! the firmware's own control laws evaluated at every plant step, as a continuous-time block diagram would.
+//!
+//! This is the reading in which Table 1's gains give the paper's curves. No rotor turns in it: Ωr = 0.
+
+use firmware::airframe::Airframe;
+use firmware::control::attitude::{self, EulerReference};
+use firmware::control::position;
+use firmware::control::sliding::AxisGains;
+use firmware::guidance::{Guidance, Trajectory};
+use nalgebra::Vector3;
+
+use crate::noise::{Disturbed, Noise};
+use crate::plant::Constants;
+use crate::plant::paper::{self, PaperInput, PaperState};
+use crate::record::{Recorder, Row};
+use crate::reference;
+use crate::scenario::{AttitudeWave, Scenario};
+use crate::sil::Outcome;
+
+/// Plant steps a second.
+const STEPS_A_SECOND: f64 = 1e5;
+/// Plant step, s.
+const STEP_S: f64 = 1.0 / STEPS_A_SECOND;
+/// Plant steps in a row of the record.
+const STEPS_A_ROW: u32 = 100;
+/// Further than this from its reference the vehicle is lost, m.
+const LOST_M: f64 = 50.0;
+
+/// The decoupled model with the control laws in its loop.
+#[derive(Debug)]
+pub struct Decoupled {
+    constants: Constants,
+    airframe: Airframe,
+    position_gains: [AxisGains; 3],
+    attitude_gains: [AxisGains; 3],
+    trajectory: Trajectory,
+    guidance: Guidance,
+    wave: Option<AttitudeWave>,
+    noise: Noise,
+    state: PaperState,
+    step: u32,
+}
+
+/// What the laws ask for at a step.
+struct Control {
+    force: Vector3<f64>,
+    torque: Vector3<f64>,
+    s: [f64; 6],
+}
+
+/// φd, θd, ψd with two derivatives at time `t`, in double precision.
+fn wave_at(wave: Option<&AttitudeWave>, t: f64) -> [Vector3<f64>; 3] {
+    let Some(wave) = wave else {
+        return [Vector3::zeros(); 3];
+    };
+    let axis = |i: usize| {
+        let (a, w) = (wave.amplitude_rad[i], wave.rate_rad_s[i]);
+        let (sin, cos) = libm::sincos(w * t + wave.phase_rad[i]);
+        [a * sin, a * w * cos, -a * w * w * sin]
+    };
+    let [x, y, z] = [axis(0), axis(1), axis(2)];
+    core::array::from_fn(|k| Vector3::new(x[k], y[k], z[k]))
+}
+
+impl Decoupled {
+    /// A scenario for the decoupled plant, before its first step.
+    ///
+    /// # Errors
+    /// None for a scenario that has been validated.
+    pub fn new(scenario: &Scenario, seed: u64) -> anyhow::Result<Self> {
+        let config = scenario.flight_config();
+        let guidance = Guidance::with_tick(config.trajectory, STEP_S).map_err(|error| anyhow::anyhow!("{error}"))?;
+        Ok(Self {
+            constants: scenario.constants(),
+            airframe: config.airframe,
+            position_gains: config.position.axes,
+            attitude_gains: config.attitude,
+            trajectory: config.trajectory,
+            guidance,
+            wave: scenario.file.attitude,
+            noise: Noise::new(scenario.file.disturbance.as_ref(), seed, STEPS_A_SECOND),
+            state: PaperState::at_rest(Vector3::from(scenario.file.start_position_m)),
+            step: 0,
+        })
+    }
+
+    fn time(&self) -> f64 {
+        f64::from(self.step) / STEPS_A_SECOND
+    }
+
+    /// φd, θd, ψd at time `t`, rad.
+    pub fn attitude_reference(&self, t: f64) -> [f64; 3] {
+        let [angles, _, _] = wave_at(self.wave.as_ref(), t);
+        angles.into()
+    }
+
+    /// Eq. 25–31 on the state as measured.
+    fn control(&self, disturbed: &Disturbed) -> Control {
+        let measured: Vector3<f32> = (self.state.position + disturbed.position).cast();
+        let velocity: Vector3<f32> = self.state.velocity.cast();
+        let flat = self.guidance.at(self.step);
+        let translation = position::demand(&self.position_gains, &self.airframe, &flat, &measured, &velocity);
+
+        let [angles, rates, accelerations] = wave_at(self.wave.as_ref(), self.time()).map(|v: Vector3<f64>| v.cast());
+        let target = EulerReference { angles, rates, accelerations };
+        let measured: Vector3<f32> = (self.state.angles + disturbed.angles).cast();
+        let angle_rates: Vector3<f32> = self.state.angle_rates.cast();
+        let rotation = attitude::demand(&self.attitude_gains, &target, &measured, &angle_rates);
+        let torque = attitude::torque(&self.airframe, &rotation.acceleration, &angle_rates, 0.0);
+        let (s, p) = (rotation.s, translation.s);
+        Control {
+            force: translation.force.cast(),
+            torque: torque.cast(),
+            s: [s.x, s.y, s.z, p.x, p.y, p.z].map(f64::from),
+        }
+    }
+
+    fn row(&self, control: &Control) -> Row {
+        let motion = paper::motion(&self.state);
+        let t = self.time();
+        let mut reference = reference::at(&self.trajectory, t);
+        if self.wave.is_some() {
+            let [_, _, yaw] = self.attitude_reference(t);
+            reference[3] = yaw;
+        }
+        let thrust = control.force.z * self.constants.mass;
+        Row {
+            t,
+            position: motion.position.into(),
+            velocity: motion.velocity.into(),
+            attitude: [motion.attitude.w, motion.attitude.i, motion.attitude.j, motion.attitude.k],
+            rates: motion.rates.into(),
+            omega: [0.0; 4],
+            omega_command: [0.0; 4],
+            reference,
+            desired_attitude: self.attitude_reference(t),
+            u: [thrust, control.torque.x, control.torque.y, control.torque.z],
+            s: control.s,
+        }
+    }
+
+    /// Flies `rows` rows of 1 ms, or until the vehicle is lost.
+    pub fn run(&mut self, rows: u32, recorder: &mut impl Recorder) -> Outcome {
+        let mut outcome = Outcome { survived: true, ..Outcome::default() };
+        while outcome.survived && outcome.ticks < rows {
+            for i in 0..STEPS_A_ROW {
+                let disturbed = *self.noise.at(self.step);
+                let control = self.control(&disturbed);
+                if i == 0 {
+                    let row = self.row(&control);
+                    outcome.survived = (0..3).all(|k| (row.position[k] - row.reference[k]).abs() < LOST_M);
+                    recorder.record(&row);
+                }
+                let input = PaperInput { force: control.force, torque: control.torque, spin: 0.0 };
+                self.state = self.constants.paper_step(&self.state, |_| input, &disturbed.push, STEP_S);
+                self.step += 1;
+            }
+            outcome.ticks += 1;
+        }
+        outcome
+    }
+}

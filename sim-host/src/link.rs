@@ -1,0 +1,181 @@
+//! MAVLink's way out of the process: bytes in UDP datagrams, and nothing that knows what is in them.
+//!
+//! Owns the socket and the list of who gets what is sent: the peers it was given, and whoever has sent something
+//! lately. A datagram that cannot be sent is lost, as it may be anyway on its way.
+
+use std::io::ErrorKind;
+use std::net::{SocketAddr, UdpSocket};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, bail};
+
+/// Where `serve` listens unless told otherwise.
+pub const DEFAULT_LISTEN: &str = "127.0.0.1:14580";
+/// Whom `serve` sends to unless told otherwise: ground stations, and programs that use MAVSDK.
+pub const DEFAULT_PEERS: [&str; 2] = ["127.0.0.1:14550", "127.0.0.1:14540"];
+
+/// Someone who has been silent this long is not sent to any more; ground stations speak every second.
+const FORGET_AFTER: Duration = Duration::from_secs(10);
+/// More guests than this are not kept, so that a port scan cannot make the list grow.
+const GUESTS_MAX: usize = 16;
+/// Datagrams read at one go, so that a flood cannot hold up the flight.
+const BURST: usize = 64;
+/// Larger than any datagram of MAVLink; the rest of a larger one is lost.
+const DATAGRAM_MAX: usize = 2048;
+
+/// A peer that was not named at the start, and when it was last heard.
+#[derive(Clone, Copy, Debug)]
+struct Guest {
+    address: SocketAddr,
+    heard: Instant,
+}
+
+/// A UDP socket that never blocks.
+#[derive(Debug)]
+pub struct UdpLink {
+    socket: UdpSocket,
+    peers: Vec<SocketAddr>,
+    guests: Vec<Guest>,
+}
+
+impl UdpLink {
+    /// Listens on an address; what is sent goes to `peers`, and to whoever sends something.
+    ///
+    /// # Errors
+    /// One line that names the address, and what to do, if it cannot be listened on.
+    pub fn bind(listen: SocketAddr, peers: &[SocketAddr]) -> anyhow::Result<Self> {
+        if let Some(peer) = peers.iter().find(|peer| peer.is_ipv4() != listen.is_ipv4()) {
+            bail!("cannot send from {listen} to {peer}: one is IPv4, the other IPv6");
+        }
+        let socket = match UdpSocket::bind(listen) {
+            Err(error) if error.kind() == ErrorKind::AddrInUse => {
+                bail!("UDP address {listen} is in use: stop the program that has it, or give another with --listen")
+            }
+            other => other.with_context(|| format!("cannot listen on UDP address {listen}"))?,
+        };
+        socket.set_nonblocking(true).with_context(|| format!("cannot use UDP address {listen}"))?;
+        Ok(Self { socket, peers: peers.to_vec(), guests: Vec::new() })
+    }
+
+    /// Where it listens; tells the port if 0 was asked for.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn local_address(&self) -> anyhow::Result<SocketAddr> {
+        self.socket.local_addr().context("the socket has no address")
+    }
+
+    /// Appends what has arrived to `buffer`, without waiting.
+    pub fn receive(&mut self, buffer: &mut Vec<u8>) {
+        let mut datagram = [0; DATAGRAM_MAX];
+        for _ in 0..BURST {
+            match self.socket.recv_from(&mut datagram) {
+                Ok((length, from)) => {
+                    self.welcome(from, Instant::now());
+                    buffer.extend_from_slice(&datagram[..length]);
+                }
+                // An earlier datagram found nobody at its port: no news about what has arrived.
+                Err(error) if matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset) => {}
+                Err(_) => break,
+            }
+        }
+    }
+
+    /// Sends one datagram to everyone. Nobody listening is not an error.
+    pub fn send(&mut self, bytes: &[u8]) {
+        let now = Instant::now();
+        self.guests.retain(|guest| now.duration_since(guest.heard) < FORGET_AFTER);
+        for address in self.peers.iter().chain(self.guests.iter().map(|guest| &guest.address)) {
+            let _ = self.socket.send_to(bytes, address);
+        }
+    }
+
+    fn welcome(&mut self, address: SocketAddr, now: Instant) {
+        if self.peers.contains(&address) {
+            return;
+        }
+        if let Some(guest) = self.guests.iter_mut().find(|guest| guest.address == address) {
+            guest.heard = now;
+        } else if self.guests.len() < GUESTS_MAX {
+            self.guests.push(Guest { address, heard: now });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn local() -> SocketAddr {
+        "127.0.0.1:0".parse().expect("an address")
+    }
+
+    fn station() -> UdpSocket {
+        let socket = UdpSocket::bind(local()).expect("a free port");
+        socket.set_read_timeout(Some(Duration::from_secs(5))).expect("a socket");
+        socket
+    }
+
+    fn hears(station: &UdpSocket) -> Vec<u8> {
+        let mut buffer = [0; 100];
+        let length = station.recv(&mut buffer).expect("something was sent");
+        buffer[..length].to_vec()
+    }
+
+    fn receive_some(link: &mut UdpLink) -> Vec<u8> {
+        let mut buffer = Vec::new();
+        let start = Instant::now();
+        while buffer.is_empty() && start.elapsed() < Duration::from_secs(5) {
+            link.receive(&mut buffer);
+        }
+        buffer
+    }
+
+    #[test]
+    fn peers_hear_without_having_spoken_and_guests_after() {
+        let (peer, guest) = (station(), station());
+        let mut link = UdpLink::bind(local(), &[peer.local_addr().expect("bound")]).expect("a free port");
+        link.send(b"one");
+        assert_eq!(hears(&peer), b"one");
+        guest.send_to(b"hello", link.local_address().expect("bound")).expect("sent");
+        assert_eq!(receive_some(&mut link), b"hello");
+        link.send(b"two");
+        assert_eq!((hears(&peer), hears(&guest)), (b"two".to_vec(), b"two".to_vec()));
+    }
+
+    #[test]
+    fn a_peer_that_is_not_there_stops_nothing() {
+        let gone = station().local_addr().expect("bound");
+        let peer = station();
+        let mut link = UdpLink::bind(local(), &[gone, peer.local_addr().expect("bound")]).expect("a free port");
+        for _ in 0..3 {
+            link.send(b"x");
+            assert_eq!(hears(&peer), b"x");
+        }
+        peer.send_to(b"hello", link.local_address().expect("bound")).expect("sent");
+        assert_eq!(receive_some(&mut link), b"hello");
+    }
+
+    #[test]
+    fn a_busy_address_is_named_with_a_remedy_in_one_line() {
+        let first = UdpLink::bind(local(), &[]).expect("a free port");
+        let address = first.local_address().expect("bound");
+        let error = format!("{:#}", UdpLink::bind(address, &[]).expect_err("in use"));
+        assert!(error.contains(&address.to_string()) && error.contains("--listen") && error.lines().count() == 1);
+    }
+
+    #[test]
+    fn silent_guests_are_forgotten_and_there_are_never_too_many() {
+        let mut link = UdpLink::bind(local(), &[]).expect("a free port");
+        let now = Instant::now();
+        for port in 1..1000 {
+            link.welcome(SocketAddr::new(local().ip(), port), now);
+        }
+        assert_eq!(link.guests.len(), GUESTS_MAX);
+        for guest in &mut link.guests {
+            guest.heard = now.checked_sub(FORGET_AFTER).expect("long after boot");
+        }
+        link.send(b"x");
+        assert!(link.guests.is_empty());
+    }
+}

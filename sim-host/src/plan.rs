@@ -1,0 +1,167 @@
+//! Planning a joining path: CMA-ES over its duration and shape, judged by the closed loop that will fly it.
+//!
+//! The cost is what a flight is measured by: the time from which every axis stays within 5 cm of the trajectory.
+//! The firmware only evaluates the curve; finding it is offline work, and its result is part of a scenario.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use anyhow::{Result, anyhow, ensure};
+use cmaes::{CMAESOptions, DVector};
+use firmware::guidance::{JoinPlan, MIDDLE_POINTS};
+use nalgebra::Vector3;
+
+use crate::flight;
+use crate::record::{Recorder, Row};
+use crate::reference;
+use crate::scenario::{PlantKind, Scenario};
+
+/// Shaping points that are planned.
+const POINTS: usize = 6;
+const _: () = assert!(POINTS <= MIDDLE_POINTS);
+
+/// Parameters: duration, vertical start acceleration, the points.
+const PARAMETERS: usize = 2 + 3 * POINTS;
+
+/// Scale of the duration (s) and of the start's acceleration (m/s²) in units of a parameter; points are in m.
+const DURATION_SCALE: f64 = 0.25;
+const ACCELERATION_SCALE: f64 = 5.0;
+
+/// How long the path is flown on after it has joined, s, to see that it stays joined.
+const AFTER_S: f64 = 1.0;
+
+/// Beyond the reference by more than this part of the initial error, a path overshoots.
+const OVERSHOOT_MAX: f64 = 0.08;
+
+/// Settled means within 5 cm; a path is planned to 4 cm, so that a rounded digit does not undo it, and, for
+/// what comes after, to 1.5 mm.
+const AWAY_M: f64 = 0.04;
+const OFF_M: f64 = 1.5e-3;
+
+/// Watches how a flight settles.
+#[derive(Default)]
+struct Settling {
+    /// Each axis' error at the start, m.
+    start: [Option<f64>; 3],
+    /// Last time at which each axis was [`AWAY_M`], and [`OFF_M`], or more away, s.
+    last_away: [f64; 3],
+    last_off: [f64; 3],
+    /// Greatest error beyond the reference, as a part of the initial one.
+    overshoot: f64,
+}
+
+impl Recorder for Settling {
+    fn record(&mut self, row: &Row) {
+        for i in 0..3 {
+            let error = row.reference[i] - row.position[i];
+            let start = *self.start[i].get_or_insert(error);
+            if error.abs() >= AWAY_M {
+                self.last_away[i] = row.t + 1e-3;
+            }
+            if error.abs() >= OFF_M {
+                self.last_off[i] = row.t + 1e-3;
+            }
+            if start.abs() >= 0.05 {
+                self.overshoot = self.overshoot.max(-error / start);
+            }
+        }
+    }
+}
+
+impl Settling {
+    /// Time from which all axes stay within [`AWAY_M`], s.
+    fn settle_s(&self) -> f64 {
+        self.last_away.into_iter().fold(0.0, f64::max)
+    }
+
+    /// The time at which the last axis settles; a little of the others', and of settling to 2 mm; no overshoot.
+    fn cost(&self) -> f64 {
+        let others: f64 = self.last_away.iter().sum();
+        let fine: f64 = self.last_off.iter().sum();
+        self.settle_s() + 0.05 * others + 0.02 * fine + 5.0 * (self.overshoot - OVERSHOOT_MAX).max(0.0)
+    }
+}
+
+/// A finished plan.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// The plan.
+    pub plan: JoinPlan,
+    /// Time from which all axes stay within 4 cm, s.
+    pub settle_s: f64,
+    /// Flights flown.
+    pub flights: u64,
+}
+
+/// The plan that a vector of parameters stands for: points are offsets from an even line from start to end.
+fn decode(scenario: &Scenario, x: &DVector<f64>) -> JoinPlan {
+    let duration = (1.5 + DURATION_SCALE * x[0]).clamp(0.3, 20.0);
+    let start = Vector3::from(scenario.file.start_position_m);
+    let [rx, ry, rz, _] = reference::at(&scenario.file.trajectory, duration);
+    let end = Vector3::new(rx, ry, rz);
+    let mut middle_m = heapless::Vec::new();
+    for i in 0..POINTS {
+        let part = (i as f64 + 1.0) / (POINTS as f64 + 1.0);
+        let offset = Vector3::new(x[2 + 3 * i], x[3 + 3 * i], x[4 + 3 * i]);
+        let point: Vector3<f32> = (start + (end - start) * part + offset).cast();
+        // POINTS fit, by the assertion above.
+        let _ = middle_m.push(point.into());
+    }
+    JoinPlan {
+        duration_s: duration as f32,
+        start_acceleration_m_s2: [0.0, 0.0, (ACCELERATION_SCALE * x[1]) as f32],
+        middle_m,
+    }
+}
+
+/// Cost of a plan, by flying it.
+fn cost(scenario: &Scenario, plan: &JoinPlan) -> f64 {
+    const REFUSED: f64 = 1e3;
+    let mut scenario = scenario.clone();
+    scenario.file.duration_s = f64::from(plan.duration_s) + AFTER_S;
+    scenario.file.join = Some(plan.clone());
+    let mut settling = Settling::default();
+    match flight::fly(&scenario, 0, &mut settling) {
+        Ok(outcome) if outcome.survived => settling.cost(),
+        _ => REFUSED,
+    }
+}
+
+/// Plans the joining path of a scenario with at most `flights` flights, from several seeded starts.
+///
+/// # Errors
+/// If the scenario has no path to plan, or the optimiser refuses its options.
+pub fn plan(scenario: &Scenario, flights: usize, seed: u64, mut progress: impl FnMut(u64)) -> Result<Planned> {
+    ensure!(
+        scenario.file.plant != PlantKind::PaperDecoupled,
+        "scenario `{}` is flown on the decoupled plant, which joins nothing: plan one on a coupled plant",
+        scenario.name
+    );
+    let flown = AtomicU64::new(0);
+    let objective = |x: &DVector<f64>| {
+        flown.fetch_add(1, Ordering::Relaxed);
+        cost(scenario, &decode(scenario, x))
+    };
+    let mut start = vec![0.0; PARAMETERS];
+    start[0] = (scenario.file.join.as_ref().map_or(2.0, |join| f64::from(join.duration_s)) - 1.5) / DURATION_SCALE;
+    let mut search = CMAESOptions::new(start, 0.5)
+        .population_size(24)
+        .seed(seed)
+        .max_function_evals(flights)
+        .tol_fun(1e-5)
+        .build(objective)
+        .map_err(|error| anyhow!("the optimiser refuses its options: {error:?}"))?;
+    let ended = loop {
+        let ended = search.next_parallel();
+        progress(flown.load(Ordering::Relaxed));
+        if let Some(ended) = ended {
+            break ended;
+        }
+    };
+    let best = ended.overall_best.ok_or_else(|| anyhow!("no flight was flown: ask for more than {flights}"))?;
+    let plan = decode(scenario, &best.point);
+    let mut scenario = scenario.clone();
+    scenario.file.join = Some(plan.clone());
+    let mut settling = Settling::default();
+    flight::fly(&scenario, 0, &mut settling)?;
+    Ok(Planned { plan, settle_s: settling.settle_s(), flights: flown.load(Ordering::Relaxed) })
+}

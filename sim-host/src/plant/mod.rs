@@ -1,0 +1,105 @@
+//! Plant models: the truth that the firmware flies in. Double precision, fixed step, no randomness of their own.
+//!
+//! [`rigid_body`] is the truth for everything that flies; [`paper`] is the paper's small-angle model, kept to
+//! reproduce its figures. World frame NWU, body frame FLU.
+
+pub mod ground;
+pub mod paper;
+pub mod rigid_body;
+
+use firmware::airframe::ROTORS;
+use firmware::signals::NavState;
+use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
+
+/// An airframe's constants in double precision. Symbols as in Table 2 of the paper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Constants {
+    /// m, kg.
+    pub mass: f64,
+    /// Ix, Iy, Iz, kg m².
+    pub inertia: Vector3<f64>,
+    /// Jr, kg m².
+    pub rotor_inertia: f64,
+    /// k1..k3, N s/m.
+    pub drag: Vector3<f64>,
+    /// k4..k6, N m s²/rad².
+    pub rotational_drag: Vector3<f64>,
+    /// g, m/s².
+    pub gravity: f64,
+    /// B in U = B ω² (Eq. 4).
+    pub geometry: Matrix4<f64>,
+    /// Sign of each rotor's spin in Ωr.
+    pub spin: Vector4<f64>,
+    /// Rotor time constant, s; 0 for rotors that follow at once.
+    pub rotor_lag: f64,
+    /// Whether spinning a rotor up turns the body (−Jr Ω̇r). Left out for the paper's airframe, whose printed
+    /// Jr is so large that the term would make it lose yaw.
+    pub spin_up_reaction: bool,
+}
+
+impl Constants {
+    /// U1..U4 of rotor speeds (rad/s), Eq. 4.
+    #[inline]
+    pub fn inputs(&self, omega: &Vector4<f64>) -> Vector4<f64> {
+        self.geometry * omega.component_mul(omega)
+    }
+
+    /// Ωr of rotor speeds, rad/s.
+    #[inline]
+    pub fn rotor_spin(&self, omega: &Vector4<f64>) -> f64 {
+        self.spin.dot(omega)
+    }
+}
+
+/// The true motion of a vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Position, m.
+    pub position: Vector3<f64>,
+    /// Velocity, m/s.
+    pub velocity: Vector3<f64>,
+    /// Body to world.
+    pub attitude: Quaternion<f64>,
+    /// Ω = (p, q, r), rad/s.
+    pub rates: Vector3<f64>,
+}
+
+impl Motion {
+    /// At rest, level, heading north.
+    pub fn at_rest(position: Vector3<f64>) -> Self {
+        Self { position, velocity: Vector3::zeros(), attitude: Quaternion::identity(), rates: Vector3::zeros() }
+    }
+
+    /// As an ideal sensor gives it to the firmware.
+    #[inline]
+    pub fn as_nav(&self) -> NavState {
+        NavState {
+            position: self.position.cast(),
+            velocity: self.velocity.cast(),
+            attitude: UnitQuaternion::new_unchecked(self.attitude.cast()),
+            rates: self.rates.cast(),
+        }
+    }
+}
+
+/// Accelerations added to the vehicle's own, held over a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Push {
+    /// In the world, m/s².
+    pub acceleration: Vector3<f64>,
+    /// About the body's axes, rad/s².
+    pub angular_acceleration: Vector3<f64>,
+}
+
+/// A model that can be flown in lockstep.
+pub trait Plant {
+    /// The motion now.
+    fn motion(&self) -> Motion;
+
+    /// Rotor speeds (rad/s) that act from now on under a command: the command itself, or, with rotor lag, the
+    /// speeds now.
+    fn omega_during(&self, command: &[f64; ROTORS]) -> [f64; ROTORS];
+
+    /// Advances by `step` seconds with commanded rotor speeds (rad/s) and a push, both held.
+    fn step(&mut self, command: &[f64; ROTORS], push: &Push, step: f64);
+}

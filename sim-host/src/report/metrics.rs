@@ -1,0 +1,352 @@
+//! What a flight is judged by, taken row by row: settling, RMS and maximum error an axis, overshoot, chattering and
+//! control effort. Owns the definitions; the words and files around them are [`summary`](super::summary)'s.
+//!
+//! Errors are `e = reference − truth` (m; yaw in rad, the short way round), against the paper's own trajectory.
+//! Every figure is an `Option`: `None` where it is not defined (no rows after 4 s, say) or not finite.
+
+use serde::Serialize;
+
+use super::angles::{roll_pitch_yaw, wrap, yaw};
+use crate::record::{Recorder, Row};
+
+/// RMS and maximum error are taken from here on, s: what comes before is the approach.
+pub const TRACKING_FROM_S: f64 = 4.0;
+/// The wide band: 5 cm, for yaw 0.05 rad.
+pub const WIDE_BAND: f64 = 0.05;
+/// The narrow band: 2 mm, for yaw 0.002 rad.
+pub const NARROW_BAND: f64 = 0.002;
+/// A disturbed angle has recovered within 2°, rad.
+pub const ANGLE_RECOVERY_BAND: f64 = 2.0 * std::f64::consts::PI / 180.0;
+
+/// One value for each of the axes that follow a reference.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Axes<T> {
+    /// North.
+    pub x: T,
+    /// West.
+    pub y: T,
+    /// Up.
+    pub z: T,
+    /// Heading.
+    pub yaw: T,
+}
+
+impl<T> Axes<T> {
+    /// Each axis with its name, in order.
+    pub fn named(&self) -> [(&'static str, &T); 4] {
+        [("x", &self.x), ("y", &self.y), ("z", &self.z), ("yaw", &self.yaw)]
+    }
+
+    fn from_array([x, y, z, yaw]: [T; 4]) -> Self {
+        Self { x, y, z, yaw }
+    }
+}
+
+/// How one axis followed its reference. Lengths in m; for yaw the same keys hold rad.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct AxisFigures {
+    /// From when on |e| < 5 cm (0.05 rad) until the end, s.
+    pub settle_5cm_s: Option<f64>,
+    /// From when on |e| < 2 mm (0.002 rad) until the end, s.
+    pub settle_2mm_s: Option<f64>,
+    /// Root mean square of e after 4 s.
+    pub rms_m: Option<f64>,
+    /// Maximum of |e| after 4 s.
+    pub max_m: Option<f64>,
+    /// How far the flight went past the reference, as a fraction of the initial error; `None` where that was below
+    /// 5 cm (0.05 rad), where there is nothing to overshoot.
+    pub overshoot: Option<f64>,
+}
+
+/// Root mean squares of what the controller demanded, over the whole flight.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ControlEffort {
+    /// U1, N.
+    pub thrust_rms_n: Option<f64>,
+    /// U2, N m.
+    pub roll_rms_n_m: Option<f64>,
+    /// U3, N m.
+    pub pitch_rms_n_m: Option<f64>,
+    /// U4, N m.
+    pub yaw_rms_n_m: Option<f64>,
+}
+
+/// How roll and pitch followed the desired attitude after 4 s, rad.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct TiltFigures {
+    /// Root mean square of the error in roll.
+    pub roll_rms_rad: Option<f64>,
+    /// Greatest error in roll.
+    pub roll_max_rad: Option<f64>,
+    /// Root mean square of the error in pitch.
+    pub pitch_rms_rad: Option<f64>,
+    /// Greatest error in pitch.
+    pub pitch_max_rad: Option<f64>,
+}
+
+/// Time from a disturbance's onset until the error stays within 5 cm, or 2° for an angle, s.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Recovery {
+    /// North.
+    pub x: Option<f64>,
+    /// West.
+    pub y: Option<f64>,
+    /// Up.
+    pub z: Option<f64>,
+    /// Heading.
+    pub yaw: Option<f64>,
+    /// Roll.
+    pub roll: Option<f64>,
+    /// Pitch.
+    pub pitch: Option<f64>,
+}
+
+/// Watches an error until it stays in a band for good.
+#[derive(Clone, Copy, Debug)]
+pub struct Settling {
+    band: f64,
+    since: Option<f64>,
+}
+
+impl Settling {
+    /// Settled means |e| < `band`, in the error's unit.
+    pub fn new(band: f64) -> Self {
+        Self { band, since: None }
+    }
+
+    /// Takes the error at time `t` (s). A NaN is outside of every band.
+    pub fn take(&mut self, t: f64, error: f64) {
+        if error.abs() < self.band {
+            self.since.get_or_insert(t);
+        } else {
+            self.since = None;
+        }
+    }
+
+    /// The first time (s) from which the error has stayed inside until now; `None` if it is outside.
+    pub fn since(&self) -> Option<f64> {
+        self.since
+    }
+
+    /// How long after `onset_s` that was: 0 if the error has not left the band since.
+    pub fn after(&self, onset_s: f64) -> Option<f64> {
+        self.since.map(|since| (since - onset_s).max(0.0))
+    }
+}
+
+/// Mean square and maximum of a signal.
+#[derive(Clone, Copy, Debug, Default)]
+struct Size {
+    count: u64,
+    sum_of_squares: f64,
+    max: f64,
+}
+
+impl Size {
+    fn take(&mut self, value: f64) {
+        self.count += 1;
+        self.sum_of_squares += value * value;
+        // `f64::max` would forget a NaN.
+        if value.is_nan() || value.abs() > self.max {
+            self.max = value.abs();
+        }
+    }
+
+    fn rms(&self) -> Option<f64> {
+        self.max().and(finite((self.sum_of_squares / self.count as f64).sqrt()))
+    }
+
+    fn max(&self) -> Option<f64> {
+        (self.count > 0).then_some(self.max).and_then(finite)
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    initial: Option<f64>,
+    wide: Settling,
+    narrow: Settling,
+    tracking: Size,
+    /// How far past the reference, in the error's unit.
+    beyond: f64,
+}
+
+impl Axis {
+    fn new() -> Self {
+        let (wide, narrow) = (Settling::new(WIDE_BAND), Settling::new(NARROW_BAND));
+        Self { initial: None, wide, narrow, tracking: Size::default(), beyond: 0.0 }
+    }
+
+    fn take(&mut self, t: f64, error: f64) {
+        let initial = *self.initial.get_or_insert(error);
+        self.beyond = self.beyond.max(-initial.signum() * error);
+        self.wide.take(t, error);
+        self.narrow.take(t, error);
+        if t >= TRACKING_FROM_S {
+            self.tracking.take(error);
+        }
+    }
+
+    fn figures(&self) -> AxisFigures {
+        AxisFigures {
+            settle_5cm_s: self.wide.since(),
+            settle_2mm_s: self.narrow.since(),
+            rms_m: self.tracking.rms(),
+            max_m: self.tracking.max(),
+            overshoot: self.overshoot(),
+        }
+    }
+
+    fn overshoot(&self) -> Option<f64> {
+        let initial = self.initial?.abs();
+        if initial < WIDE_BAND { None } else { finite(self.beyond / initial) }
+    }
+}
+
+/// Total variation a second of Σ over the rotors of ω², from some time on.
+#[derive(Clone, Copy, Debug)]
+struct Variation {
+    from: f64,
+    span: Option<(f64, f64)>,
+    squares: [f64; 4],
+    total: f64,
+}
+
+impl Variation {
+    fn from(from: f64) -> Self {
+        Self { from, span: None, squares: [0.0; 4], total: 0.0 }
+    }
+
+    fn take(&mut self, t: f64, omega: [f64; 4]) {
+        if t < self.from {
+            return;
+        }
+        let squares = omega.map(|w| w * w);
+        if let Some((_, last)) = &mut self.span {
+            *last = t;
+            self.total += squares.iter().zip(self.squares).map(|(new, old)| (new - old).abs()).sum::<f64>();
+        } else {
+            self.span = Some((t, t));
+        }
+        self.squares = squares;
+    }
+
+    fn per_second(&self) -> Option<f64> {
+        // One row alone gives 0/0: not finite, hence not defined.
+        self.span.and_then(|(first, last)| finite(self.total / (last - first)))
+    }
+}
+
+/// Accumulates a flight's figures row by row, without allocation.
+#[derive(Clone, Debug)]
+pub struct Metrics {
+    axes: [Axis; 4],
+    /// Roll, pitch, yaw.
+    angles: [Settling; 3],
+    tilt: [Size; 2],
+    chattering: Variation,
+    chattering_after_4s: Variation,
+    effort: [Size; 4],
+}
+
+impl Metrics {
+    /// Before the first row.
+    pub fn new() -> Self {
+        Self {
+            axes: [Axis::new(); 4],
+            angles: [Settling::new(ANGLE_RECOVERY_BAND); 3],
+            tilt: [Size::default(); 2],
+            chattering: Variation::from(f64::NEG_INFINITY),
+            chattering_after_4s: Variation::from(TRACKING_FROM_S),
+            effort: [Size::default(); 4],
+        }
+    }
+
+    /// How each axis followed the reference.
+    pub fn axes(&self) -> Axes<AxisFigures> {
+        Axes::from_array(self.axes.map(|axis| axis.figures()))
+    }
+
+    /// Total variation of the commanded ω², summed over the rotors, a second: (rad/s)²/s.
+    pub fn chattering(&self) -> Option<f64> {
+        self.chattering.per_second()
+    }
+
+    /// The same after 4 s, without the approach.
+    pub fn chattering_after_4s(&self) -> Option<f64> {
+        self.chattering_after_4s.per_second()
+    }
+
+    /// Root mean squares of U1..U4.
+    pub fn control_effort(&self) -> ControlEffort {
+        let [thrust_rms_n, roll_rms_n_m, pitch_rms_n_m, yaw_rms_n_m] = self.effort.map(|u| u.rms());
+        ControlEffort { thrust_rms_n, roll_rms_n_m, pitch_rms_n_m, yaw_rms_n_m }
+    }
+
+    /// How roll and pitch followed what was desired of them, after 4 s, rad.
+    pub fn tilt(&self) -> TiltFigures {
+        let [roll, pitch] = self.tilt;
+        TiltFigures {
+            roll_rms_rad: roll.rms(),
+            roll_max_rad: roll.max(),
+            pitch_rms_rad: pitch.rms(),
+            pitch_max_rad: pitch.max(),
+        }
+    }
+
+    /// Recovery from a disturbance that set in at `onset_s`.
+    pub fn recovery(&self, onset_s: f64) -> Recovery {
+        let [x, y, z, _] = self.axes.map(|axis| axis.wide.after(onset_s));
+        let [roll, pitch, yaw] = self.angles.map(|angle| angle.after(onset_s));
+        Recovery { x, y, z, yaw, roll, pitch }
+    }
+}
+
+impl Default for Metrics {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Recorder for Metrics {
+    fn record(&mut self, row: &Row) {
+        let errors = errors(row);
+        for (axis, error) in self.axes.iter_mut().zip(errors) {
+            axis.take(row.t, error);
+        }
+        let angles = angle_errors(row);
+        for (settling, error) in self.angles.iter_mut().zip(angles) {
+            settling.take(row.t, error);
+        }
+        if row.t >= TRACKING_FROM_S {
+            for (size, error) in self.tilt.iter_mut().zip(angles) {
+                size.take(error);
+            }
+        }
+        self.chattering.take(row.t, row.omega_command);
+        self.chattering_after_4s.take(row.t, row.omega_command);
+        for (effort, u) in self.effort.iter_mut().zip(row.u) {
+            effort.take(u);
+        }
+    }
+}
+
+/// Reference − truth: x, y, z (m), yaw (rad, in [−π, π]).
+pub fn errors(row: &Row) -> [f64; 4] {
+    let ([x, y, z], [ref_x, ref_y, ref_z, ref_yaw]) = (row.position, row.reference);
+    [ref_x - x, ref_y - y, ref_z - z, wrap(ref_yaw - yaw(row.attitude))]
+}
+
+/// Desired attitude − truth: roll, pitch, yaw, rad in [−π, π].
+pub fn angle_errors(row: &Row) -> [f64; 3] {
+    let flown = roll_pitch_yaw(row.attitude);
+    core::array::from_fn(|i| wrap(row.desired_attitude[i] - flown[i]))
+}
+
+/// `None` for what JSON cannot hold.
+pub(super) fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+#[cfg(test)]
+mod tests;

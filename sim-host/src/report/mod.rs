@@ -1,0 +1,114 @@
+//! What a flight leaves to people and scripts: its record, its figures of merit, its pictures.
+//!
+//! ```text
+//!                 ┌─► TruthWriter ─► truth.csv, SHA-256 ─┐
+//! loop ─► Row ─►  ├─► Metrics ───────────────────────────┼─► Summary ─► summary.json, --json, table
+//!  (Recorder)     ├─► Progress ─► bar on stderr          │      ▲
+//!                 └─► Vec<Row> ─► Figures ─► *.svg       └──────┘ Flight: what the loop knows besides
+//! ```
+//!
+//! Everything takes rows through [`Recorder`](crate::record::Recorder), in simulated time, and none of it can change a
+//! flight. Recorders combine as tuples, so that a sweep over seeds keeps figures without keeping rows:
+//!
+//! ```
+//! use sim_host::record::Recorder as _;
+//! use sim_host::report::{Metrics, TruthWriter};
+//!
+//! let mut recorder = (Metrics::new(), TruthWriter::hash_only());
+//! // sil::fly(&scenario, &mut recorder);
+//! let (metrics, truth) = recorder;
+//! let truth_sha256 = truth.finish()?;
+//! # assert_eq!(truth_sha256.len(), 64);
+//! # anyhow::Ok(())
+//! ```
+
+pub mod angles;
+pub mod metrics;
+pub mod plots;
+pub mod progress;
+pub mod summary;
+pub mod table;
+pub mod truth;
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+
+pub use metrics::{Metrics, Settling};
+pub use plots::{Disturbance, Figures};
+pub use progress::Progress;
+pub use summary::{Flight, Summary};
+pub use truth::TruthWriter;
+
+/// The folder that `--out` names.
+#[derive(Clone, Debug)]
+pub struct OutFolder(PathBuf);
+
+impl OutFolder {
+    /// Creates the folder and those above it, unless they exist.
+    ///
+    /// # Errors
+    /// When it cannot be created; the message names it.
+    pub fn create(path: &Path) -> Result<Self> {
+        fs::create_dir_all(path).with_context(|| {
+            format!("cannot create {}: choose a folder you can write to with --out", path.display())
+        })?;
+        Ok(Self(path.to_owned()))
+    }
+
+    /// Opens truth.csv for the rows to come.
+    ///
+    /// # Errors
+    /// When the file cannot be created; the message names it.
+    pub fn truth(&self) -> Result<TruthWriter<File>> {
+        TruthWriter::create(&self.0.join("truth.csv"))
+    }
+
+    /// Writes summary.json.
+    ///
+    /// # Errors
+    /// When the file cannot be written; the message names it.
+    pub fn summary(&self, summary: &Summary) -> Result<PathBuf> {
+        summary.write(&self.0)
+    }
+
+    /// Draws every figure that applies.
+    ///
+    /// # Errors
+    /// When a file cannot be written; the message names it.
+    pub fn figures(&self, figures: &Figures) -> Result<Vec<PathBuf>> {
+        figures.draw(&self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Recorder as _;
+
+    #[test]
+    fn a_flight_leaves_its_files() {
+        let path = std::env::temp_dir().join(format!("glissade-{}-out/deep", std::process::id()));
+        let folder = OutFolder::create(&path).expect("the temporary folder can be written");
+        let rows = plots::tests::flight(1.0);
+        let mut recorder = (Metrics::new(), folder.truth().expect("a file"));
+        for row in &rows {
+            recorder.record(row);
+        }
+        let truth_sha256 = recorder.1.finish().expect("the disk has room");
+        let summary = Summary::new(Flight { truth_sha256, ..summary::tests::flight(true) }, &recorder.0);
+        folder.summary(&summary).expect("a file");
+        let lines = fs::read_to_string(path.join("truth.csv")).expect("truth.csv is there").lines().count();
+        assert_eq!(lines, 1 + rows.len());
+        let text = fs::read_to_string(path.join("summary.json")).expect("summary.json is there");
+        assert_eq!(text, summary.to_file_text());
+        fs::remove_dir_all(path.parent().expect("it has one")).expect("the folder is there");
+    }
+
+    #[test]
+    fn a_folder_that_is_a_file_is_named() {
+        let error = OutFolder::create(Path::new("Cargo.toml")).expect_err("it is a file");
+        assert!(format!("{error:#}").contains("Cargo.toml"));
+    }
+}

@@ -1,0 +1,262 @@
+//! A flight in one object: what `--json` prints and `summary.json` keeps. The keys are an interface that people
+//! script against; [`Summary`]'s fields are those keys, in order.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use serde::Serialize;
+
+use super::metrics::{Axes, AxisFigures, ControlEffort, Metrics, Recovery, TiltFigures};
+
+/// What the loop knows about a flight and its rows do not tell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flight {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Seed of its random numbers.
+    pub seed: u64,
+    /// Simulated time flown, s.
+    pub duration_s: f64,
+    /// SHA-256 of truth.csv's bytes, hexadecimal.
+    pub truth_sha256: String,
+    /// Simulated seconds a second of wall time.
+    pub real_time_factor: f64,
+    /// Fraction of the ticks in which the mixer met a limit.
+    pub saturated_fraction: f64,
+    /// The time-optimal bound for joining the reference, where known, s.
+    pub time_optimal_s: Option<f64>,
+    /// When a disturbance set in, where one did, s.
+    pub disturbance_onset_s: Option<f64>,
+    /// False when the flight diverged or crashed, and the rows end there.
+    pub survived: bool,
+}
+
+/// The summary of one flight. SI units; what is not defined or not finite is null.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Seed of its random numbers.
+    pub seed: u64,
+    /// Simulated time flown, s.
+    pub duration_s: f64,
+    /// SHA-256 of truth.csv's bytes, hexadecimal.
+    pub truth_sha256: String,
+    /// Simulated seconds a second of wall time: the only key that differs between two runs of the same flight, and
+    /// therefore left out (`None`) of summary.json.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub real_time_factor: Option<f64>,
+    /// False when the flight diverged or crashed; the figures are those of the part that was flown, and nothing
+    /// counts as settled.
+    pub survived: bool,
+    /// How each axis followed the paper's reference.
+    pub axes: Axes<AxisFigures>,
+    /// The time-optimal bound for joining the reference, where known, s.
+    pub time_optimal_s: Option<f64>,
+    /// Total variation of the commanded ω² over all rotors, a second: (rad/s)²/s.
+    pub chattering: Option<f64>,
+    /// The same after 4 s.
+    pub chattering_after_4s: Option<f64>,
+    /// Fraction of the ticks in which the mixer met a limit.
+    pub saturated_fraction: f64,
+    /// Root mean squares of U1..U4.
+    pub control_effort: ControlEffort,
+    /// How roll and pitch followed the desired attitude.
+    pub tilt: TiltFigures,
+    /// Recovery from the disturbance; null without one.
+    pub recovery_s: Option<Recovery>,
+}
+
+impl Summary {
+    /// Puts together what the loop and the rows tell.
+    pub fn new(flight: Flight, metrics: &Metrics) -> Self {
+        let survived = flight.survived;
+        let recovery = flight.disturbance_onset_s.map(|onset| metrics.recovery(onset));
+        Self {
+            scenario: flight.scenario,
+            seed: flight.seed,
+            duration_s: flight.duration_s,
+            truth_sha256: flight.truth_sha256,
+            real_time_factor: Some(flight.real_time_factor),
+            survived,
+            axes: if survived { metrics.axes() } else { unsettled(&metrics.axes()) },
+            time_optimal_s: flight.time_optimal_s,
+            chattering: metrics.chattering(),
+            chattering_after_4s: metrics.chattering_after_4s(),
+            saturated_fraction: flight.saturated_fraction,
+            control_effort: metrics.control_effort(),
+            tilt: metrics.tilt(),
+            recovery_s: recovery.map(|r| if survived { r } else { Recovery::default() }),
+        }
+    }
+
+    /// The object on one line, as `--json` prints it.
+    pub fn to_json(&self) -> String {
+        one_line(self)
+    }
+
+    /// The text of summary.json: the same object over several lines, without `real_time_factor`, so that the same
+    /// flight leaves the same bytes.
+    pub fn to_file_text(&self) -> String {
+        let same_each_time = Self { real_time_factor: None, ..self.clone() };
+        several_lines(&same_each_time) + "\n"
+    }
+
+    /// Writes summary.json into `folder`.
+    ///
+    /// # Errors
+    /// When the file cannot be written; the message names it.
+    pub fn write(&self, folder: &Path) -> Result<PathBuf> {
+        let path = folder.join("summary.json");
+        fs::write(&path, self.to_file_text())
+            .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))?;
+        Ok(path)
+    }
+}
+
+/// Several flights as one JSON array, as `--json` prints them for `--seeds`.
+pub fn to_json_array(summaries: &[Summary]) -> String {
+    one_line(summaries)
+}
+
+/// Why serialising cannot fail.
+const PLAIN: &str = "only numbers and strings under string keys; a number that is not finite becomes null";
+
+fn one_line<T: Serialize + ?Sized>(value: &T) -> String {
+    serde_json::to_string(value).expect(PLAIN)
+}
+
+fn several_lines<T: Serialize>(value: &T) -> String {
+    serde_json::to_string_pretty(value).expect(PLAIN)
+}
+
+/// A flight that ended early has not stayed anywhere until the end.
+fn unsettled(axes: &Axes<AxisFigures>) -> Axes<AxisFigures> {
+    let clear = |axis: AxisFigures| AxisFigures { settle_5cm_s: None, settle_2mm_s: None, ..axis };
+    Axes { x: clear(axes.x), y: clear(axes.y), z: clear(axes.z), yaw: clear(axes.yaw) }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::record::{Recorder as _, Row};
+    use serde_json::Value;
+    use std::collections::BTreeSet;
+
+    pub(in crate::report) fn flight(survived: bool) -> Flight {
+        Flight {
+            scenario: "helix".into(),
+            seed: 7,
+            duration_s: 20.0,
+            truth_sha256: "ab".repeat(32),
+            real_time_factor: 3210.0,
+            saturated_fraction: 0.0123,
+            time_optimal_s: Some(1.31),
+            disturbance_onset_s: None,
+            survived,
+        }
+    }
+
+    /// Five seconds that settle at 1 s in x and were on the reference before in all else.
+    pub(in crate::report) fn metrics() -> Metrics {
+        let mut metrics = Metrics::new();
+        for k in 0..5000 {
+            metrics.record(&row(f64::from(k) / 1000.0));
+        }
+        metrics
+    }
+
+    fn row(t: f64) -> Row {
+        Row {
+            t,
+            position: [if t < 1.0 { -4.0 } else { -0.0015 }, 0.0, 0.0],
+            velocity: [0.0; 3],
+            attitude: [1.0, 0.0, 0.0, 0.0],
+            rates: [0.0; 3],
+            omega: [26.0; 4],
+            omega_command: [26.0; 4],
+            reference: [0.0; 4],
+            desired_attitude: [0.0; 3],
+            u: [8.0, 0.0, 0.0, 0.0],
+            s: [0.0; 6],
+        }
+    }
+
+    fn keys(value: &Value) -> BTreeSet<&str> {
+        value.as_object().expect("an object").keys().map(String::as_str).collect()
+    }
+
+    fn parse(text: &str) -> Value {
+        serde_json::from_str(text).expect("valid JSON")
+    }
+
+    #[test]
+    fn json_has_exactly_the_documented_keys() {
+        let json = parse(&Summary::new(flight(true), &metrics()).to_json());
+        let documented = [
+            ["scenario", "seed", "duration_s", "truth_sha256", "real_time_factor"].as_slice(),
+            &["axes", "chattering", "saturated_fraction", "time_optimal_s", "survived"],
+            &["chattering_after_4s", "control_effort", "tilt", "recovery_s"],
+        ];
+        assert_eq!(keys(&json), documented.concat().into_iter().collect());
+        assert_eq!(keys(&json["axes"]), BTreeSet::from(["x", "y", "z", "yaw"]));
+        let figures = BTreeSet::from(["settle_5cm_s", "settle_2mm_s", "rms_m", "max_m", "overshoot"]);
+        assert!(["x", "y", "z", "yaw"].iter().all(|axis| keys(&json["axes"][axis]) == figures));
+        let effort = BTreeSet::from(["thrust_rms_n", "roll_rms_n_m", "pitch_rms_n_m", "yaw_rms_n_m"]);
+        assert_eq!(keys(&json["control_effort"]), effort);
+    }
+
+    #[test]
+    fn json_holds_the_figures() {
+        let json = parse(&Summary::new(flight(true), &metrics()).to_json());
+        assert_eq!(json["axes"]["x"]["settle_5cm_s"], 1.0);
+        assert_eq!(json["axes"]["y"]["settle_5cm_s"], 0.0);
+        assert_eq!(json["axes"]["y"]["overshoot"], Value::Null);
+        assert_eq!(json["time_optimal_s"], 1.31);
+        assert_eq!(json["recovery_s"], Value::Null);
+    }
+
+    #[test]
+    fn the_file_differs_only_in_real_time_factor() {
+        let summary = Summary::new(flight(true), &metrics());
+        let mut json = parse(&summary.to_json());
+        json.as_object_mut().expect("an object").remove("real_time_factor");
+        assert_eq!(parse(&summary.to_file_text()), json);
+        let slower = Summary { real_time_factor: Some(1.0), ..summary.clone() };
+        assert_eq!(slower.to_file_text(), summary.to_file_text());
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_become_null() {
+        let (real_time_factor, saturated_fraction) = (f64::INFINITY, f64::NAN);
+        let flight = Flight { real_time_factor, saturated_fraction, duration_s: f64::NAN, ..flight(true) };
+        let json = parse(&Summary::new(flight, &Metrics::new()).to_json());
+        for key in ["real_time_factor", "saturated_fraction", "duration_s", "chattering"] {
+            assert_eq!(json[key], Value::Null, "{key}");
+        }
+    }
+
+    #[test]
+    fn a_flight_that_ended_early_settled_nowhere() {
+        let flight = Flight { disturbance_onset_s: Some(2.0), ..flight(false) };
+        let summary = Summary::new(flight, &metrics());
+        assert!(summary.axes.named().iter().all(|(_, axis)| axis.settle_5cm_s.is_none()));
+        assert!(summary.axes.named().iter().all(|(_, axis)| axis.rms_m.is_some()));
+        assert_eq!(summary.recovery_s, Some(Recovery::default()));
+    }
+
+    #[test]
+    fn several_flights_are_one_array() {
+        let summary = Summary::new(flight(true), &metrics());
+        let json = parse(&to_json_array(&[summary.clone(), summary]));
+        assert_eq!(json.as_array().map(Vec::len), Some(2));
+        assert_eq!(json[1]["seed"], 7);
+    }
+
+    #[test]
+    fn a_missing_folder_is_named() {
+        let error = Summary::new(flight(true), &metrics()).write(Path::new("no/such/folder")).expect_err("no folder");
+        assert!(format!("{error:#}").contains("no/such/folder"));
+    }
+}

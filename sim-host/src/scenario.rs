@@ -1,0 +1,346 @@
+//! Scenarios: what to fly, typed. Built into the binary, or read from a file; every key can be set from outside.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use firmware::config::{FlightConfig, Start};
+use firmware::control::position::PositionGains;
+use firmware::control::sliding::AxisGains;
+use firmware::guidance::{JoinPlan, Trajectory};
+use serde::{Deserialize, Serialize};
+
+use crate::airframe::AirframeFile;
+
+macro_rules! built_in {
+    ($folder:literal: $($name:literal),+ $(,)?) => {
+        [$(($name, include_str!(concat!("../", $folder, "/", $name, ".toml")))),+]
+    };
+}
+
+/// Scenarios that come with the binary, in the order in which they are listed.
+const SCENARIOS: [(&str, &str); 10] = built_in!("scenarios":
+    "helix", "helix-tw4", "helix-lag", "figure-eight", "pad",
+    "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
+);
+
+/// Airframes that come with the binary.
+const AIRFRAMES: [(&str, &str); 1] = built_in!("airframes": "paper");
+
+/// Which model of the world is flown in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PlantKind {
+    /// Full Newton–Euler motion, firmware in lockstep at 1 kHz.
+    RigidBody,
+    /// Eq. 2 coupled through the angles, firmware in lockstep at 1 kHz.
+    Paper,
+    /// Eq. 2 with the force and the torques as direct, unlimited inputs, the control laws evaluated every 10 µs.
+    PaperDecoupled,
+}
+
+/// Gains, by axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Control {
+    /// Roll φ.
+    pub roll: AxisGains,
+    /// Pitch θ.
+    pub pitch: AxisGains,
+    /// Yaw ψ.
+    pub yaw: AxisGains,
+    /// x.
+    pub x: AxisGains,
+    /// y.
+    pub y: AxisGains,
+    /// z.
+    pub z: AxisGains,
+    /// Greatest tilt that position control asks for, rad.
+    pub tilt_max_rad: f32,
+}
+
+/// Gaussian disturbances, each value held for `hold_s`; standard deviations a component.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Disturbance {
+    /// Onset, s.
+    pub from_s: f64,
+    /// End, s.
+    pub to_s: f64,
+    /// How long each sample is held, s; whole ticks.
+    pub hold_s: f64,
+    /// On the accelerations of x, y and z, m/s².
+    #[serde(default)]
+    pub acceleration_m_s2: f64,
+    /// On the angular accelerations, rad/s².
+    #[serde(default)]
+    pub angular_acceleration_rad_s2: f64,
+    /// On the measured position, m.
+    #[serde(default)]
+    pub position_output_m: f64,
+    /// On the measured angles, rad.
+    #[serde(default)]
+    pub angle_output_rad: f64,
+}
+
+/// An attitude to follow, for the case that has no position loop: `amplitude·sin(rate·t + phase)` an angle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AttitudeWave {
+    /// φ, θ, ψ amplitudes, rad.
+    pub amplitude_rad: [f64; 3],
+    /// Angular rates of the waves, rad/s.
+    pub rate_rad_s: [f64; 3],
+    /// Phases at t = 0, rad.
+    pub phase_rad: [f64; 3],
+}
+
+/// A scenario file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScenarioFile {
+    /// What it shows, in a line.
+    pub summary: String,
+    /// Name or path of the airframe.
+    #[serde(default = "default_airframe")]
+    pub airframe: String,
+    /// In place of the airframe's.
+    pub thrust_to_weight: Option<f64>,
+    /// In place of the airframe's, s.
+    pub rotor_lag_s: Option<f64>,
+    /// In place of the airframe's, for the plant alone: the firmware keeps believing the airframe file. kg.
+    pub true_mass_kg: Option<f64>,
+    /// The world.
+    pub plant: PlantKind,
+    /// Whether there is ground at the start's height.
+    #[serde(default)]
+    pub ground: bool,
+    /// Simulated time, s.
+    pub duration_s: f64,
+    /// How the flight begins.
+    #[serde(default = "default_start")]
+    pub start: Start,
+    /// Where the flight begins, m.
+    #[serde(default)]
+    pub start_position_m: [f64; 3],
+    /// What to fly.
+    pub trajectory: Trajectory,
+    /// How to get there; without it, the trajectory is followed from the first tick.
+    pub join: Option<JoinPlan>,
+    /// Gains.
+    pub control: Control,
+    /// Gaussian disturbances.
+    pub disturbance: Option<Disturbance>,
+    /// What roll, pitch and yaw are to follow (decoupled plant only); level without it.
+    pub attitude: Option<AttitudeWave>,
+    /// The least time in which this airframe can match the trajectory from the start, where it is known, s.
+    pub time_optimal_s: Option<f64>,
+}
+
+fn default_airframe() -> String {
+    "paper".to_owned()
+}
+
+const fn default_start() -> Start {
+    Start::InFlight
+}
+
+/// A scenario that can be flown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// Its name, or the path it was read from.
+    pub name: String,
+    /// What to fly.
+    pub file: ScenarioFile,
+    /// The vehicle.
+    pub airframe: AirframeFile,
+}
+
+/// Names and summaries of the built-in scenarios.
+///
+/// # Errors
+/// None for a binary whose tests pass: they load each.
+pub fn list() -> Result<Vec<(&'static str, String)>> {
+    SCENARIOS.iter().map(|(name, _)| Ok((*name, Scenario::load(name, &[])?.file.summary))).collect()
+}
+
+impl Scenario {
+    /// Loads a built-in scenario by name or a file by path, with `KEY=VALUE` settings applied to it. Keys are
+    /// dotted (`control.roll.lambda`); those under `airframe.` set the airframe's.
+    ///
+    /// # Errors
+    /// One line that names the scenario or file, the key, and what is wrong with it.
+    pub fn load(name: &str, settings: &[String]) -> Result<Self> {
+        let context = || format!("scenario `{name}`");
+        let mut table = parse(&source(name, "scenario", &SCENARIOS)?).with_context(context)?;
+        let mut airframe_settings = Vec::new();
+        for setting in settings {
+            let (key, value) = split_setting(setting)?;
+            match key.strip_prefix("airframe.") {
+                Some(key) => airframe_settings.push((key, value)),
+                None => set(&mut table, key, value).with_context(|| format!("--set {setting}"))?,
+            }
+        }
+        let file: ScenarioFile = table.try_into().map_err(|error| one_line(&error)).with_context(context)?;
+
+        let airframe_name = file.airframe.clone();
+        let context_airframe = || format!("airframe `{airframe_name}`");
+        let mut table = parse(&source(&airframe_name, "airframe", &AIRFRAMES)?).with_context(context_airframe)?;
+        for (key, value) in airframe_settings {
+            set(&mut table, key, value).with_context(|| format!("--set airframe.{key}"))?;
+        }
+        let mut airframe: AirframeFile =
+            table.try_into().map_err(|error| one_line(&error)).with_context(context_airframe)?;
+        airframe.thrust_to_weight = file.thrust_to_weight.unwrap_or(airframe.thrust_to_weight);
+        airframe.rotor_lag_s = file.rotor_lag_s.unwrap_or(airframe.rotor_lag_s);
+
+        let scenario = Self { name: name.to_owned(), file, airframe };
+        scenario.validate().with_context(context)?;
+        Ok(scenario)
+    }
+
+    fn validate(&self) -> Result<()> {
+        self.airframe.validate()?;
+        let f = &self.file;
+        ensure!(
+            f.duration_s.is_finite() && f.duration_s > 0.0 && f.duration_s <= 1e6,
+            "`duration_s` must be between 0 and 1e6, not {}",
+            f.duration_s
+        );
+        if let Some(d) = &f.disturbance {
+            for (key, value) in [
+                ("from_s", d.from_s),
+                ("to_s", d.to_s),
+                ("acceleration_m_s2", d.acceleration_m_s2),
+                ("angular_acceleration_rad_s2", d.angular_acceleration_rad_s2),
+                ("position_output_m", d.position_output_m),
+                ("angle_output_rad", d.angle_output_rad),
+            ] {
+                ensure!(value.is_finite() && value >= 0.0, "`disturbance.{key}` must not be negative, not {value}");
+            }
+            ensure!(d.hold_s.is_finite() && d.hold_s >= 1e-3, "`disturbance.hold_s` must be at least 0.001");
+        }
+        if let Some(mass) = f.true_mass_kg {
+            ensure!(mass.is_finite() && mass > 0.0, "`true_mass_kg` must be above zero, not {mass}");
+        }
+        if let Some(wave) = &f.attitude {
+            let all = wave.amplitude_rad.iter().chain(&wave.rate_rad_s).chain(&wave.phase_rad);
+            ensure!(all.clone().all(|v| v.is_finite()), "`attitude` must be made of finite numbers");
+        }
+        firmware::autopilot::Autopilot::new(&self.flight_config()).map_err(|error| anyhow!("{error}"))?;
+        Ok(())
+    }
+
+    /// What the firmware is told.
+    pub fn flight_config(&self) -> FlightConfig {
+        let c = &self.file.control;
+        FlightConfig {
+            airframe: self.airframe.flight(),
+            attitude: [c.roll, c.pitch, c.yaw],
+            position: PositionGains { axes: [c.x, c.y, c.z], tilt_max_rad: c.tilt_max_rad },
+            trajectory: self.file.trajectory,
+            join: self.file.join.clone(),
+            start: self.file.start,
+            start_position_m: self.file.start_position_m.map(|v| v as f32),
+        }
+    }
+
+    /// What the plant is made of.
+    pub fn constants(&self) -> crate::plant::Constants {
+        let mut constants = self.airframe.constants();
+        constants.mass = self.file.true_mass_kg.unwrap_or(constants.mass);
+        constants
+    }
+
+    /// Number of ticks to fly.
+    pub fn ticks(&self) -> u32 {
+        (self.file.duration_s * 1e3).round() as u32
+    }
+}
+
+/// Text of a built-in file, or of the file at a path.
+fn source(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String> {
+    if let Some((_, text)) = built_in.iter().find(|(known, _)| *known == name) {
+        return Ok((*text).to_owned());
+    }
+    if name.contains('/') || Path::new(name).extension().is_some_and(|extension| extension == "toml") {
+        return std::fs::read_to_string(name).with_context(|| format!("cannot read {kind} file `{name}`"));
+    }
+    let known: Vec<&str> = built_in.iter().map(|(name, _)| *name).collect();
+    bail!("unknown {kind} `{name}`: use one of {}, or a file's path", known.join(", "))
+}
+
+fn parse(text: &str) -> Result<toml::Table> {
+    text.parse::<toml::Table>().map_err(|error| {
+        let line = error.span().map_or(0, |span| text[..span.start].lines().count().max(1));
+        anyhow!("line {line}: {}", error.message().replace('\n', " "))
+    })
+}
+
+/// A TOML error in one line, with the key it is about.
+fn one_line(error: &toml::de::Error) -> anyhow::Error {
+    anyhow!("{}", error.to_string().trim().replace('\n', ", "))
+}
+
+fn split_setting(setting: &str) -> Result<(&str, toml::Value)> {
+    let (key, text) = setting.split_once('=').ok_or_else(|| anyhow!("--set {setting}: use KEY=VALUE"))?;
+    let value = format!("value = {text}")
+        .parse::<toml::Table>()
+        .ok()
+        .and_then(|mut table| table.remove("value"))
+        .unwrap_or_else(|| toml::Value::String(text.to_owned()));
+    Ok((key, value))
+}
+
+/// Sets a dotted key; integers become floats where a float stood.
+fn set(table: &mut toml::Table, key: &str, value: toml::Value) -> Result<()> {
+    let (path, last) = key.rsplit_once('.').map_or((None, key), |(path, last)| (Some(path), last));
+    let mut place = table;
+    for part in path.into_iter().flat_map(|path| path.split('.')) {
+        place = place
+            .entry(part)
+            .or_insert_with(|| toml::Value::Table(toml::Table::new()))
+            .as_table_mut()
+            .ok_or_else(|| anyhow!("`{part}` is not a table"))?;
+    }
+    place.insert(last.to_owned(), value);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(name: &str, settings: &[&str]) -> String {
+        let settings: Vec<String> = settings.iter().map(|s| (*s).to_owned()).collect();
+        let error = Scenario::load(name, &settings).expect_err("must be refused");
+        let text = format!("{error:#}");
+        assert!(!text.contains('\n'), "{text}");
+        text
+    }
+
+    #[test]
+    fn every_built_in_scenario_loads() {
+        assert_eq!(list().expect("all load").len(), SCENARIOS.len());
+    }
+
+    #[test]
+    fn bad_input_is_one_line_that_names_the_culprit() {
+        assert!(refusal("helicks", &[]).contains("helicks"));
+        assert!(refusal("helix", &["airframe=papper"]).contains("papper"));
+        assert!(refusal("helix", &["airframe.mass_kg=-1"]).contains("mass_kg"));
+        assert!(refusal("helix", &["airframe.mass_kg=nan"]).contains("mass_kg"));
+        assert!(refusal("helix", &["control.roll.lambda=nan"]).contains("attitude.roll"));
+        assert!(refusal("helix", &["colour=1"]).contains("colour"));
+        assert!(refusal("helix", &["control.roll.colour=1"]).contains("colour"));
+        assert!(refusal("helix", &["duration_s=soon"]).contains("duration_s"));
+        assert!(refusal("helix", &["duration_s"]).contains("KEY=VALUE"));
+        assert!(refusal("/nowhere/x.toml", &[]).contains("/nowhere/x.toml"));
+    }
+
+    #[test]
+    fn a_setting_takes_effect_in_plant_and_firmware() {
+        let scenario = Scenario::load("helix", &["airframe.mass_kg=1".to_owned()]).expect("valid");
+        assert_eq!(scenario.constants().mass, 1.0);
+        assert_eq!(scenario.flight_config().airframe.mass_kg, 1.0);
+    }
+}

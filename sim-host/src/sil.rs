@@ -1,0 +1,148 @@
+//! Software in the loop: the firmware and a plant in lockstep, one tick after the other.
+//!
+//! Lockstep is a function call. At tick k the firmware gets the motion at t = k ms, its motor command acts on the
+//! plant from t to t + 1 ms. Nothing here allocates, and nothing depends on the clock on the wall.
+
+use firmware::airframe::ROTORS;
+use firmware::autopilot::Autopilot;
+use firmware::guidance::Trajectory;
+use firmware::inner::InnerOutput;
+use firmware::outer::OuterOutput;
+use firmware::signals::{SensorFrame, TICK_S_EXACT, TICK_US, Tick};
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::noise::{Disturbed, Noise};
+use crate::plant::{Motion, Plant};
+use crate::record::{Recorder, Row};
+use crate::reference;
+
+/// A vehicle further than this from where it ought to be is lost, m.
+const LOST_M: f64 = 50.0;
+
+/// How a flight ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// Ticks flown.
+    pub ticks: u32,
+    /// Ticks in which the mixer could not give the whole demand.
+    pub saturated_ticks: u32,
+    /// False if the vehicle was lost: further than 50 m from its reference, or its motion no longer finite.
+    pub survived: bool,
+}
+
+/// A plant with the firmware in its loop.
+#[derive(Clone, Debug)]
+pub struct Flight<P> {
+    /// The firmware.
+    pub autopilot: Autopilot,
+    plant: P,
+    noise: Noise,
+    trajectory: Trajectory,
+    tick: u32,
+    outcome: Outcome,
+}
+
+impl<P: Plant> Flight<P> {
+    /// Before the first tick.
+    pub fn new(autopilot: Autopilot, plant: P, noise: Noise, trajectory: Trajectory) -> Self {
+        let outcome = Outcome { survived: true, ..Outcome::default() };
+        Self { autopilot, plant, noise, trajectory, tick: 0, outcome }
+    }
+
+    /// What the firmware's sensor sees now.
+    #[inline]
+    pub fn sense(&mut self) -> SensorFrame {
+        sense(&self.plant.motion(), self.noise.at(self.tick))
+    }
+
+    /// One tick: sense, control, record, move. Returns false once the vehicle is lost.
+    #[inline]
+    pub fn step<R: Recorder>(&mut self, recorder: &mut R) -> bool {
+        let sample = self.sense();
+        let inner = *self.autopilot.tick(Some(&sample));
+        let outer = self.autopilot.inner.outer_output();
+        if R::ENABLED {
+            let row = self.row(&inner, outer);
+            self.outcome.survived &= is_tracking(&row);
+            recorder.record(&row);
+        }
+        self.actuate(&inner);
+        self.outcome.survived
+    }
+
+    /// Second half of a tick: the motor command acts on the plant until the next.
+    #[inline]
+    pub fn actuate(&mut self, inner: &InnerOutput) {
+        let command = inner.motors.omega_rad_s.map(f64::from);
+        self.plant.step(&command, &self.noise.at(self.tick).push, TICK_S_EXACT);
+        self.outcome.saturated_ticks += u32::from(inner.saturated);
+        self.tick += 1;
+        self.outcome.ticks = self.tick;
+    }
+
+    /// Flies `ticks` ticks, or until the vehicle is lost.
+    pub fn run<R: Recorder>(&mut self, ticks: u32, recorder: &mut R) -> Outcome {
+        for _ in 0..ticks {
+            if !self.step(recorder) {
+                break;
+            }
+        }
+        self.outcome
+    }
+
+    /// The record of this tick, with what the firmware has made of it.
+    pub fn row(&self, inner: &InnerOutput, outer: &OuterOutput) -> Row {
+        let motion = self.plant.motion();
+        let t = time(self.tick);
+        let command: [f64; ROTORS] = inner.motors.omega_rad_s.map(f64::from);
+        let omega = self.plant.omega_during(&command);
+        Row {
+            t,
+            position: motion.position.into(),
+            velocity: motion.velocity.into(),
+            attitude: [motion.attitude.w, motion.attitude.i, motion.attitude.j, motion.attitude.k],
+            rates: motion.rates.into(),
+            omega,
+            omega_command: command,
+            reference: reference::at(&self.trajectory, self.flight_time(t)),
+            desired_attitude: outer.attitude.angles.map(f64::from).into(),
+            u: inner.demand.as_array().map(f64::from),
+            s: [inner.s.x, inner.s.y, inner.s.z, outer.s.x, outer.s.y, outer.s.z].map(f64::from),
+        }
+    }
+
+    /// Time on the flight's clock, s: 0 while disarmed.
+    fn flight_time(&self, t: f64) -> f64 {
+        let start = self.autopilot.inner.commander_output().flight_start;
+        start.map_or(0.0, |start| t - time(start))
+    }
+
+    /// How the flight has gone so far.
+    pub fn outcome(&self) -> Outcome {
+        self.outcome
+    }
+}
+
+/// Time of a tick, s: correctly rounded, so that it prints as k/1000.
+#[inline]
+fn time(tick: Tick) -> f64 {
+    f64::from(tick) * f64::from(TICK_US) / 1e6
+}
+
+/// An ideal sensor, with the disturbances that a scenario puts on its outputs.
+#[inline]
+fn sense(motion: &Motion, disturbed: &Disturbed) -> SensorFrame {
+    let mut measured = *motion;
+    measured.position += disturbed.position;
+    if disturbed.angles != Vector3::zeros() {
+        let (roll, pitch, yaw) = UnitQuaternion::new_normalize(motion.attitude).euler_angles();
+        let angles = Vector3::new(roll, pitch, yaw) + disturbed.angles;
+        measured.attitude = UnitQuaternion::from_euler_angles(angles.x, angles.y, angles.z).into_inner();
+    }
+    SensorFrame { nav: measured.as_nav() }
+}
+
+fn is_tracking(row: &Row) -> bool {
+    let error = |i: usize| (row.position[i] - row.reference[i]).abs();
+    (0..3).all(|i| error(i) < LOST_M) && row.rates.iter().all(|rate| rate.is_finite())
+}

@@ -1,0 +1,232 @@
+"""The vehicle as a MAVLink client sees it, by pymavlink over UDP."""
+
+import math
+import random
+import socket
+import statistics
+import subprocess
+
+import pytest
+from pymavlink.dialects.v20 import common as mavlink
+
+from conftest import HANG_S, Station
+
+ARM_DISARM = mavlink.MAV_CMD_COMPONENT_ARM_DISARM
+FORCE = 21196
+# Commands that exist in MAVLink and are not supported here.
+UNSUPPORTED = [mavlink.MAV_CMD_DO_SET_SERVO, mavlink.MAV_CMD_NAV_WAYPOINT, mavlink.MAV_CMD_IMAGE_START_CAPTURE]
+# A message that QGroundControl asks for and that there is none of.
+COMPONENT_METADATA = 397
+HOVER_Z_M = -2.0
+PREARM_CHECK = 0x10000000
+
+
+def is_armed(heartbeat):
+    return bool(heartbeat.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED)
+
+
+def arm(station):
+    station.command_long(ARM_DISARM, 1)
+    assert station.ack(ARM_DISARM) == mavlink.MAV_RESULT_ACCEPTED
+    station.wait("HEARTBEAT", is_armed, within_ms=2_500)
+
+
+def climb(station):
+    arm(station)
+    station.wait("LOCAL_POSITION_NED", lambda position: abs(position.z - HOVER_Z_M) < 0.1)
+
+
+def test_heartbeat_is_a_px4_quadrotors(vehicle, station):
+    heartbeat = station.wait("HEARTBEAT")
+    assert (heartbeat.get_srcSystem(), heartbeat.get_srcComponent()) == (1, 1)
+    assert heartbeat.type == mavlink.MAV_TYPE_QUADROTOR
+    assert heartbeat.autopilot == mavlink.MAV_AUTOPILOT_PX4
+    assert heartbeat.base_mode & mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+    assert not is_armed(heartbeat)
+    assert heartbeat.system_status == mavlink.MAV_STATE_STANDBY
+    assert heartbeat.custom_mode >> 16 & 0xFF in range(1, 8), "a main mode of PX4"
+    assert heartbeat.mavlink_version == 3
+
+
+def test_heartbeat_comes_once_a_second(vehicle, station):
+    times = [before for before, message in station.collect(8_000) if message.get_type() == "HEARTBEAT"]
+    gaps = [b - a for a, b in zip(times, times[1:])]
+    assert len(gaps) >= 5
+    # The heartbeat itself has no time stamp: known to within the 20 ms between those of the position.
+    assert all(abs(gap - 1000) <= 40 for gap in gaps), gaps
+
+
+@pytest.mark.parametrize("kind", ["ATTITUDE", "LOCAL_POSITION_NED"])
+def test_motion_comes_at_50_hz(vehicle, station, kind):
+    times = [message.time_boot_ms for _, message in station.collect(4_000) if message.get_type() == kind]
+    gaps = [b - a for a, b in zip(times, times[1:])]
+    assert len(gaps) >= 190
+    assert statistics.median(gaps) == 20
+    # UDP may lose one; what comes is in step all the same.
+    assert all(gap > 0 and gap % 20 == 0 for gap in gaps), gaps
+
+
+def test_status_says_that_it_may_be_armed_and_is_on_the_ground(vehicle, station):
+    status = station.wait("SYS_STATUS", lambda status: status.onboard_control_sensors_health & PREARM_CHECK)
+    assert status.onboard_control_sensors_present & PREARM_CHECK
+    assert (status.errors_count1, status.errors_count2, status.errors_count3, status.errors_count4) == (0, 0, 0, 0)
+    state = station.wait("EXTENDED_SYS_STATE")
+    assert state.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND
+
+
+def test_arming_is_acknowledged_and_shows_in_the_heartbeat(vehicle, station):
+    arm(station)
+    heartbeat = station.wait("HEARTBEAT")
+    assert is_armed(heartbeat) and heartbeat.system_status == mavlink.MAV_STATE_ACTIVE
+
+
+def test_it_climbs_to_two_metres_after_arming_and_holds(vehicle, station):
+    ground = station.wait("LOCAL_POSITION_NED")
+    assert math.dist((ground.x, ground.y, ground.z), (0, 0, 0)) < 0.1
+    climb(station)
+    state = station.wait("EXTENDED_SYS_STATE", within_ms=1_500)
+    assert state.landed_state == mavlink.MAV_LANDED_STATE_IN_AIR
+    # The climb may overshoot; two seconds later it is to have settled.
+    station.collect(2_000)
+    for _, message in station.collect(3_000):
+        if message.get_type() == "LOCAL_POSITION_NED":
+            assert math.dist((message.x, message.y, message.z), (0, 0, HOVER_Z_M)) < 0.1, message
+        if message.get_type() == "ATTITUDE":
+            assert abs(message.roll) < 0.1 and abs(message.pitch) < 0.1, message
+
+
+def test_disarming_in_the_air_is_refused_with_a_reason(vehicle, station):
+    climb(station)
+    station.command_long(ARM_DISARM, 0)
+    assert station.ack(ARM_DISARM) == mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+    assert "in the air" in station.wait("STATUSTEXT", within_ms=500).text
+    assert is_armed(station.wait("HEARTBEAT"))
+
+
+def test_forced_disarming_in_the_air_is_done(vehicle, station):
+    climb(station)
+    station.command_long(ARM_DISARM, 0, FORCE)
+    assert station.ack(ARM_DISARM) == mavlink.MAV_RESULT_ACCEPTED
+    assert not is_armed(station.wait("HEARTBEAT"))
+
+
+def test_disarming_on_the_ground_is_accepted_in_either_form(vehicle, station):
+    station.command_long(ARM_DISARM, 0, math.nan, target=(1, 0))
+    assert station.ack(ARM_DISARM) == mavlink.MAV_RESULT_ACCEPTED
+    station.command_int(ARM_DISARM, 0, math.nan)
+    assert station.ack(ARM_DISARM) == mavlink.MAV_RESULT_ACCEPTED
+
+
+@pytest.mark.parametrize("param1", [math.nan, 0.5, 7.0])
+def test_neither_arming_nor_disarming_is_denied(vehicle, station, param1):
+    station.command_long(ARM_DISARM, param1)
+    assert station.ack(ARM_DISARM) == mavlink.MAV_RESULT_DENIED
+
+
+@pytest.mark.parametrize("form", ["command_long", "command_int"])
+def test_unsupported_commands_are_answered(vehicle, station, form):
+    for command in [*UNSUPPORTED, 65535]:
+        getattr(station, form)(command, math.nan)
+        assert station.ack(command) == mavlink.MAV_RESULT_UNSUPPORTED, command
+
+
+def test_mavlink_1_is_understood(vehicle, station):
+    message = station.mav.command_long_encode(1, 1, UNSUPPORTED[0], 0, 0, 0, 0, 0, 0, 0, 0)
+    station.write(message.pack(station.mav, force_mavlink1=True))
+    assert station.ack(UNSUPPORTED[0]) == mavlink.MAV_RESULT_UNSUPPORTED
+
+
+def test_commands_for_others_are_ignored(vehicle, station):
+    theirs, ours = UNSUPPORTED[0], UNSUPPORTED[1]
+    for target in [(2, 1), (1, 2), (255, 190)]:
+        station.command_long(theirs, target=target)
+    station.command_long(ours, target=(0, 0))
+    acks = [message.command for _, message in station.collect(1_000) if message.get_type() == "COMMAND_ACK"]
+    assert acks == [ours]
+
+
+def test_messages_come_on_request(vehicle, station):
+    station.command_long(mavlink.MAV_CMD_REQUEST_MESSAGE, mavlink.MAVLINK_MSG_ID_AUTOPILOT_VERSION, math.nan)
+    assert station.ack(mavlink.MAV_CMD_REQUEST_MESSAGE) == mavlink.MAV_RESULT_ACCEPTED
+    version = station.wait("AUTOPILOT_VERSION", within_ms=500)
+    capabilities = mavlink.MAV_PROTOCOL_CAPABILITY_COMMAND_INT | mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2
+    assert version.capabilities == capabilities
+    station.command_long(mavlink.MAV_CMD_REQUEST_MESSAGE, COMPONENT_METADATA)
+    assert station.ack(mavlink.MAV_CMD_REQUEST_MESSAGE) == mavlink.MAV_RESULT_UNSUPPORTED
+
+
+def test_intervals_can_be_set_and_given_back(vehicle, station):
+    for interval_us, gap_ms in [(100_000, 100), (0, 20)]:
+        station.command_long(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, mavlink.MAVLINK_MSG_ID_ATTITUDE, interval_us)
+        assert station.ack(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL) == mavlink.MAV_RESULT_ACCEPTED
+        times = [m.time_boot_ms for _, m in station.collect(2_000) if m.get_type() == "ATTITUDE"]
+        assert statistics.median(b - a for a, b in zip(times[1:], times[2:])) == gap_ms
+    station.command_long(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, mavlink.MAVLINK_MSG_ID_ATTITUDE, -1)
+    assert station.ack(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL) == mavlink.MAV_RESULT_ACCEPTED
+    assert all(message.get_type() != "ATTITUDE" for _, message in station.collect(500)[10:])
+
+
+def test_there_is_no_mission_and_it_says_so(vehicle, station):
+    for mission_type in (0, 1, 2):
+        station.mav.mission_request_list_send(1, 1, mission_type)
+        count = station.wait("MISSION_COUNT", lambda m: m.mission_type == mission_type, within_ms=500)
+        assert (count.count, count.target_system) == (0, station.SYSTEM)
+
+
+def test_time_is_told(vehicle, station):
+    station.mav.timesync_send(0, 123_456_789)
+    answer = station.wait("TIMESYNC", within_ms=500)
+    assert answer.ts1 == 123_456_789
+    assert abs(answer.tc1 / 1e6 - station.now_ms) < 500
+
+
+def test_garbage_is_survived(vehicle, station):
+    generator = random.Random(1)
+    for _ in range(50):
+        station.write(generator.randbytes(generator.randrange(1, 300)))
+        station.write(bytes([0xFD, 255, 0, 0]) * 20)
+    # The longest thing that the garbage may look like the beginning of is given up after 100 ms each.
+    station.collect(3_000)
+    station.command_long(UNSUPPORTED[0])
+    assert station.ack(UNSUPPORTED[0]) == mavlink.MAV_RESULT_UNSUPPORTED
+    assert not is_armed(station.wait("HEARTBEAT"))
+
+
+def test_a_repeated_command_is_answered_again_and_changes_nothing(vehicle, station):
+    climb(station)
+    station.collect(2_000)
+    for _ in range(3):
+        station.command_long(ARM_DISARM, 1, confirmation=0)
+        assert station.ack(ARM_DISARM) == mavlink.MAV_RESULT_ACCEPTED
+    # Had the flight begun anew, it would be on its way to the ground.
+    for _, message in station.collect(1_000):
+        if message.get_type() == "LOCAL_POSITION_NED":
+            assert abs(message.z - HOVER_Z_M) < 0.1
+
+
+def test_two_stations_are_both_served(vehicle, station):
+    """The second one is not among the peers: it is answered because it has spoken."""
+    station.wait("HEARTBEAT")
+    second = Station()
+    try:
+        second.vehicle = station.vehicle
+        second.command_long(UNSUPPORTED[0])
+        assert second.ack(UNSUPPORTED[0], within_ms=1_000) == mavlink.MAV_RESULT_UNSUPPORTED
+        station.wait("HEARTBEAT")
+    finally:
+        second.close()
+
+
+def test_a_busy_port_is_one_line_and_exit_code_2(simulator_path):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as busy:
+        busy.bind(("127.0.0.1", 0))
+        address = "127.0.0.1:%d" % busy.getsockname()[1]
+        done = subprocess.run(
+            [str(simulator_path), "serve", "--listen", address, "--peer", "127.0.0.1:9"],
+            capture_output=True,
+            text=True,
+            timeout=HANG_S,
+        )
+    assert done.returncode == 2
+    assert address in done.stderr and "--listen" in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1, done.stderr
