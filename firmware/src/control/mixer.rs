@@ -47,6 +47,9 @@ fn non_finite(demand: &ControlInput) -> MixerError {
     MixerError::NonFinite(culprit.map_or("demand", |(name, _)| name))
 }
 
+/// Greatest entry of (B Bᵀ)⁻¹, rows of unit size: beyond it f32 leaves less than three digits of the inverse.
+const INVERSE_MAX: f32 = 1e4;
+
 /// A range of numbers, empty where low > high.
 #[derive(Clone, Copy)]
 struct Interval {
@@ -93,10 +96,11 @@ impl<const N: usize> Mixer<N> {
             }
         }
         let square: Matrix4<f32> = b * b.transpose();
-        if square.determinant() < 1e-6 {
+        let square_inverse = square.try_inverse().ok_or(MixerError::Singular)?;
+        if !square_inverse.iter().all(|v| math::abs(*v) < INVERSE_MAX) {
             return Err(MixerError::Singular);
         }
-        let inverse = b.transpose() * square.try_inverse().ok_or(MixerError::Singular)?;
+        let inverse = b.transpose() * square_inverse;
         let [s1, s2, s3, s4] = scale;
         let column = |j: usize, scale: f32| core::array::from_fn(|i| inverse[(i, j)] * scale);
         Ok(Self {
