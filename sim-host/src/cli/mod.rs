@@ -11,6 +11,7 @@ mod plan;
 mod run;
 mod scenarios;
 mod serve;
+mod sweep;
 
 use std::io::Write as _;
 use std::net::SocketAddr;
@@ -53,6 +54,19 @@ enum Command {
         #[arg(long, default_value_t = 5)]
         runs: usize,
         /// Print a JSON object.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Scale a scenario's disturbance up until it fails.
+    Sweep {
+        /// Name of a built-in scenario, or path of a file.
+        scenario: String,
+        /// Seed of the random numbers.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        #[command(flatten)]
+        settings: Settings,
+        /// Print a JSON array.
         #[arg(long)]
         json: bool,
     },
@@ -177,6 +191,7 @@ pub fn main() -> ExitCode {
         Some(Command::Serve(args)) => serve::run(&args),
         Some(Command::Pil(args)) => pil::run(&args),
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
+        Some(Command::Sweep { scenario, seed, settings, json }) => sweep::run(&scenario, seed, &settings.set, json),
         Some(Command::Plan { scenario, seed, flights, settings }) => plan::run(&scenario, seed, flights, &settings.set),
     };
     match result {
