@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn the_sweep_brackets_the_failure() {
         // Fast: the lockstep plant, 1.5 s, 0.5 s of it disturbed.
-        let settings = ["duration_s=3", "disturbance={from_s=2.0,to_s=2.5,hold_s=0.001,acceleration_m_s2=20.0}"];
+        let settings = ["duration_s=3", "disturbance={from_s=2.0,to_s=2.5,hold_s=0.001,acceleration_m_s2=0.1}"];
         let scenario = Scenario::load("helix", &settings.map(String::from)).expect("valid");
         let flown = sweep(&scenario, 1, 3).expect("disturbed");
         let most_held = flown.iter().filter(|s| s.held).map(|s| s.factor).fold(0.0, f64::max);
