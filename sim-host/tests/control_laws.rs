@@ -94,11 +94,8 @@ fn eq_25_to_27_make_each_attitude_surface_reach_by_its_law() {
     for _ in 0..20_000 {
         let gains = [draw.gains(), draw.gains(), draw.gains()];
         let (angles, rates, spin) = (draw.vector(0.7), draw.vector(6.0), draw.number(-60.0, 60.0));
-        let reference = EulerReference {
-            angles: draw.vector(0.7),
-            rates: draw.vector(6.0),
-            accelerations: draw.vector(100.0),
-        };
+        let reference =
+            EulerReference { angles: draw.vector(0.7), rates: draw.vector(6.0), accelerations: draw.vector(100.0) };
         let demand = attitude::demand(&gains, &reference, &angles, &rates);
         let u = attitude::torque(&Airframe::paper(2.0), &demand.acceleration, &rates, spin);
         let acceleration = eq2_rotation(&rates.cast(), &u.cast(), f64::from(spin));
