@@ -184,7 +184,11 @@ fn parse_seeds(text: &str) -> Result<Seeds> {
 
 /// Runs the program.
 pub fn main() -> ExitCode {
-    let result = match Cli::parse().command {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refuse(&error),
+    };
+    let result = match cli.command {
         None => demo::run(),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Scenarios { json }) => scenarios::run(json),
@@ -201,6 +205,20 @@ pub fn main() -> ExitCode {
             ExitCode::from(if pil::is_finding(&error) { 1 } else { 2 })
         }
     }
+}
+
+/// Help and version as clap prints them; its complaints, which take several lines, in one.
+fn refuse(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        let _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = error.to_string();
+    let complaint: Vec<&str> =
+        text.lines().map(str::trim).take_while(|line| !line.is_empty() && !line.starts_with("Usage:")).collect();
+    let complaint = complaint.join(" ");
+    eprintln!("sim-host: {} (see --help)", complaint.trim_start_matches("error: "));
+    ExitCode::from(2)
 }
 
 fn one_line(error: &anyhow::Error) -> String {
