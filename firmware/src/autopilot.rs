@@ -7,12 +7,13 @@
 //! partitions.
 
 use crate::commander::{Commander, CommanderInput, CommanderOutput, Commands, Replies, Request};
-use crate::config::{ConfigError, FlightConfig};
+use crate::config::FlightConfig;
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::outer::{Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, GROUND, Mailbox, OUTER};
 use crate::signals::{SensorFrame, Tick};
+use crate::validate::ConfigError;
 
 /// All that the partitions share.
 #[derive(Clone, Debug)]
@@ -117,7 +118,10 @@ impl InnerTask {
         }
         if let Some(output) = mail.commander.publish(tick) {
             self.kill &= output.flight_start.is_some();
-            self.replies.extend(output.replies.iter().take(self.replies.capacity() - self.replies.len()).copied());
+            for reply in &output.replies {
+                // What does not fit is lost; the sender asks again.
+                let _ = self.replies.push(*reply);
+            }
             self.commander = output;
         }
         if let Some(output) = mail.ground.publish(tick) {

@@ -6,12 +6,13 @@
 use nalgebra::Vector3;
 
 use crate::airframe::{Airframe, ROTORS};
-use crate::config::{ConfigError, FlightConfig};
+use crate::config::FlightConfig;
 use crate::control::attitude::{self, Euler, EulerReference};
 use crate::control::mixer::Mixer;
 use crate::control::sliding::AxisGains;
 use crate::math;
 use crate::signals::{AttitudeReference, ControlInput, MotorCommand, NavState, SensorFrame, TICK_S, Tick};
+use crate::validate::ConfigError;
 
 /// After this many ticks without a valid sample the motion is no longer trusted.
 pub const STALE_AFTER: u32 = 50;
@@ -105,7 +106,7 @@ impl Inner {
         };
         let euler = Euler::from_quaternion(&self.nav.attitude);
         let rates = euler.rates(&self.nav.rates);
-        let wanted = attitude::demand(&self.gains, &target, &euler.angles, &rates);
+        let wanted = attitude::demand(&self.gains, &target, &euler.angles(), &rates);
         let acceleration = euler.body_acceleration(&rates, &wanted.acceleration);
         let spin = self.airframe.rotor_spin_rad_s(&self.output.motors.omega_rad_s);
         let torque = attitude::torque(&self.airframe, &acceleration, &self.nav.rates, spin);
