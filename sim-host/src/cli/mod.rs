@@ -78,7 +78,7 @@ enum Command {
         #[arg(long, default_value_t = 1)]
         seed: u64,
         /// Flights to spend at most.
-        #[arg(long, default_value_t = 30_000)]
+        #[arg(long, default_value_t = 60_000)]
         flights: usize,
         #[command(flatten)]
         settings: Settings,
