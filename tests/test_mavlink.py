@@ -52,18 +52,18 @@ def test_heartbeat_comes_once_a_second(vehicle, station):
     times = [before for before, message in station.collect(8_000) if message.get_type() == "HEARTBEAT"]
     gaps = [b - a for a, b in zip(times, times[1:])]
     assert len(gaps) >= 5
-    # The heartbeat itself has no time stamp: known to within the 20 ms between those of the position.
-    assert all(abs(gap - 1000) <= 40 for gap in gaps), gaps
+    # The heartbeat itself has no time stamp: known to within the 50 ms between those of the position.
+    assert all(abs(gap - 1000) <= 100 for gap in gaps), gaps
 
 
 @pytest.mark.parametrize("kind", ["ATTITUDE", "LOCAL_POSITION_NED"])
-def test_motion_comes_at_50_hz(vehicle, station, kind):
+def test_motion_comes_at_20_hz(vehicle, station, kind):
     times = [message.time_boot_ms for _, message in station.collect(4_000) if message.get_type() == kind]
     gaps = [b - a for a, b in zip(times, times[1:])]
-    assert len(gaps) >= 190
-    assert statistics.median(gaps) == 20
+    assert len(gaps) >= 75
+    assert statistics.median(gaps) == 50
     # UDP may lose one; what comes is in step all the same.
-    assert all(gap > 0 and gap % 20 == 0 for gap in gaps), gaps
+    assert all(gap > 0 and gap % 50 == 0 for gap in gaps), gaps
 
 
 def test_status_says_that_it_may_be_armed_and_is_on_the_ground(vehicle, station):

@@ -117,7 +117,10 @@ impl InnerTask {
         }
         if let Some(output) = mail.commander.publish(tick) {
             self.kill &= output.flight_start.is_some();
-            self.replies.extend(output.replies.iter().take(self.replies.capacity() - self.replies.len()).copied());
+            for reply in &output.replies {
+                // What does not fit is lost; the sender asks again.
+                let _ = self.replies.push(*reply);
+            }
             self.commander = output;
         }
         if let Some(output) = mail.ground.publish(tick) {

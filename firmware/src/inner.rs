@@ -105,7 +105,7 @@ impl Inner {
         };
         let euler = Euler::from_quaternion(&self.nav.attitude);
         let rates = euler.rates(&self.nav.rates);
-        let wanted = attitude::demand(&self.gains, &target, &euler.angles, &rates);
+        let wanted = attitude::demand(&self.gains, &target, &euler.angles(), &rates);
         let acceleration = euler.body_acceleration(&rates, &wanted.acceleration);
         let spin = self.airframe.rotor_spin_rad_s(&self.output.motors.omega_rad_s);
         let torque = attitude::torque(&self.airframe, &acceleration, &self.nav.rates, spin);

@@ -15,12 +15,14 @@
 //!
 //! Each partition is a struct that owns its state and has one step function: plain data in, plain data out, no
 //! clock, no I/O. [`schedule`] says when its inputs are read and its outputs take effect, [`autopilot`] puts the
-//! partitions together. World frame NWU, body frame FLU, SI units; [`frames`] alone knows MAVLink's.
+//! partitions together; `board` gives them tasks, sensors and rotors. World frame NWU, body frame FLU, SI units; [`frames`] alone knows MAVLink's.
 
 #![cfg_attr(not(test), no_std)]
 
 pub mod airframe;
 pub mod autopilot;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+pub mod board;
 pub mod commander;
 pub mod config;
 pub mod control;
@@ -29,6 +31,10 @@ pub mod guidance;
 pub mod inner;
 pub mod math;
 pub mod mavlink;
+pub mod meter;
 pub mod outer;
+pub mod pil;
+pub mod rotors;
 pub mod schedule;
+pub mod selftest;
 pub mod signals;

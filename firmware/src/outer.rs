@@ -13,7 +13,7 @@ use crate::control::position::{self, PositionGains};
 use crate::guidance::Guidance;
 use crate::math;
 use crate::schedule::OUTER;
-use crate::signals::{AttitudeReference, FlatReference, NavState, TICK_S, Tick};
+use crate::signals::{AttitudeReference, NavState, TICK_S, Tick};
 
 /// Snapshot for the outer partition.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +33,6 @@ pub struct OuterOutput {
     pub attitude: AttitudeReference,
     /// Sliding variables sx, sy, sz, m/s.
     pub s: Vector3<f32>,
-    /// Where the vehicle ought to be.
-    pub reference: FlatReference,
     /// True if the force that control asks for had to be limited.
     pub limited: bool,
 }
@@ -46,6 +44,7 @@ pub struct Outer {
     gains: PositionGains,
     guidance: Guidance,
     force_max: f32,
+    tan_tilt_max: f32,
 }
 
 /// Position, velocity, acceleration and thrust axis when the output takes effect.
@@ -64,10 +63,12 @@ impl Outer {
     /// # Errors
     /// What of the trajectory or the joining path is out of its range.
     pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
+        let (sin_tilt, cos_tilt) = math::sin_cos(config.position.tilt_max_rad);
         Ok(Self {
             airframe: config.airframe,
             gains: config.position,
             guidance: Guidance::new(config.trajectory, config.join.as_ref(), config.start_position())?,
+            tan_tilt_max: sin_tilt / cos_tilt,
             force_max: config.airframe.thrust_max_n() / config.airframe.mass_kg,
         })
     }
@@ -80,7 +81,6 @@ impl Outer {
             return OuterOutput {
                 attitude: AttitudeReference::level(now.heading, 0.0),
                 s: Vector3::zeros(),
-                reference: FlatReference::standing(now.position, now.heading),
                 limited: false,
             };
         };
@@ -89,7 +89,7 @@ impl Outer {
         let demand = position::demand(axes, &self.airframe, &reference, &now.position, &now.velocity);
         let mut profile =
             position::force_profile(axes, &self.airframe, &reference, &demand, &now.velocity, &now.acceleration);
-        let (force, limited) = position::limit_force(&demand.force, self.force_max, self.gains.tilt_max_rad);
+        let (force, limited) = position::limit_force(&demand.force, self.force_max, self.tan_tilt_max);
         profile.force = force;
         if limited {
             profile.rate = Vector3::zeros();
@@ -110,7 +110,6 @@ impl Outer {
                 thrust_rate_n_s: mass * profile.rate.dot(&now.thrust_axis),
             },
             s: demand.s,
-            reference,
             limited,
         }
     }
@@ -130,7 +129,7 @@ impl Outer {
             velocity: nav.velocity + acceleration * dt,
             acceleration,
             thrust_axis: axis + axis_rate * dt,
-            heading: euler.angles.z + heading_rate * dt,
+            heading: euler.heading() + heading_rate * dt,
             heading_rate,
         }
     }

@@ -45,7 +45,7 @@ pub struct Mailbox<I, O> {
     overruns: u32,
 }
 
-impl<I, O: Clone> Mailbox<I, O> {
+impl<I, O> Mailbox<I, O> {
     /// An empty mailbox.
     pub const fn new(timing: Timing) -> Self {
         Self { timing, input: None, job: Job::Idle, overruns: 0 }
@@ -54,19 +54,17 @@ impl<I, O: Clone> Mailbox<I, O> {
     /// Step 1 of a tick: the output that is due now, if its job has finished. Counts an overrun if it has not.
     #[inline]
     pub fn publish(&mut self, tick: Tick) -> Option<O> {
-        match &self.job {
-            Job::Running(released) if tick.wrapping_sub(*released) >= self.timing.offset => {
-                self.job = Job::Late;
-                self.overruns = self.overruns.saturating_add(1);
-                None
-            }
-            Job::Done(released, output) if tick.wrapping_sub(*released) >= self.timing.offset => {
-                let output = output.clone();
-                self.job = Job::Idle;
-                Some(output)
-            }
-            _ => None,
+        let (Job::Running(released) | Job::Done(released, _)) = &self.job else { return None };
+        if tick.wrapping_sub(*released) < self.timing.offset {
+            return None;
         }
+        // Moved, not copied: an output may hold hundreds of bytes.
+        if let Job::Done(_, output) = core::mem::replace(&mut self.job, Job::Late) {
+            self.job = Job::Idle;
+            return Some(output);
+        }
+        self.overruns = self.overruns.saturating_add(1);
+        None
     }
 
     /// True if the partition is to be released at `tick`: its period says so, and its last job has ended.

@@ -6,6 +6,8 @@ pub mod decoupled;
 pub mod flight;
 pub mod link;
 pub mod noise;
+#[cfg(unix)]
+pub mod pil;
 pub mod plan;
 pub mod plant;
 pub mod record;

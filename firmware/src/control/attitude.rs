@@ -11,15 +11,15 @@ use crate::airframe::Airframe;
 use crate::control::sliding::AxisGains;
 use crate::math;
 
-/// Euler angles with the sines and cosines that the laws need.
+/// Euler angles φ, θ, ψ, with `R = Rz(ψ)·Ry(θ)·Rx(φ)`, as the sines and cosines that the laws need.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Euler {
-    /// φ, θ, ψ, rad, with `R = Rz(ψ)·Ry(θ)·Rx(φ)`.
-    pub angles: Vector3<f32>,
     /// sin φ, cos φ.
     pub roll: (f32, f32),
     /// sin θ, cos θ.
     pub pitch: (f32, f32),
+    /// 1/cos θ.
+    pub sec_pitch: f32,
     /// sin ψ, cos ψ.
     pub yaw: (f32, f32),
 }
@@ -39,27 +39,43 @@ impl Euler {
         let (yaw_y, yaw_x) = (2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z));
         let inverse = 1.0 / cos_pitch;
         Self {
-            angles: Vector3::new(
-                math::atan2(roll_y, roll_x),
-                math::atan2(sin_pitch, cos_pitch),
-                math::atan2(yaw_y, yaw_x),
-            ),
             roll: (roll_y * inverse, roll_x * inverse),
             pitch: (sin_pitch, cos_pitch),
+            sec_pitch: inverse,
             yaw: (yaw_y * inverse, yaw_x * inverse),
         }
     }
 
     /// Of three angles, rad.
     pub fn from_angles(angles: Vector3<f32>) -> Self {
-        Self { angles, roll: math::sin_cos(angles.x), pitch: math::sin_cos(angles.y), yaw: math::sin_cos(angles.z) }
+        let (sin_pitch, cos_pitch) = math::sin_cos(angles.y);
+        Self {
+            roll: math::sin_cos(angles.x),
+            pitch: (sin_pitch, cos_pitch),
+            sec_pitch: 1.0 / math::max(cos_pitch, COS_PITCH_MIN),
+            yaw: math::sin_cos(angles.z),
+        }
+    }
+
+    /// φ, θ, ψ, rad.
+    #[inline]
+    pub fn angles(&self) -> Vector3<f32> {
+        let angle = |(sin, cos): (f32, f32)| math::atan2(sin, cos);
+        Vector3::new(angle(self.roll), angle(self.pitch), self.heading())
+    }
+
+    /// ψ, rad.
+    #[inline]
+    pub fn heading(&self) -> f32 {
+        let (sin, cos) = self.yaw;
+        math::atan2(sin, cos)
     }
 
     /// η̇ from the body rates Ω = (p, q, r).
     #[inline]
     pub fn rates(&self, body: &Vector3<f32>) -> Vector3<f32> {
-        let ((sin_roll, cos_roll), (sin_pitch, cos_pitch)) = (self.roll, self.pitch);
-        let yaw_rate = (body.y * sin_roll + body.z * cos_roll) / cos_pitch;
+        let ((sin_roll, cos_roll), (sin_pitch, _)) = (self.roll, self.pitch);
+        let yaw_rate = (body.y * sin_roll + body.z * cos_roll) * self.sec_pitch;
         Vector3::new(body.x + sin_pitch * yaw_rate, body.y * cos_roll - body.z * sin_roll, yaw_rate)
     }
 
@@ -73,7 +89,7 @@ impl Euler {
         let z_rate = cp * yaw;
         let z_acceleration = cp * a_yaw - sp * pitch * yaw;
         Vector3::new(
-            a_roll - sp * a_yaw - cp * pitch * yaw,
+            (a_roll - cp * pitch * yaw) - sp * a_yaw,
             cr * (a_pitch + roll * z_rate) + sr * (z_acceleration - roll * pitch),
             cr * (z_acceleration - roll * pitch) - sr * (a_pitch + roll * z_rate),
         )
@@ -130,8 +146,8 @@ pub fn torque(airframe: &Airframe, acceleration: &Vector3<f32>, rates: &Vector3<
     let (p, q, r) = (rates.x, rates.y, rates.z);
     let gyroscopic = airframe.rotor_inertia_kg_m2 * spin;
     Vector3::new(
-        ix * acceleration.x - (iy - iz) * q * r + k4 * p * math::abs(p) + gyroscopic * q,
-        iy * acceleration.y - (iz - ix) * p * r + k5 * q * math::abs(q) - gyroscopic * p,
-        iz * acceleration.z - (ix - iy) * p * q + k6 * r * math::abs(r),
+        (k4 * p * math::abs(p) - ((iy - iz) * r - gyroscopic) * q) + ix * acceleration.x,
+        (k5 * q * math::abs(q) - ((iz - ix) * r + gyroscopic) * p) + iy * acceleration.y,
+        (k6 * r * math::abs(r) - (ix - iy) * p * q) + iz * acceleration.z,
     )
 }

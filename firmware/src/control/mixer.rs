@@ -39,6 +39,17 @@ pub struct Mixer<const N: usize> {
     omega_sq_max: f32,
 }
 
+/// Names the field of a demand that is not finite.
+#[cold]
+fn non_finite(demand: &ControlInput) -> MixerError {
+    let names = ["thrust", "roll", "pitch", "yaw"];
+    let culprit = names.into_iter().zip(demand.as_array()).find(|(_, value)| !value.is_finite());
+    MixerError::NonFinite(culprit.map_or("demand", |(name, _)| name))
+}
+
+/// Greatest entry of (B Bᵀ)⁻¹, rows of unit size: beyond it f32 leaves less than three digits of the inverse.
+const INVERSE_MAX: f32 = 1e4;
+
 /// A range of numbers, empty where low > high.
 #[derive(Clone, Copy)]
 struct Interval {
@@ -85,10 +96,11 @@ impl<const N: usize> Mixer<N> {
             }
         }
         let square: Matrix4<f32> = b * b.transpose();
-        if square.determinant() < 1e-6 {
+        let square_inverse = square.try_inverse().ok_or(MixerError::Singular)?;
+        if !square_inverse.iter().all(|v| math::abs(*v) < INVERSE_MAX) {
             return Err(MixerError::Singular);
         }
-        let inverse = b.transpose() * square.try_inverse().ok_or(MixerError::Singular)?;
+        let inverse = b.transpose() * square_inverse;
         let [s1, s2, s3, s4] = scale;
         let column = |j: usize, scale: f32| core::array::from_fn(|i| inverse[(i, j)] * scale);
         Ok(Self {
@@ -112,10 +124,8 @@ impl<const N: usize> Mixer<N> {
     /// [`MixerError::NonFinite`] with the demand's field; nothing is allocated then.
     #[inline]
     pub fn allocate(&self, demand: &ControlInput) -> Result<Allocation<N>, MixerError> {
-        for (name, value) in ["thrust", "roll", "pitch", "yaw"].into_iter().zip(demand.as_array()) {
-            if !value.is_finite() {
-                return Err(MixerError::NonFinite(name));
-            }
+        if !math::all_finite(&demand.as_array()) {
+            return Err(non_finite(demand));
         }
         let torque: [f32; N] =
             core::array::from_fn(|i| self.roll[i] * demand.roll_n_m + self.pitch[i] * demand.pitch_n_m);
@@ -129,7 +139,7 @@ impl<const N: usize> Mixer<N> {
     /// Speeds for thrust and yaw on top of those for the torques (U2, U3).
     #[inline]
     fn speeds(&self, torque: &[f32; N], thrust: f32, yaw: f32) -> [f32; N] {
-        core::array::from_fn(|i| torque[i] + self.thrust[i] * thrust + self.yaw[i] * yaw)
+        core::array::from_fn(|i| torque[i] + (self.thrust[i] * thrust + self.yaw[i] * yaw))
     }
 
     fn allocate_limited(&self, torque: &[f32; N], demand: &ControlInput) -> [f32; N] {

@@ -107,15 +107,13 @@ pub fn force_profile(
 }
 
 /// A specific force brought within what the rotors can give: not below `FLOOR`, at most `force_max` in size,
-/// tilted at most `tilt_max`. Height is kept before horizontal acceleration. Returns whether a limit acted.
-pub fn limit_force(force: &Vector3<f32>, force_max: f32, tilt_max_rad: f32) -> (Vector3<f32>, bool) {
+/// tilted at most the angle of which the tangent is given. Height is kept before horizontal acceleration. Returns whether a limit acted.
+pub fn limit_force(force: &Vector3<f32>, force_max: f32, tan_tilt_max: f32) -> (Vector3<f32>, bool) {
     /// Least vertical part, as a part of the greatest force: the thrust axis must not point down.
     const FLOOR: f32 = 0.02;
     let vertical = math::clamp(force.z, FLOOR * force_max, force_max);
-    let (sin_tilt, cos_tilt) = math::sin_cos(tilt_max_rad);
     let by_size = math::sqrt(math::max(force_max * force_max - vertical * vertical, 0.0));
-    let by_tilt = vertical * sin_tilt / cos_tilt;
-    let limit = math::min(by_size, by_tilt);
+    let limit = math::min(by_size, vertical * tan_tilt_max);
     let horizontal = math::sqrt(force.x * force.x + force.y * force.y);
     let scale = if horizontal > limit { limit / horizontal } else { 1.0 };
     let limited = Vector3::new(force.x * scale, force.y * scale, vertical);

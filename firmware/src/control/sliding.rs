@@ -63,13 +63,13 @@ impl AxisGains {
     /// The reaching rate `K sw(s)`.
     #[inline]
     pub fn reach(&self, s: f32) -> f32 {
-        self.gain
-            * match self.switching {
-                Switching::Sgn => sgn(s),
-                Switching::Sat { rho } => math::clamp(s / rho, -1.0, 1.0),
-                Switching::Tanh { rho } => math::tanh(s / rho),
-                Switching::Power { alpha } => sgn(s) * math::shape_power(math::abs(s), alpha),
-            }
+        match self.switching {
+            Switching::Sgn => self.gain * sgn(s),
+            // K sat(s/ρ), with the division off the path from s to the result.
+            Switching::Sat { rho } => math::clamp(s * (self.gain / rho), -self.gain, self.gain),
+            Switching::Tanh { rho } => self.gain * math::tanh(s / rho),
+            Switching::Power { alpha } => self.gain * sgn(s) * math::shape_power(math::abs(s), alpha),
+        }
     }
 
     /// Slope `K dsw/ds` where it is of use to a feedforward: the layer's gain inside it, 0 where the law is

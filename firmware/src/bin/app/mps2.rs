@@ -1,0 +1,293 @@
+//! The RTIC application: every partition a task of its own priority, and nothing shared but the mailboxes.
+//!
+//! ```text
+//! priority  task       released by                     does
+//!        6  inner      TIMER0, 1 kHz                    sample, publish, release, control, rotors
+//!        5  receive    UART 0 has a byte                drains it towards the ground partition
+//!        4  outer      inner, every 4th tick            guidance and position control
+//!        3  commander  inner, every 20th tick           arming
+//!        2  ground     inner, every 10th tick           MAVLink
+//!        1  transmit   inner or UART 0 is free          drains what MAVLink has to say
+//!        –  idle                                        log
+//! ```
+//!
+//! A partition is released by pending an interrupt whose peripheral this board does not use: rate monotonic, and a
+//! release that comes while the job is still running is kept. The inner task does not log and does not wait: a
+//! log entry masks all interrupts while the host writes it.
+
+use core::panic::PanicInfo;
+
+// Brings in the start-up code, which nothing here calls by name.
+use cortex_m_rt as _;
+use defmt_semihosting as _;
+use firmware::board::{StartError, fault};
+use firmware::pil::Cause;
+
+use crate::drivers;
+
+#[rtic::app(device = firmware::board::mps2, peripherals = false)]
+mod app {
+    use embedded_io::{Read, ReadReady, Write, WriteReady};
+    use firmware::autopilot::{Autopilot, InnerTask, Mailboxes};
+    use firmware::board::mps2::{
+        COUNTS_PER_US, FreeRunning, Interrupt, PeriodicTimer, Peripherals, Uart, UartRx, UartTx,
+    };
+    use firmware::board::{Imu as _, Rotors as _, Start, StartError};
+    use firmware::commander::Commander;
+    use firmware::mavlink::{Ground, LoopTiming, TxBytes};
+    use firmware::meter::LoopMeter;
+    use firmware::outer::Outer;
+    use firmware::signals::TICK_US;
+    use heapless::spsc::{Consumer, Producer, Queue};
+
+    use crate::drivers::{self, Diagnostics, Imu, Rotors};
+
+    /// Room for a burst between two ticks: QEMU delivers as fast as the receiving task reads, whatever the baud rate.
+    const RECEIVE_BYTES: usize = 1024;
+    /// Jobs of the ground partition whose output may wait for the line: 150 ms of them.
+    const TRANSMIT_JOBS: usize = 16;
+
+    #[shared]
+    struct Shared {
+        mail: Mailboxes,
+        /// Jobs that outer has finished since inner last looked.
+        outer_jobs: u32,
+        /// The last full second, for the log.
+        timing: Option<LoopTiming>,
+    }
+
+    #[local]
+    struct Local {
+        top: Top,
+        uart_rx: UartRx,
+        received: Producer<'static, u8>,
+        outer: Outer,
+        commander: Commander,
+        ground: Ground,
+        busy_outer: Diagnostics,
+        busy_commander: Diagnostics,
+        busy_ground: Diagnostics,
+        line: Line,
+    }
+
+    /// What the inner task owns.
+    pub(crate) struct Top {
+        tick: PeriodicTimer,
+        clock: FreeRunning,
+        meter: LoopMeter,
+        imu: Imu,
+        rotors: Rotors,
+        flight: InnerTask,
+        received: Consumer<'static, u8>,
+        transmit: Producer<'static, TxBytes>,
+    }
+
+    /// What goes out on the serial port: jobs' outputs, the first one perhaps in part.
+    pub(crate) struct Line {
+        uart: UartTx,
+        waiting: Consumer<'static, TxBytes>,
+        current: TxBytes,
+        sent: usize,
+    }
+
+    /// The board's parts, the flight it is to fly, and the partitions made for it.
+    struct Boot {
+        tick: PeriodicTimer,
+        clock: FreeRunning,
+        uart: Uart,
+        start: Start<Imu, Rotors, Diagnostics>,
+        autopilot: Autopilot,
+    }
+
+    fn boot() -> Result<Boot, StartError> {
+        let Peripherals { tick, clock, uart, pwm } = Peripherals::take().ok_or(StartError::Peripherals)?;
+        let start = drivers::start(pwm, clock)?;
+        let autopilot = Autopilot::new(&start.config).map_err(StartError::Config)?;
+        Ok(Boot { tick, clock, uart, start, autopilot })
+    }
+
+    #[init(local = [
+        rx_queue: Queue<u8, RECEIVE_BYTES> = Queue::new(),
+        tx_queue: Queue<TxBytes, TRANSMIT_JOBS> = Queue::new(),
+    ])]
+    fn init(cx: init::Context) -> (Shared, Local) {
+        let Boot { mut tick, clock, uart, start, autopilot } = match boot() {
+            Ok(boot) => boot,
+            Err(error) => super::refuse(error),
+        };
+        drivers::answer(Ok(()));
+        defmt::info!("glissade {=str} is up", env!("CARGO_PKG_VERSION"));
+        let (received_in, received) = cx.local.rx_queue.split();
+        let (transmit, waiting) = cx.local.tx_queue.split();
+        let (uart_rx, uart) = uart.start();
+        let Start { imu, rotors, diagnostics, .. } = start;
+        let Autopilot { inner: flight, outer, commander, ground, mail } = autopilot;
+        tick.start(TICK_US);
+        let meter = LoopMeter::new(COUNTS_PER_US);
+        (
+            Shared { mail, outer_jobs: 0, timing: None },
+            Local {
+                top: Top { tick, clock, meter, imu, rotors, flight, received, transmit },
+                uart_rx,
+                received: received_in,
+                outer,
+                commander,
+                ground,
+                busy_outer: diagnostics,
+                busy_commander: diagnostics,
+                busy_ground: diagnostics,
+                line: Line { uart, waiting, current: TxBytes::new(), sent: 0 },
+            },
+        )
+    }
+
+    /// The tick.
+    #[task(binds = TIMER0, priority = 6, local = [top], shared = [mail, outer_jobs, timing])]
+    fn inner(mut cx: inner::Context) {
+        let top = cx.local.top;
+        top.tick.next();
+        let sample = top.imu.sample();
+        let outer_jobs = cx.shared.outer_jobs.lock(core::mem::take);
+        if let Some(timing) = top.meter.activation(top.clock.now(), outer_jobs) {
+            top.flight.report_timing(timing);
+            cx.shared.timing.lock(|shared| *shared = Some(timing));
+        }
+        top.take_received();
+        let (released, overruns) =
+            cx.shared.mail.lock(|mail| (top.flight.tick(mail, sample.as_ref()), mail.overruns()));
+        top.rotors.drive(&top.flight, overruns);
+        top.hand_over_transmit();
+        if released.outer {
+            rtic::pend(Interrupt::DUALTIMER);
+        }
+        if released.commander {
+            rtic::pend(Interrupt::SPI);
+        }
+        if released.ground {
+            rtic::pend(Interrupt::PORT0);
+        }
+    }
+
+    impl Top {
+        /// Bounded by the queue: the task that fills it cannot run meanwhile.
+        fn take_received(&mut self) {
+            while let Some(byte) = self.received.dequeue() {
+                self.flight.receive(&[byte]);
+            }
+        }
+
+        fn hand_over_transmit(&mut self) {
+            if self.flight.has_transmit() {
+                // A line slower than its messages loses whole jobs' worth of them, never part of a message.
+                let _ = self.transmit.enqueue(self.flight.take_transmit());
+                rtic::pend(Interrupt::UARTTX0);
+            }
+        }
+    }
+
+    #[task(binds = UARTRX0, priority = 5, local = [uart_rx, received])]
+    fn receive(cx: receive::Context) {
+        let (uart, received) = (cx.local.uart_rx, cx.local.received);
+        uart.acknowledge();
+        // In a loop: a byte that comes while this task runs may not interrupt again.
+        while let Ok(true) = uart.read_ready() {
+            let mut byte = [0];
+            if uart.read(&mut byte).is_ok() {
+                let [byte] = byte;
+                // MAVLink's checksum finds the gap that a lost byte leaves.
+                let _ = received.enqueue(byte);
+            }
+        }
+    }
+
+    #[task(binds = DUALTIMER, priority = 4, local = [outer, busy_outer], shared = [mail, outer_jobs])]
+    fn outer(mut cx: outer::Context) {
+        let Some((tick, input)) = cx.shared.mail.lock(|mail| mail.outer.take()) else { return };
+        let output = cx.local.outer.step(tick, &input);
+        cx.local.busy_outer.outer(tick);
+        cx.shared.mail.lock(|mail| mail.outer.finish(output));
+        cx.shared.outer_jobs.lock(|jobs| *jobs = jobs.saturating_add(1));
+    }
+
+    #[task(binds = SPI, priority = 3, local = [commander, busy_commander], shared = [mail])]
+    fn commander(mut cx: commander::Context) {
+        let Some((tick, input)) = cx.shared.mail.lock(|mail| mail.commander.take()) else { return };
+        let output = cx.local.commander.step(tick, &input);
+        cx.local.busy_commander.commander();
+        cx.shared.mail.lock(|mail| mail.commander.finish(output));
+    }
+
+    #[task(binds = PORT0, priority = 2, local = [ground, busy_ground], shared = [mail])]
+    fn ground(mut cx: ground::Context) {
+        let Some((tick, input)) = cx.shared.mail.lock(|mail| mail.ground.take()) else { return };
+        let output = cx.local.ground.step(tick, &input);
+        cx.local.busy_ground.ground();
+        cx.shared.mail.lock(|mail| mail.ground.finish(output));
+    }
+
+    #[task(binds = UARTTX0, priority = 1, local = [line])]
+    fn transmit(cx: transmit::Context) {
+        let line = cx.local.line;
+        line.uart.acknowledge();
+        while let (Ok(true), Some(byte)) = (line.uart.write_ready(), line.next()) {
+            let _ = line.uart.write(&[byte]);
+        }
+    }
+
+    impl Line {
+        /// The next byte to go.
+        fn next(&mut self) -> Option<u8> {
+            if self.sent >= self.current.len() {
+                self.current = self.waiting.dequeue()?;
+                self.sent = 0;
+            }
+            let byte = self.current.get(self.sent).copied();
+            self.sent += 1;
+            byte
+        }
+    }
+
+    #[idle(shared = [timing])]
+    fn idle(mut cx: idle::Context) -> ! {
+        loop {
+            if let Some(timing) = cx.shared.timing.lock(Option::take) {
+                let (shortest, longest) = timing.inner_period_us;
+                defmt::info!(
+                    "inner {=u16} Hz ({=u16}..{=u16} µs), outer {=u16} Hz",
+                    timing.inner_hz,
+                    shortest,
+                    longest,
+                    timing.outer_hz
+                );
+            }
+            rtic::export::wfi();
+        }
+    }
+}
+
+/// A board whose flight is refused does not start its loops.
+fn refuse(error: StartError) -> ! {
+    drivers::answer(Err(error));
+    defmt::error!("{}", defmt::Display2Format(&error));
+    fault::end()
+}
+
+#[panic_handler]
+fn panic(info: &PanicInfo) -> ! {
+    // The second time it was the log that failed.
+    if fault::stop_rotors() {
+        drivers::stopped(Cause::Panic);
+        defmt::error!("{}", defmt::Display2Format(info));
+    }
+    fault::end()
+}
+
+firmware::fault_handlers!(after_hard_fault);
+
+extern "C" fn after_hard_fault() -> ! {
+    if fault::stop_rotors() {
+        drivers::stopped(Cause::HardFault);
+        defmt::error!("hard fault");
+    }
+    fault::end()
+}

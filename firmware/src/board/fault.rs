@@ -1,0 +1,47 @@
+//! The end of a flight that cannot go on: rotors stopped first, then everything else.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+
+use super::mps2;
+
+/// Stops the rotors and everything that could start them again. True the first time; a second time something has
+/// gone wrong on the way out, and all that is left is [`end`].
+pub fn stop_rotors() -> bool {
+    static STOPPED: AtomicBool = AtomicBool::new(false);
+    cortex_m::interrupt::disable();
+    mps2::stop_all();
+    !STOPPED.swap(true, Ordering::Relaxed)
+}
+
+/// Ends the emulation with a failure.
+pub fn end() -> ! {
+    semihosting::process::exit(1)
+}
+
+/// Defines the handlers of hard faults and of interrupts that nobody expects; both call the given function of no
+/// arguments, an `extern "C" fn() -> !`.
+///
+/// It runs on a fresh stack: the old one may be why it is called. An application needs this once.
+#[macro_export]
+macro_rules! fault_handlers {
+    ($stopped:path) => {
+        $crate::fault_handlers!(@ HardFault, $stopped);
+        $crate::fault_handlers!(@ DefaultHandler, $stopped);
+    };
+    (@ $name:ident, $stopped:path) => {
+        // SAFETY: the name is one that cortex-m-rt's vector table asks for, and nothing else defines it.
+        // The function needs no prologue: it only moves the stack pointer to the top of the stack, whose contents
+        // are not needed any more because `$stopped` does not return, and jumps.
+        #[allow(unsafe_code, non_snake_case)]
+        #[unsafe(naked)]
+        #[unsafe(no_mangle)]
+        extern "C" fn $name() -> ! {
+            ::core::arch::naked_asm!(
+                "ldr r0, =_stack_start",
+                "mov sp, r0",
+                "b {stopped}",
+                stopped = sym $stopped,
+            )
+        }
+    };
+}

@@ -1,0 +1,168 @@
+//! Drivers for processor in the loop: IMU and rotors are the host, over two FIFOs by semihosting.
+//!
+//! A read blocks the emulated machine until the host answers, and takes no time of its own clock. The rotors of the
+//! board are driven all the same. See `pil` for the frames.
+
+use core::cell::RefCell;
+use core::ffi::CStr;
+
+use cortex_m::interrupt::{self, Mutex};
+use semihosting::fs::File;
+use semihosting::io::{Read, Write};
+
+use super::{Start, StartError, fault};
+use crate::airframe::ROTORS;
+use crate::autopilot::InnerTask;
+use crate::board::mps2::{FreeRunning, RecordingPwm};
+use crate::pil::{Answer, BusyWait, Cause, Fault, HELLO_BYTES, Hello, REPLY_BYTES, REQUEST_BYTES, Reply, Request};
+use crate::rotors::PwmRotors;
+use crate::signals::{SensorFrame, Tick};
+
+/// Longest path of the FIFOs' directory.
+const PATH_MAX: usize = 256;
+
+/// The FIFO to the host, once it is open: for the inner task, and for what stops it.
+static TO_HOST: Mutex<RefCell<Option<File>>> = Mutex::new(RefCell::new(None));
+
+/// Samples come from the host.
+pub struct Imu {
+    from_host: File,
+}
+
+impl super::Imu for Imu {
+    fn sample(&mut self) -> Option<SensorFrame> {
+        let mut bytes = [0; REQUEST_BYTES];
+        let request = self.from_host.read_exact(&mut bytes).ok().and_then(|()| Request::decode(&bytes));
+        match request {
+            Some(Request::Sample(sample)) => Some(sample),
+            Some(Request::Missing) => None,
+            Some(Request::Exit) => {
+                fault::stop_rotors();
+                semihosting::process::exit(0)
+            }
+            // The host has gone.
+            None => {
+                fault::stop_rotors();
+                fault::end()
+            }
+        }
+    }
+}
+
+/// Commands go to the host, and to the board's own outputs.
+pub struct Rotors {
+    pwm: PwmRotors<RecordingPwm>,
+}
+
+impl super::Rotors for Rotors {
+    fn drive(&mut self, flight: &InnerTask, overruns: [u32; 3]) {
+        // These outputs cannot fail.
+        let _ = self.pwm.set(&flight.inner_output().motors);
+        send(&Reply::of(flight, overruns).encode());
+    }
+}
+
+/// What the host wants done in the partitions beside their jobs.
+#[derive(Clone, Copy)]
+pub struct Diagnostics {
+    clock: FreeRunning,
+    busy: BusyWait,
+    fault: Option<(Tick, Fault)>,
+}
+
+impl Diagnostics {
+    /// In the outer partition's job.
+    pub fn outer(self, tick: Tick) {
+        self.clock.busy_wait(self.busy.outer_us);
+        if let Some((at, fault)) = self.fault
+            && tick >= at
+        {
+            provoke(fault);
+        }
+    }
+
+    /// In the commander's job.
+    pub fn commander(self) {
+        self.clock.busy_wait(self.busy.commander_us);
+    }
+
+    /// In the ground partition's job.
+    pub fn ground(self) {
+        self.clock.busy_wait(self.busy.ground_us);
+    }
+}
+
+/// The flight that the host wants, from the FIFOs in the directory that is the image's only argument.
+///
+/// # Errors
+/// The host cannot be reached, or its flight cannot be read.
+pub fn start(pwm: [RecordingPwm; ROTORS], clock: FreeRunning) -> Result<Start<Imu, Rotors, Diagnostics>, StartError> {
+    let arguments = semihosting::experimental::env::args::<PATH_MAX>().map_err(|_| StartError::NoHost)?;
+    let directory = (&arguments).next().and_then(Result::ok).ok_or(StartError::NoHost)?;
+    let to_host = open(directory, "from-image", |path| File::create(path))?;
+    interrupt::free(|section| TO_HOST.borrow(section).replace(Some(to_host)));
+    // Second, because it waits for the host: when the host has its end of this one, both are open.
+    let mut from_host = open(directory, "to-image", |path| File::open(path))?;
+    let mut bytes = [0; HELLO_BYTES];
+    from_host.read_exact(&mut bytes).map_err(|_| StartError::NoHost)?;
+    let Hello { config, busy, fault } = Hello::decode(&bytes).map_err(StartError::Hello)?;
+    let rotors = Rotors { pwm: PwmRotors::new(pwm, config.airframe.omega_max_rad_s) };
+    Ok(Start { config, imu: Imu { from_host }, rotors, diagnostics: Diagnostics { clock, busy, fault } })
+}
+
+/// Tells the host whether the flight begins.
+pub fn answer(result: Result<(), StartError>) {
+    let answer = match result {
+        Ok(()) => Answer::Ready,
+        Err(error) => Answer::refused(&error),
+    };
+    send(&answer.encode());
+}
+
+/// Tells the host that the rotors were stopped for good.
+pub fn stopped(cause: Cause) {
+    send(&Reply::stopped(cause).encode());
+}
+
+/// Opens a file of a directory by `how`.
+fn open(
+    directory: &str,
+    name: &str,
+    how: fn(&CStr) -> Result<File, semihosting::io::Error>,
+) -> Result<File, StartError> {
+    let mut path: heapless::Vec<u8, PATH_MAX> = heapless::Vec::new();
+    for part in [directory, "/", name, "\0"] {
+        path.extend_from_slice(part.as_bytes()).map_err(|_| StartError::NoHost)?;
+    }
+    let path = CStr::from_bytes_with_nul(&path).map_err(|_| StartError::NoHost)?;
+    how(path).map_err(|_| StartError::NoHost)
+}
+
+fn send(bytes: &[u8; REPLY_BYTES]) {
+    interrupt::free(|section| {
+        // Borrowed already only if this call comes from a fault in the middle of another: then there is no way out.
+        if let Ok(mut to_host) = TO_HOST.borrow(section).try_borrow_mut()
+            && let Some(file) = to_host.as_mut()
+        {
+            // A host that has gone is noticed at the next read.
+            let _ = file.write_all(bytes);
+        }
+    });
+}
+
+fn provoke(fault: Fault) {
+    match fault {
+        Fault::Panic => panic!("as the host wished"),
+        Fault::UndefinedInstruction => cortex_m::asm::udf(),
+        Fault::StackOverflow => {
+            core::hint::black_box(recurse(0));
+        }
+    }
+}
+
+#[allow(unconditional_recursion)]
+#[inline(never)]
+fn recurse(depth: u32) -> u32 {
+    let frame = core::hint::black_box([depth; 64]);
+    recurse(depth.wrapping_add(1)).wrapping_add(frame[0])
+}

@@ -1,0 +1,58 @@
+//! QEMU's mps2-an386 (Cortex-M4F at 25 MHz): the device as RTIC wants it, and drivers for what the application uses.
+
+mod device;
+mod pwm;
+mod timer;
+mod uart;
+
+pub use device::{Interrupt, NVIC_PRIO_BITS, interrupt};
+pub use pwm::{RecordingPwm, stop_all};
+pub use timer::{COUNTS_PER_US, FreeRunning, PeriodicTimer};
+pub use uart::{Uart, UartRx, UartTx};
+
+use core::sync::atomic::{AtomicBool, Ordering};
+
+use crate::airframe::ROTORS;
+
+/// What of the chip the application uses; there is one of each.
+pub struct Peripherals {
+    /// TIMER0: the tick.
+    pub tick: PeriodicTimer,
+    /// TIMER1: a clock that does not depend on the tick's being served.
+    pub clock: FreeRunning,
+    /// UART0.
+    pub uart: Uart,
+    /// One output a rotor.
+    pub pwm: [RecordingPwm; ROTORS],
+}
+
+impl Peripherals {
+    /// The peripherals, the first time it is called.
+    pub fn take() -> Option<Self> {
+        static TAKEN: AtomicBool = AtomicBool::new(false);
+        (!TAKEN.swap(true, Ordering::Relaxed)).then(|| {
+            let clock = FreeRunning::start();
+            Self { tick: PeriodicTimer::new(clock), clock, uart: Uart::new(), pwm: pwm::channels() }
+        })
+    }
+}
+
+/// A block of device registers.
+#[derive(Clone, Copy)]
+struct Registers {
+    base: usize,
+}
+
+#[allow(unsafe_code)]
+impl Registers {
+    fn read(self, offset: usize) -> u32 {
+        // SAFETY: only this module's children make `Registers`, with the base of an APB peripheral of this chip and
+        // offsets of 32-bit registers in it; reading them touches no memory that Rust knows of.
+        unsafe { core::ptr::with_exposed_provenance::<u32>(self.base + offset).read_volatile() }
+    }
+
+    fn write(self, offset: usize, value: u32) {
+        // SAFETY: as in `read`; these peripherals have no access to memory.
+        unsafe { core::ptr::with_exposed_provenance_mut::<u32>(self.base + offset).write_volatile(value) }
+    }
+}

@@ -1,0 +1,89 @@
+//! CMSDK APB timers: they count down from a reload value, at the core's clock.
+
+use super::Registers;
+
+/// Both timers run at 25 MHz.
+pub const COUNTS_PER_US: u32 = 25;
+
+const TIMER0: usize = 0x4000_0000;
+const TIMER1: usize = 0x4000_1000;
+
+const CTRL: usize = 0x0;
+const VALUE: usize = 0x4;
+const RELOAD: usize = 0x8;
+const INTERRUPT: usize = 0xc;
+
+const ENABLE: u32 = 1;
+const ENABLE_WITH_INTERRUPT: u32 = 1 | 1 << 3;
+
+/// TIMER0 as the compare unit of [`FreeRunning`]: interrupts whenever another period of that clock is over.
+///
+/// Each count-down is started anew and stops at zero, with no reload: QEMU with `-icount sleep=off` skips
+/// every second interrupt of a timer that reloads itself while the core sleeps (it moves its clock on to the next
+/// deadline as the reload is noted, before the interrupt that wakes the core).
+pub struct PeriodicTimer {
+    registers: Registers,
+    clock: FreeRunning,
+    period: u32,
+    /// The clock at the next interrupt.
+    due: u32,
+}
+
+impl PeriodicTimer {
+    pub(super) fn new(clock: FreeRunning) -> Self {
+        Self { registers: Registers { base: TIMER0 }, clock, period: 0, due: 0 }
+    }
+
+    /// The first interrupt comes one period from now.
+    pub fn start(&mut self, period_us: u32) {
+        self.period = period_us.saturating_mul(COUNTS_PER_US);
+        self.due = self.clock.now();
+        self.registers.write(RELOAD, 0);
+        self.next();
+        self.registers.write(CTRL, ENABLE_WITH_INTERRUPT);
+    }
+
+    /// To be called once an interrupt. The time that the call is late is not lost; a whole period is, and with it its
+    /// interrupt.
+    pub fn next(&mut self) {
+        self.registers.write(INTERRUPT, 1);
+        let now = self.clock.now();
+        self.due = self.due.wrapping_add(self.period);
+        let mut left = self.due.wrapping_sub(now);
+        if left == 0 || left > self.period {
+            self.due = now.wrapping_add(self.period);
+            left = self.period;
+        }
+        self.registers.write(VALUE, left);
+    }
+}
+
+/// TIMER1, which runs freely through all 2³² counts (172 s). Anyone may read it.
+#[derive(Clone, Copy)]
+pub struct FreeRunning {
+    registers: Registers,
+}
+
+impl FreeRunning {
+    pub(super) fn start() -> Self {
+        let registers = Registers { base: TIMER1 };
+        registers.write(RELOAD, u32::MAX);
+        registers.write(VALUE, u32::MAX);
+        registers.write(CTRL, ENABLE);
+        Self { registers }
+    }
+
+    /// Counts since the start, modulo 2³².
+    pub fn now(&self) -> u32 {
+        !self.registers.read(VALUE)
+    }
+
+    /// Keeps the core busy for that long; tasks of higher priority run meanwhile and count towards it.
+    pub fn busy_wait(&self, us: u32) {
+        let (start, counts) = (self.now(), us.saturating_mul(COUNTS_PER_US));
+        while self.now().wrapping_sub(start) < counts {
+            // A look at the timer is dear under QEMU: one every few microseconds will do.
+            cortex_m::asm::delay(500);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! From rotor speeds to the duty cycles of the speed controllers.
+
+use embedded_hal::pwm::SetDutyCycle;
+
+use crate::airframe::ROTORS;
+use crate::math;
+use crate::signals::MotorCommand;
+
+/// A PWM output a rotor; the duty cycle is the part ω/ωmax of the output's greatest.
+pub struct PwmRotors<P> {
+    outputs: [P; ROTORS],
+    omega_max_rad_s: f32,
+}
+
+impl<P: SetDutyCycle> PwmRotors<P> {
+    /// Rotors of a known greatest speed, as they stand: nothing is written yet.
+    pub fn new(outputs: [P; ROTORS], omega_max_rad_s: f32) -> Self {
+        Self { outputs, omega_max_rad_s }
+    }
+
+    /// Sets every rotor's speed. A speed that is not a number stops its rotor.
+    ///
+    /// # Errors
+    /// The first output's that fails; the others are set all the same.
+    pub fn set(&mut self, command: &MotorCommand) -> Result<(), P::Error> {
+        let mut result = Ok(());
+        for (output, omega) in self.outputs.iter_mut().zip(command.omega_rad_s) {
+            let part = math::clamp(omega / self.omega_max_rad_s, 0.0, 1.0);
+            let duty = (part * f32::from(output.max_duty_cycle()) + 0.5) as u16;
+            result = result.and(output.set_duty_cycle(duty));
+        }
+        result
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use embedded_hal::pwm::{ErrorKind, ErrorType};
+
+    /// Remembers what it was told; fails if it is `broken`.
+    #[derive(Default)]
+    struct Output {
+        duty: u16,
+        broken: bool,
+    }
+
+    impl ErrorType for Output {
+        type Error = ErrorKind;
+    }
+
+    impl SetDutyCycle for Output {
+        fn max_duty_cycle(&self) -> u16 {
+            1_000
+        }
+
+        fn set_duty_cycle(&mut self, duty: u16) -> Result<(), ErrorKind> {
+            self.duty = duty;
+            if self.broken { Err(ErrorKind::Other) } else { Ok(()) }
+        }
+    }
+
+    #[test]
+    fn speed_is_a_part_of_the_greatest() {
+        let mut rotors = PwmRotors::new(<[Output; ROTORS]>::default(), 50.0);
+        assert_eq!(rotors.set(&MotorCommand { omega_rad_s: [0.0, 25.0, 50.0, 60.0] }), Ok(()));
+        assert_eq!(rotors.outputs.map(|output| output.duty), [0, 500, 1_000, 1_000]);
+    }
+
+    #[test]
+    fn what_is_not_a_number_stops_the_rotor_and_a_broken_output_stops_no_other() {
+        let mut rotors = PwmRotors::new(<[Output; ROTORS]>::default(), 50.0);
+        rotors.outputs[0].broken = true;
+        let command = MotorCommand { omega_rad_s: [50.0, f32::NAN, -1.0, 50.0] };
+        assert_eq!(rotors.set(&command), Err(ErrorKind::Other));
+        assert_eq!(rotors.outputs.map(|output| output.duty), [1_000, 0, 0, 1_000]);
+    }
+}

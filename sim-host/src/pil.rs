@@ -1,0 +1,288 @@
+//! Processor in the loop: the image under QEMU as the flight controller, one frame each way a tick.
+//!
+//! ```text
+//! plant ── SensorFrame ─► FIFO to-image   ─► IMU driver ─► inner task …   (qemu-system-arm, mps2-an386)
+//! plant ◄─ PilOutput   ── FIFO from-image ◄─ rotor driver ◄┘
+//! ```
+//!
+//! The image's clock is virtual: it stands still while the image waits for a sample, so nothing here depends on how
+//! fast the desktop is. Every wait has a time-out; see `firmware::pil` for the frames.
+
+mod fifo;
+mod qemu;
+
+use std::fmt;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use anyhow::{Context, Result, bail};
+use firmware::config::FlightConfig;
+use firmware::inner::InnerOutput;
+use firmware::outer::OuterOutput;
+use firmware::pil::{Answer, Cause, Hello, REPLY_BYTES, Reply, Request, State};
+pub use firmware::pil::{BusyWait, Fault};
+use firmware::signals::{ControlInput, MotorCommand, SensorFrame, TICK_S_EXACT, Tick};
+use nalgebra::Vector3;
+
+use qemu::Qemu;
+
+/// Where `cargo fw-pil` leaves the image, seen from the workspace's root.
+pub const IMAGE: &str = "target/thumbv7em-none-eabihf/release/mps2-pil";
+
+/// What to start.
+#[derive(Clone, Debug)]
+pub struct PilOptions<'a> {
+    /// The image, an ELF file.
+    pub image: PathBuf,
+    /// What it is to fly.
+    pub config: &'a FlightConfig,
+    /// Work that its partitions are to pretend.
+    pub busy: BusyWait,
+    /// What the outer partition's job at that tick is to do to the image.
+    pub fault: Option<(Tick, Fault)>,
+    /// Longest wait for an answer of the image.
+    pub timeout: Duration,
+}
+
+impl<'a> PilOptions<'a> {
+    /// A flight without disturbances.
+    pub fn new(image: impl Into<PathBuf>, config: &'a FlightConfig) -> Self {
+        Self { image: image.into(), config, busy: BusyWait::default(), fault: None, timeout: Duration::from_secs(10) }
+    }
+}
+
+/// What the image has done in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PilOutput {
+    /// Speeds for the rotors.
+    pub motors: MotorCommand,
+    /// U1..U4 as demanded of the mixer.
+    pub demand: ControlInput,
+    /// Sliding variables s1, s2, s3, rad/s.
+    pub s_attitude: Vector3<f32>,
+    /// Sliding variables sx, sy, sz, m/s.
+    pub s_position: Vector3<f32>,
+    /// Whether the mixer could not give the whole demand.
+    pub saturated: bool,
+    /// Overruns so far of outer, commander and ground: zeros, for the first one ends the flight.
+    pub overruns: [u32; 3],
+}
+
+impl From<Reply> for PilOutput {
+    fn from(reply: Reply) -> Self {
+        let InnerOutput { motors, demand, s, saturated } = reply.inner;
+        Self { motors, demand, s_attitude: s, s_position: reply.s_position, saturated, overruns: reply.overruns }
+    }
+}
+
+/// A job that was not finished when its output was due.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Overrun {
+    /// The tick at which it was noticed.
+    pub tick: Tick,
+    /// Overruns so far of outer, commander and ground.
+    pub counts: [u32; 3],
+}
+
+impl fmt::Display for Overrun {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let late: Vec<&str> = ["outer", "commander", "ground"]
+            .into_iter()
+            .zip(self.counts)
+            .filter_map(|(name, count)| (count > 0).then_some(name))
+            .collect();
+        write!(f, "overrun: {} had not finished when due at {:.3} s", late.join(" and "), seconds(self.tick))
+    }
+}
+
+impl std::error::Error for Overrun {}
+
+/// The image has stopped its rotors for good.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stopped {
+    /// The tick that was not finished.
+    pub tick: Tick,
+    /// Why.
+    pub cause: Cause,
+}
+
+impl fmt::Display for Stopped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let cause = match self.cause {
+            Cause::Panic => "a panic",
+            Cause::HardFault => "a hard fault",
+        };
+        write!(f, "the image has stopped its rotors at {:.3} s after {cause}", seconds(self.tick))
+    }
+}
+
+impl std::error::Error for Stopped {}
+
+fn seconds(tick: Tick) -> f64 {
+    f64::from(tick) * TICK_S_EXACT
+}
+
+/// A running image. Dropped without [`finish`](Self::finish), it is killed.
+#[derive(Debug)]
+pub struct Pil {
+    qemu: Qemu,
+    tick: Tick,
+}
+
+impl Pil {
+    /// Boots the image and hands it its flight.
+    ///
+    /// # Errors
+    /// In one line: no image, no QEMU, no answer in time, or a configuration that the image refuses.
+    pub fn start(options: &PilOptions) -> Result<Self> {
+        let hello = Hello { config: options.config.clone(), busy: options.busy, fault: options.fault };
+        let hello = hello.encode().map_err(|error| anyhow::anyhow!("{error}"))?;
+        let mut qemu = Qemu::start(&options.image, options.timeout)?;
+        qemu.send(&hello)?;
+        match Answer::decode(&qemu.receive::<REPLY_BYTES>()?) {
+            Some(Answer::Ready) => Ok(Self { qemu, tick: 0 }),
+            Some(Answer::Refused(reason)) => bail!("the image refuses the flight: {reason}"),
+            None => bail!("the image's answer cannot be read: build it anew with `cargo fw-pil`"),
+        }
+    }
+
+    /// One tick of the image with this sample.
+    ///
+    /// # Errors
+    /// [`Overrun`] or [`Stopped`] (to be found by `downcast_ref`), or in one line why there was no answer.
+    pub fn tick(&mut self, sample: &SensorFrame) -> Result<PilOutput> {
+        self.exchange(&Request::Sample(*sample))
+    }
+
+    /// One tick of the image without a sample.
+    ///
+    /// # Errors
+    /// As [`tick`](Self::tick).
+    pub fn tick_without_sample(&mut self) -> Result<PilOutput> {
+        self.exchange(&Request::Missing)
+    }
+
+    fn exchange(&mut self, request: &Request) -> Result<PilOutput> {
+        let tick = self.tick;
+        self.qemu.send(&request.encode())?;
+        let bytes = self.qemu.receive().with_context(|| format!("at {:.3} s", seconds(tick)))?;
+        let reply = Reply::decode(&bytes).context("the image's reply cannot be read")?;
+        if let State::Stopped(cause) = reply.state {
+            bail!(Stopped { tick, cause });
+        }
+        if reply.tick != tick {
+            bail!("the image replies for tick {} where tick {tick} was asked for", reply.tick);
+        }
+        if reply.overruns != [0; 3] {
+            bail!(Overrun { tick, counts: reply.overruns });
+        }
+        self.tick = tick.wrapping_add(1);
+        Ok(reply.into())
+    }
+
+    /// Ends the image.
+    ///
+    /// # Errors
+    /// It does not end, or not well.
+    pub fn finish(mut self) -> Result<()> {
+        self.qemu.send(&Request::Exit.encode())?;
+        self.qemu.wait()
+    }
+}
+
+/// The first field in which image and desktop differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// The tick.
+    pub tick: Tick,
+    /// The field.
+    pub field: &'static str,
+    /// Its value on the desktop.
+    pub sil: f32,
+    /// Its value in the image.
+    pub pil: f32,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { tick, field, sil, pil } = self;
+        let (sil_bits, pil_bits) = (sil.to_bits(), pil.to_bits());
+        write!(
+            f,
+            "`{field}` differs at {:.3} s: {sil} ({sil_bits:08x}) on the desktop, {pil} ({pil_bits:08x}) in the image",
+            seconds(*tick)
+        )
+    }
+}
+
+impl std::error::Error for Difference {}
+
+/// Holds a tick of the image against the same tick of the desktop, bit for bit.
+///
+/// # Errors
+/// The first field that differs.
+pub fn compare(tick: Tick, inner: &InnerOutput, outer: &OuterOutput, pil: &PilOutput) -> Result<(), Difference> {
+    let sil = Reply { tick, state: State::Flying, inner: *inner, s_position: outer.s, overruns: [0; 3] }.into();
+    for ((field, sil), (_, pil)) in fields(&sil).into_iter().zip(fields(pil)) {
+        if sil.to_bits() != pil.to_bits() {
+            return Err(Difference { tick, field, sil, pil });
+        }
+    }
+    Ok(())
+}
+
+/// Everything that must be the same, with its name.
+fn fields(output: &PilOutput) -> [(&'static str, f32); 15] {
+    let [omega1, omega2, omega3, omega4] = output.motors.omega_rad_s;
+    let [u1, u2, u3, u4] = output.demand.as_array();
+    let (attitude, position) = (&output.s_attitude, &output.s_position);
+    [
+        ("s1", attitude.x),
+        ("s2", attitude.y),
+        ("s3", attitude.z),
+        ("sx", position.x),
+        ("sy", position.y),
+        ("sz", position.z),
+        ("U1", u1),
+        ("U2", u2),
+        ("U3", u3),
+        ("U4", u4),
+        ("omega1", omega1),
+        ("omega2", omega2),
+        ("omega3", omega3),
+        ("omega4", omega4),
+        ("saturated", f32::from(u8::from(output.saturated))),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use firmware::autopilot::Autopilot;
+
+    #[test]
+    fn the_first_difference_is_named_with_time_and_both_values() {
+        let autopilot = Autopilot::new(&FlightConfig::default()).expect("valid");
+        let (inner, outer) = (autopilot.inner.inner_output(), autopilot.inner.outer_output());
+        let mut pil: PilOutput = Reply::of(&autopilot.inner, [0; 3]).into();
+        assert_eq!(compare(1_234, inner, outer, &pil), Ok(()));
+        pil.demand.roll_n_m = -0.0;
+        pil.motors.omega_rad_s[3] = 1.0;
+        let difference = compare(1_234, inner, outer, &pil).expect_err("U2 has another sign");
+        let text = "`U2` differs at 1.234 s: 0 (00000000) on the desktop, -0 (80000000) in the image";
+        assert_eq!(difference.to_string(), text);
+    }
+
+    #[test]
+    fn an_overrun_names_the_partitions() {
+        let overrun = Overrun { tick: 1_002, counts: [1, 0, 2] };
+        assert_eq!(overrun.to_string(), "overrun: outer and ground had not finished when due at 1.002 s");
+    }
+
+    #[test]
+    fn a_missing_image_is_named_with_the_remedy() {
+        let config = FlightConfig::default();
+        let error = Pil::start(&PilOptions::new("no/such/image", &config)).expect_err("no image");
+        assert_eq!(format!("{error:#}"), "there is no image no/such/image: build it with `cargo fw-pil`");
+    }
+}

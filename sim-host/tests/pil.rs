@@ -1,0 +1,165 @@
+//! The images under QEMU against the same code on the desktop. Ignored by default, because they need the images
+//! (`cargo fw && cargo fw-pil`) and `qemu-system-arm`; `tests/run` builds them and asks for these tests.
+
+#![cfg(unix)]
+
+mod common;
+
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use common::image;
+use firmware::autopilot::Autopilot;
+use firmware::config::{FlightConfig, Start};
+use firmware::guidance::Trajectory;
+use firmware::pil::Cause;
+use firmware::signals::{NavState, SensorFrame, TICK_S};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use sim_host::pil::{BusyWait, Difference, Fault, Overrun, Pil, PilOptions, Stopped, compare};
+
+const TICKS: u32 = 20_000;
+
+fn config() -> FlightConfig {
+    FlightConfig { trajectory: Trajectory::PAPER_HELIX, start: Start::InFlight, ..FlightConfig::default() }
+}
+
+/// A made-up motion that stays near the helix and turns all angles, now and then so wildly that the mixer limits.
+fn motion(tick: u32) -> SensorFrame {
+    let t = tick as f32 * TICK_S;
+    let wobble = |rate: f32, size: f32| (rate * t).sin() * size;
+    let half = Vector3::new(wobble(1.3, 0.15), wobble(1.7, 0.2), wobble(0.4, 0.6));
+    let attitude = UnitQuaternion::new_normalize(Quaternion::new(1.0, half.x, half.y, half.z));
+    let position = Vector3::new(4.0 * t.sin() + wobble(3.0, 0.1), 5.0 * t.cos() + wobble(2.0, 0.1), 2.0 + t);
+    let velocity = Vector3::new(4.0 * t.cos(), -5.0 * t.sin(), 1.0 + wobble(2.5, 0.3));
+    let rates = Vector3::new(wobble(5.0, 0.5), wobble(6.0, 0.4), wobble(4.0, 2.0));
+    SensorFrame { nav: NavState { position, velocity, attitude, rates } }
+}
+
+/// Flies the made-up motion on both sides.
+fn lockstep(options: &PilOptions, ticks: u32) -> anyhow::Result<()> {
+    lockstep_with(options, ticks, |_, _| {})
+}
+
+/// The same, with something done to the image's samples.
+fn lockstep_with(options: &PilOptions, ticks: u32, disturb: fn(u32, &mut SensorFrame)) -> anyhow::Result<()> {
+    let mut sil = Autopilot::new(options.config).expect("valid");
+    let mut pil = Pil::start(options)?;
+    let started = Instant::now();
+    for tick in 0..ticks {
+        let mut sample = motion(tick);
+        if tick == 5_000 {
+            sample.nav.rates.x = f32::NAN;
+        }
+        let missing = tick % 997 == 500;
+        sil.tick((!missing).then_some(&sample));
+        disturb(tick, &mut sample);
+        let output = if missing { pil.tick_without_sample()? } else { pil.tick(&sample)? };
+        compare(tick, sil.inner.inner_output(), sil.inner.outer_output(), &output)?;
+    }
+    println!("{:.1} µs a tick", started.elapsed().as_secs_f64() * 1e6 / f64::from(ticks));
+    pil.finish()
+}
+
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn twenty_thousand_ticks_are_the_same_bit_for_bit() {
+    let config = config();
+    lockstep(&PilOptions::new(image("mps2-pil"), &config), TICKS).expect("the same");
+}
+
+/// Or the test above could not fail.
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_sample_that_is_a_little_off_is_found_and_named() {
+    let config = config();
+    let error = lockstep_with(&PilOptions::new(image("mps2-pil"), &config), 100, |tick, sample| {
+        if tick == 50 {
+            // 3e-5 of it: the last bits would be lost in the sum that makes s1.
+            sample.nav.rates.x = f32::from_bits(sample.nav.rates.x.to_bits() ^ (1 << 8));
+        }
+    });
+    let error = error.expect_err("it is off");
+    let difference = error.downcast_ref::<Difference>().unwrap_or_else(|| panic!("{error:#}"));
+    assert_eq!((difference.tick, difference.field), (50, "s1"));
+}
+
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_busy_wait_shorter_than_the_output_offset_changes_no_bit() {
+    let config = config();
+    for busy in [
+        BusyWait { outer_us: 1_500, ..BusyWait::default() },
+        BusyWait { commander_us: 3_500, ..BusyWait::default() },
+        BusyWait { ground_us: 9_500, ..BusyWait::default() },
+        BusyWait { outer_us: 500, commander_us: 2_000, ground_us: 2_000 },
+    ] {
+        let options = PilOptions { busy, ..PilOptions::new(image("mps2-pil"), &config) };
+        lockstep(&options, 2_000).unwrap_or_else(|error| panic!("{busy:?}: {error:#}"));
+    }
+}
+
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_busy_wait_longer_than_the_output_offset_is_an_overrun() {
+    let config = config();
+    for (busy, tick, counts) in [
+        (BusyWait { outer_us: 3_000, ..BusyWait::default() }, 2, [1, 0, 0]),
+        (BusyWait { commander_us: 5_000, ..BusyWait::default() }, 4, [0, 1, 0]),
+        (BusyWait { ground_us: 11_000, ..BusyWait::default() }, 10, [0, 0, 1]),
+    ] {
+        let options = PilOptions { busy, ..PilOptions::new(image("mps2-pil"), &config) };
+        let error = lockstep(&options, 100).expect_err("too long");
+        assert_eq!(error.downcast_ref(), Some(&Overrun { tick, counts }), "{busy:?}: {error:#}");
+    }
+}
+
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_panic_or_a_hard_fault_stops_the_rotors() {
+    let config = config();
+    for (fault, cause) in [
+        (Fault::Panic, Cause::Panic),
+        (Fault::UndefinedInstruction, Cause::HardFault),
+        (Fault::StackOverflow, Cause::HardFault),
+    ] {
+        let options = PilOptions { fault: Some((40, fault)), ..PilOptions::new(image("mps2-pil"), &config) };
+        let error = lockstep(&options, 100).expect_err("it faults");
+        // The outer job of tick 40 runs after the reply to tick 40.
+        assert_eq!(error.downcast_ref(), Some(&Stopped { tick: 41, cause }), "{fault:?}: {error:#}");
+    }
+}
+
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_bad_configuration_is_refused_with_its_reason() {
+    let mut config = config();
+    config.airframe.mass_kg = -1.0;
+    let error = Pil::start(&PilOptions::new(image("mps2-pil"), &config)).expect_err("negative mass");
+    assert_eq!(format!("{error:#}"), "the image refuses the flight: `airframe.mass_kg` must be above zero");
+}
+
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn an_image_that_does_not_talk_to_the_host_is_noticed() {
+    let config = config();
+    let timeout = Duration::from_millis(500);
+    let wrong = PilOptions { timeout, ..PilOptions::new(image("mps2"), &config) };
+    let error = Pil::start(&wrong).expect_err("the wrong one");
+    assert!(format!("{error:#}").contains("is it one for processor in the loop?"), "{error:#}");
+    // QEMU refuses a folder's manifest as an image, or the core locks up at once in what is none.
+    let error = Pil::start(&PilOptions { timeout, ..PilOptions::new(env!("CARGO_MANIFEST_PATH"), &config) });
+    let text = format!("{:#}", error.expect_err("not even an image"));
+    assert!(text.contains("has ended") || text.contains("within"), "{text}");
+}
+
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn desktop_and_image_agree_on_the_hash_of_the_mathematics() {
+    let output = Command::new("qemu-system-arm")
+        .args(["-M", "mps2-an386", "-nographic", "-semihosting-config", "enable=on,target=native", "-kernel"])
+        .arg(image("math-hash"))
+        .output()
+        .expect("qemu-system-arm");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(text.trim(), format!("{:016x}", firmware::selftest::math_hash(TICKS)));
+}
