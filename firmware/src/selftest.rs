@@ -56,7 +56,7 @@ fn scalars(hash: &mut Hash, numbers: &mut Numbers, step: u32) {
         math::sqrt(math::abs(100.0 * a)),
         math::sqrt(math::abs(a * b * 1e-20)),
         math::atan2(a, b),
-        math::asin(1.01 * a),
+        math::atan2(a, 1.01 * b),
         math::tanh(4.0 * b),
         math::wrap_angle(angle + 3.0 * b),
     ];

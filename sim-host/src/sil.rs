@@ -60,19 +60,28 @@ impl<P: Plant> Flight<P> {
     pub fn step<R: Recorder>(&mut self, recorder: &mut R) -> bool {
         let sample = self.sense();
         let inner = *self.autopilot.tick(Some(&sample));
-        let outer = self.autopilot.inner.outer_output();
         if R::ENABLED {
-            let row = self.row(&inner, outer);
-            self.outcome.survived &= is_tracking(&row);
-            recorder.record(&row);
+            let outer = *self.autopilot.inner.outer_output();
+            self.complete(&inner, &outer, recorder)
+        } else {
+            self.actuate(&inner);
+            true
         }
-        self.actuate(&inner);
+    }
+
+    /// Second half of a tick, with what a firmware has made of the sample: record, move. Returns false once the
+    /// vehicle is lost.
+    pub fn complete(&mut self, inner: &InnerOutput, outer: &OuterOutput, recorder: &mut impl Recorder) -> bool {
+        let row = self.row(inner, outer);
+        self.outcome.survived &= is_tracking(&row);
+        recorder.record(&row);
+        self.actuate(inner);
         self.outcome.survived
     }
 
-    /// Second half of a tick: the motor command acts on the plant until the next.
+    /// The motor command acts on the plant until the next.
     #[inline]
-    pub fn actuate(&mut self, inner: &InnerOutput) {
+    fn actuate(&mut self, inner: &InnerOutput) {
         let command = inner.motors.omega_rad_s.map(f64::from);
         self.plant.step(&command, &self.noise.at(self.tick).push, TICK_S_EXACT);
         self.outcome.saturated_ticks += u32::from(inner.saturated);
@@ -91,7 +100,7 @@ impl<P: Plant> Flight<P> {
     }
 
     /// The record of this tick, with what the firmware has made of it.
-    pub fn row(&self, inner: &InnerOutput, outer: &OuterOutput) -> Row {
+    fn row(&self, inner: &InnerOutput, outer: &OuterOutput) -> Row {
         let motion = self.plant.motion();
         let t = time(self.tick);
         let command: [f64; ROTORS] = inner.motors.omega_rad_s.map(f64::from);

@@ -1,10 +1,12 @@
 //! The command line: arguments, typed, and one module a command.
 //!
 //! Standard output is the result, standard error is progress and complaints. A complaint is one line and exit
-//! code 2; a flight that ends badly is a result, not a complaint.
+//! code 2; a flight that ends badly is a result, not a complaint. A difference between image and desktop, or an
+//! overrun, is one line and exit code 1.
 
 mod bench;
 mod demo;
+mod pil;
 mod plan;
 mod run;
 mod scenarios;
@@ -40,6 +42,8 @@ enum Command {
     },
     /// Fly in real time for a ground station, over MAVLink and UDP.
     Serve(ServeArgs),
+    /// Fly a scenario with the Cortex-M image under QEMU in the loop, and compare it with the desktop bit for bit.
+    Pil(PilArgs),
     /// Measure how fast the simulation is.
     Bench {
         /// Simulated seconds a run.
@@ -118,6 +122,35 @@ struct ServeArgs {
     settings: Settings,
 }
 
+#[derive(Args, Clone, Debug)]
+struct PilArgs {
+    /// Name of a built-in scenario, or path of a file.
+    scenario: String,
+    /// Seed of the random numbers.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// The image; by default the one that `cargo fw-pil` has built.
+    #[arg(long, value_name = "ELF")]
+    image: Option<PathBuf>,
+    /// Let the outer partition's jobs take this much longer, µs of the target's time.
+    #[arg(long, default_value_t = 0, value_name = "US")]
+    busy_outer_us: u32,
+    /// Let the commander's jobs take this much longer, µs.
+    #[arg(long, default_value_t = 0, value_name = "US")]
+    busy_commander_us: u32,
+    /// Let the ground partition's jobs take this much longer, µs.
+    #[arg(long, default_value_t = 0, value_name = "US")]
+    busy_ground_us: u32,
+    #[command(flatten)]
+    settings: Settings,
+    /// Write truth.csv and summary.json there.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print a JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
 /// A range of seeds, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Seeds {
@@ -142,6 +175,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Scenarios { json }) => scenarios::run(json),
         Some(Command::Serve(args)) => serve::run(&args),
+        Some(Command::Pil(args)) => pil::run(&args),
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
         Some(Command::Plan { scenario, seed, flights, settings }) => plan::run(&scenario, seed, flights, &settings.set),
     };
@@ -149,7 +183,7 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("sim-host: {}", one_line(&error));
-            ExitCode::from(2)
+            ExitCode::from(if pil::is_finding(&error) { 1 } else { 2 })
         }
     }
 }

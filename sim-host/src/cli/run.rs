@@ -43,9 +43,9 @@ pub(super) fn run(args: &RunArgs) -> Result<()> {
 }
 
 /// A flight and how long it took, s.
-struct Flown {
-    outcome: Outcome,
-    wall_s: f64,
+pub(super) struct Flown {
+    pub(super) outcome: Outcome,
+    pub(super) wall_s: f64,
 }
 
 fn timed(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Flown> {
@@ -95,7 +95,13 @@ impl Recorder for Rows {
     }
 }
 
-fn summarise(scenario: &Scenario, seed: u64, flown: &Flown, truth_sha256: String, metrics: &Metrics) -> Summary {
+pub(super) fn summarise(
+    scenario: &Scenario,
+    seed: u64,
+    flown: &Flown,
+    truth_sha256: String,
+    metrics: &Metrics,
+) -> Summary {
     let outcome = flown.outcome;
     let duration_s = f64::from(outcome.ticks) * 1e-3;
     let flight = Flight {

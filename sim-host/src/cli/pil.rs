@@ -1,0 +1,146 @@
+//! `pil`: flies a scenario with the image under QEMU in the loop, and holds it against the desktop bit for bit.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail, ensure};
+use firmware::inner::InnerOutput;
+use firmware::outer::OuterOutput;
+use serde_json::json;
+
+use super::{PilArgs, run};
+use crate::flight;
+use crate::pil::{BusyWait, Difference, Overrun, Pil, PilOptions, PilOutput, Stopped, compare};
+use crate::plant::rigid_body::RigidBody;
+use crate::record::Recorder;
+use crate::report::{Metrics, OutFolder, Progress, Summary, TruthWriter, table};
+use crate::scenario::{PlantKind, Scenario};
+use crate::sil::Flight;
+
+pub(super) fn run(args: &PilArgs) -> Result<()> {
+    let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
+    ensure!(
+        scenario.file.plant == PlantKind::RigidBody,
+        "scenario `{}` is not flown on the rigid-body plant: choose one that is",
+        scenario.name
+    );
+    let config = scenario.flight_config();
+    let busy =
+        BusyWait { outer_us: args.busy_outer_us, commander_us: args.busy_commander_us, ground_us: args.busy_ground_us };
+    let timeout = Duration::from_secs(10);
+    let options = PilOptions { busy, timeout, ..PilOptions::new(image(args.image.as_deref())?, &config) };
+    let pil = Pil::start(&options)?;
+
+    let bar = Progress::new(scenario.file.duration_s, !args.json);
+    let (summary, wall_s) = match &args.out {
+        Some(path) => {
+            let folder = OutFolder::create(path)?;
+            let flown = fly(&scenario, args.seed, pil, folder.truth()?, bar)?;
+            folder.summary(&flown.0)?;
+            flown
+        }
+        None => fly(&scenario, args.seed, pil, TruthWriter::hash_only(), bar)?,
+    };
+    // The desktop alone, without the image, must leave the same bytes.
+    let sil = run::fly(&scenario, args.seed, None, false)?;
+    if sil.truth_sha256 != summary.truth_sha256 {
+        return Err(TruthDiffers { desktop: sil.truth_sha256, image: summary.truth_sha256 }.into());
+    }
+    report(args, &summary, wall_s)
+}
+
+/// Two truth.csv that ought to be the same; their SHA-256.
+#[derive(Debug)]
+struct TruthDiffers {
+    desktop: String,
+    image: String,
+}
+
+impl std::fmt::Display for TruthDiffers {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "truth.csv differs: SHA-256 {} on the desktop, {} with the image", self.desktop, self.image)
+    }
+}
+
+impl std::error::Error for TruthDiffers {}
+
+/// Whether an error is what a comparison has found, rather than a reason why there was none.
+pub(super) fn is_finding(error: &anyhow::Error) -> bool {
+    error.is::<TruthDiffers>() || error.is::<Difference>() || error.is::<Overrun>() || error.is::<Stopped>()
+}
+
+/// The image to fly: the one named, else the one built in the workspace that this program or the user is in.
+fn image(named: Option<&Path>) -> Result<PathBuf> {
+    if let Some(path) = named {
+        return Ok(path.to_owned());
+    }
+    let here = std::env::current_dir().context("there is no current folder")?;
+    let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for root in here.ancestors().chain([built.as_path()]) {
+        let image = root.join(crate::pil::IMAGE);
+        if image.is_file() {
+            return Ok(image);
+        }
+    }
+    bail!("no image: build it with `cargo fw-pil`, or name one with --image")
+}
+
+/// Flies plant and image in lockstep, the desktop's autopilot beside them. Returns the wall time too, s.
+fn fly<W: std::io::Write>(
+    scenario: &Scenario,
+    seed: u64,
+    mut pil: Pil,
+    truth: TruthWriter<W>,
+    bar: Progress,
+) -> Result<(Summary, f64)> {
+    let mut flight = flight::lockstep(scenario, seed, flight::rigid_body(scenario))?;
+    let mut recorder = ((Metrics::new(), truth), bar);
+    let start = Instant::now();
+    for _ in 0..scenario.ticks() {
+        if !step(&mut flight, &mut pil, &mut recorder)? {
+            break;
+        }
+    }
+    let wall_s = start.elapsed().as_secs_f64();
+    pil.finish()?;
+    let ((metrics, truth), bar) = recorder;
+    bar.finish();
+    let flown = run::Flown { outcome: flight.outcome(), wall_s };
+    Ok((run::summarise(scenario, seed, &flown, truth.finish()?, &metrics), wall_s))
+}
+
+/// One tick. Every firmware value that is recorded or moves the plant is the image's.
+fn step(flight: &mut Flight<RigidBody>, pil: &mut Pil, recorder: &mut impl Recorder) -> Result<bool> {
+    let tick = flight.autopilot.inner.next_tick();
+    let sample = flight.sense();
+    let sil = *flight.autopilot.tick(Some(&sample));
+    let image = pil.tick(&sample)?;
+    compare(tick, &sil, flight.autopilot.inner.outer_output(), &image)?;
+    let inner = inner_of(&image);
+    let outer = OuterOutput { s: image.s_position, ..*flight.autopilot.inner.outer_output() };
+    Ok(flight.complete(&inner, &outer, recorder))
+}
+
+fn inner_of(image: &PilOutput) -> InnerOutput {
+    InnerOutput { motors: image.motors, demand: image.demand, s: image.s_attitude, saturated: image.saturated }
+}
+
+fn report(args: &PilArgs, summary: &Summary, wall_s: f64) -> Result<()> {
+    let microseconds_a_tick = wall_s * 1e6 / (summary.duration_s * 1e3);
+    if args.json {
+        let verdict = json!({
+            "scenario": summary.scenario,
+            "seed": summary.seed,
+            "duration_s": summary.duration_s,
+            "truth_sha256": summary.truth_sha256,
+            "bit_identical": true,
+            "real_time_factor": summary.real_time_factor,
+        });
+        return super::say(&verdict.to_string());
+    }
+    super::say(&format!(
+        "{}image and desktop  the same, bit for bit: {} ticks, and truth.csv ({microseconds_a_tick:.0} µs a tick)",
+        table::render(summary),
+        (summary.duration_s * 1e3).round()
+    ))
+}
