@@ -3,8 +3,8 @@
 //! Owns: Table 2's quantities (b, d, m, I, Jr, k1..k6), ωmax, and the matrix from squared rotor speeds to
 //! U = (U1, U2, U3, U4), Eq. 4. The values of a particular airframe come from its file on the desktop.
 
-use crate::config::ConfigError;
 use crate::math;
+use crate::validate::ConfigError;
 
 /// Rotors of the vehicles this build flies. The mixer itself takes any number.
 pub const ROTORS: usize = 4;

@@ -7,12 +7,13 @@
 //! partitions.
 
 use crate::commander::{Commander, CommanderInput, CommanderOutput, Commands, Replies, Request};
-use crate::config::{ConfigError, FlightConfig};
+use crate::config::FlightConfig;
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::outer::{Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, GROUND, Mailbox, OUTER};
 use crate::signals::{SensorFrame, Tick};
+use crate::validate::ConfigError;
 
 /// All that the partitions share.
 #[derive(Clone, Debug)]

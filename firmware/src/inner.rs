@@ -6,12 +6,13 @@
 use nalgebra::Vector3;
 
 use crate::airframe::{Airframe, ROTORS};
-use crate::config::{ConfigError, FlightConfig};
+use crate::config::FlightConfig;
 use crate::control::attitude::{self, Euler, EulerReference};
 use crate::control::mixer::Mixer;
 use crate::control::sliding::AxisGains;
 use crate::math;
 use crate::signals::{AttitudeReference, ControlInput, MotorCommand, NavState, SensorFrame, TICK_S, Tick};
+use crate::validate::ConfigError;
 
 /// After this many ticks without a valid sample the motion is no longer trusted.
 pub const STALE_AFTER: u32 = 50;

@@ -38,3 +38,4 @@ pub mod rotors;
 pub mod schedule;
 pub mod selftest;
 pub mod signals;
+pub mod validate;

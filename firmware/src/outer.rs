@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use crate::airframe::Airframe;
-use crate::config::{ConfigError, FlightConfig};
+use crate::config::FlightConfig;
 use crate::control::attitude::Euler;
 use crate::control::flatness::{self, Heading};
 use crate::control::position::{self, PositionGains};
@@ -14,6 +14,7 @@ use crate::guidance::Guidance;
 use crate::math;
 use crate::schedule::OUTER;
 use crate::signals::{AttitudeReference, NavState, TICK_S, Tick};
+use crate::validate::ConfigError;
 
 /// Snapshot for the outer partition.
 #[derive(Clone, Copy, Debug, PartialEq)]

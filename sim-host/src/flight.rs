@@ -18,7 +18,8 @@ use crate::sil::{Flight, Outcome};
 pub fn rigid_body(scenario: &Scenario) -> RigidBody {
     let constants = scenario.constants();
     let position = Vector3::from(scenario.file.start_position_m);
-    let ground = scenario.file.ground.then(|| Ground::for_weight(position.z, constants.mass * constants.gravity));
+    let weight = constants.mass * constants.gravity;
+    let ground = scenario.file.ground.then(|| Ground::for_weight(position.z, weight, constants.inertia.z));
     RigidBody::new(constants, ground, position)
 }
 

@@ -16,3 +16,4 @@ pub mod report;
 pub mod scenario;
 pub mod serve;
 pub mod sil;
+pub mod sweep;

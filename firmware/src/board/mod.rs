@@ -14,8 +14,9 @@ pub mod mps2;
 pub mod pad;
 
 use crate::autopilot::InnerTask;
-use crate::config::{ConfigError, FlightConfig};
+use crate::config::FlightConfig;
 use crate::signals::SensorFrame;
+use crate::validate::ConfigError;
 
 /// The source of the inner loop's samples.
 pub trait Imu {

@@ -127,8 +127,7 @@ impl<const N: usize> Mixer<N> {
         if !math::all_finite(&demand.as_array()) {
             return Err(non_finite(demand));
         }
-        let torque: [f32; N] =
-            core::array::from_fn(|i| self.roll[i] * demand.roll_n_m + self.pitch[i] * demand.pitch_n_m);
+        let torque = self.torque_speeds(demand);
         let omega_sq = self.speeds(&torque, demand.thrust_n, demand.yaw_n_m);
         if omega_sq.iter().all(|v| *v >= 0.0 && *v <= self.omega_sq_max) {
             return Ok(Allocation { omega_sq, saturated: false });
@@ -154,39 +153,56 @@ impl<const N: usize> Mixer<N> {
         self.speeds(&base, thrust, yaw).map(|speed| math::clamp(speed, 0.0, self.omega_sq_max))
     }
 
+    /// Speeds for the torques (U2, U3). Torques beyond any rotor's reach are shortened first, so
+    /// that nothing overflows.
+    #[inline]
+    fn torque_speeds(&self, demand: &ControlInput) -> [f32; N] {
+        const BEYOND_REACH_N_M: f32 = 1e20;
+        let largest = math::max(math::abs(demand.roll_n_m), math::abs(demand.pitch_n_m));
+        let scale = if largest > BEYOND_REACH_N_M { BEYOND_REACH_N_M / largest } else { 1.0 };
+        let (roll, pitch) = (demand.roll_n_m * scale, demand.pitch_n_m * scale);
+        core::array::from_fn(|i| self.roll[i] * roll + self.pitch[i] * pitch)
+    }
+
     /// The greatest part 0..=1 of the torque for which some thrust and yaw keep every rotor within its limits.
     ///
-    /// The room for thrust, `high − low`, is a concave, piecewise linear function of the part; Newton's method
-    /// from 1 comes down to its zero from outside, one linear piece at each step.
+    /// Limits that no thrust can ease cut the part directly. Beyond them, the room for thrust, `high − low`, is a
+    /// concave, piecewise linear function of the part; Newton's method comes down to its zero from outside, one
+    /// linear piece at each step.
     fn torque_share(&self, torque: &[f32; N]) -> f32 {
         const NEWTON_STEPS: usize = 8;
+        /// A hair inside, so that rounding does not leave the range of thrusts empty.
+        const INSIDE: f32 = 1.0 - 1e-6;
         let mut share = 1.0_f32;
+        self.for_each_thrust_limit(torque, |slope, constant, per_share| {
+            if slope == 0.0 && per_share > 0.0 {
+                share = math::min(share, constant / per_share * INSIDE);
+            }
+        });
         for _ in 0..NEWTON_STEPS {
-            let (room, slope) = self.thrust_room(torque, share);
-            if room >= 0.0 || slope >= 0.0 {
+            let (constant, per_share) = self.thrust_room(torque, share);
+            if constant + per_share * share >= 0.0 || per_share >= 0.0 {
                 break;
             }
-            share -= room / slope;
-            // A hair inside, so that rounding does not leave the range empty.
-            share *= 1.0 - 1e-6;
+            share = -constant / per_share * INSIDE;
         }
         math::clamp(share, 0.0, 1.0)
     }
 
-    /// Room for thrust (N) at a part of the torque, and its derivative with respect to the part.
+    /// Room for thrust (N) around a part of the torque: `constant + per_share·part`.
     fn thrust_room(&self, torque: &[f32; N], share: f32) -> (f32, f32) {
-        let mut low = (f32::NEG_INFINITY, 0.0);
-        let mut high = (f32::INFINITY, 0.0);
+        let mut low = (f32::NEG_INFINITY, 0.0, 0.0);
+        let mut high = (f32::INFINITY, 0.0, 0.0);
         self.for_each_thrust_limit(torque, |slope, constant, per_share| {
             let at = (constant - per_share * share) / slope;
-            let derivative = -per_share / slope;
+            let line = (at, constant / slope, -per_share / slope);
             if slope > 0.0 && at < high.0 {
-                high = (at, derivative);
+                high = line;
             } else if slope < 0.0 && at > low.0 {
-                low = (at, derivative);
+                low = line;
             }
         });
-        (high.0 - low.0, high.1 - low.1)
+        (high.1 - low.1, high.2 - low.2)
     }
 
     /// The thrusts (N) for which some yaw keeps every rotor within its limits, given the torque's speeds.
@@ -199,7 +215,8 @@ impl<const N: usize> Mixer<N> {
     }
 
     /// Calls `limit(slope, constant, per_share)` for each inequality `slope·thrust + per_share·share ≤ constant`
-    /// that is left when yaw is eliminated (Fourier–Motzkin) from `0 ≤ share·torque + thrust + yaw ≤ ωmax²`.
+    /// that is left when yaw is eliminated (Fourier–Motzkin) from `0 ≤ share·torque + thrust + yaw ≤ ωmax²`. A slope
+    /// that is only rounding is given as 0: such a limit is on the torque alone.
     fn for_each_thrust_limit(&self, torque: &[f32; N], mut limit: impl FnMut(f32, f32, f32)) {
         // Rotor i as `sign·(yaw·Y + thrust·T + torque·share) ≤ bound`, once for each of its two limits.
         let row = |i: usize, upper: bool| {
@@ -220,7 +237,10 @@ impl<const N: usize> Mixer<N> {
                         let (yaw_j, thrust_j, per_share_j, bound_j) = row(j, other_upper);
                         if yaw_j < 0.0 && (i != j) {
                             let (a, b) = (1.0 / yaw, -1.0 / yaw_j);
-                            limit(thrust * a + thrust_j * b, bound * a + bound_j * b, per_share * a + per_share_j * b);
+                            let (one, other) = (thrust * a, thrust_j * b);
+                            let rounding = 1e-5 * (math::abs(one) + math::abs(other));
+                            let slope = if math::abs(one + other) > rounding { one + other } else { 0.0 };
+                            limit(slope, bound * a + bound_j * b, per_share * a + per_share_j * b);
                         }
                     }
                 }

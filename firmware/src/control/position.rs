@@ -7,11 +7,11 @@
 use nalgebra::Vector3;
 
 use crate::airframe::Airframe;
-use crate::config::ConfigError;
 use crate::control::flatness::ForceProfile;
 use crate::control::sliding::AxisGains;
 use crate::math;
 use crate::signals::FlatReference;
+use crate::validate::ConfigError;
 
 /// Gains and limits of the position loop.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,8 +4,8 @@
 //! `ṡ = −K sw(s)` (Eq. 16), with `sw` one of the shapes of [`Switching`]. For every shape `s·sw(s) > 0` where
 //! s ≠ 0, so V = s²/2 decreases as long as K·|sw(s)| exceeds the disturbance (Eq. 13–14).
 
-use crate::config::ConfigError;
 use crate::math;
+use crate::validate::ConfigError;
 
 /// The shape `sw(s)` of a reaching law.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,8 +6,8 @@
 
 use nalgebra::Vector3;
 
-use crate::config::ConfigError;
 use crate::signals::{FlatReference, TICK_S, Tick};
+use crate::validate::ConfigError;
 
 /// Greatest number of shaping points.
 pub const MIDDLE_POINTS: usize = 8;

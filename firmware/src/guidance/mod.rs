@@ -10,9 +10,9 @@ pub use join::{JoinPath, JoinPlan, MIDDLE_POINTS};
 
 use nalgebra::Vector3;
 
-use crate::config::ConfigError;
 use crate::math::{self, Phase};
 use crate::signals::{FlatReference, TICK_S_EXACT, Tick};
+use crate::validate::ConfigError;
 
 /// A reference trajectory; t is the flight time in s. World frame NWU, m and rad.
 #[derive(Clone, Copy, Debug, PartialEq)]

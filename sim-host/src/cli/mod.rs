@@ -11,6 +11,7 @@ mod plan;
 mod run;
 mod scenarios;
 mod serve;
+mod sweep;
 
 use std::io::Write as _;
 use std::net::SocketAddr;
@@ -53,6 +54,19 @@ enum Command {
         #[arg(long, default_value_t = 5)]
         runs: usize,
         /// Print a JSON object.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Scale a scenario's disturbance up until it fails.
+    Sweep {
+        /// Name of a built-in scenario, or path of a file.
+        scenario: String,
+        /// Seed of the random numbers.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        #[command(flatten)]
+        settings: Settings,
+        /// Print a JSON array.
         #[arg(long)]
         json: bool,
     },
@@ -170,13 +184,18 @@ fn parse_seeds(text: &str) -> Result<Seeds> {
 
 /// Runs the program.
 pub fn main() -> ExitCode {
-    let result = match Cli::parse().command {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refuse(&error),
+    };
+    let result = match cli.command {
         None => demo::run(),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Scenarios { json }) => scenarios::run(json),
         Some(Command::Serve(args)) => serve::run(&args),
         Some(Command::Pil(args)) => pil::run(&args),
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
+        Some(Command::Sweep { scenario, seed, settings, json }) => sweep::run(&scenario, seed, &settings.set, json),
         Some(Command::Plan { scenario, seed, flights, settings }) => plan::run(&scenario, seed, flights, &settings.set),
     };
     match result {
@@ -186,6 +205,20 @@ pub fn main() -> ExitCode {
             ExitCode::from(if pil::is_finding(&error) { 1 } else { 2 })
         }
     }
+}
+
+/// Help and version as clap prints them; its complaints, which take several lines, in one.
+fn refuse(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        let _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = error.to_string();
+    let complaint: Vec<&str> =
+        text.lines().map(str::trim).take_while(|line| !line.is_empty() && !line.starts_with("Usage:")).collect();
+    let complaint = complaint.join(" ");
+    eprintln!("sim-host: {} (see --help)", complaint.trim_start_matches("error: "));
+    ExitCode::from(2)
 }
 
 fn one_line(error: &anyhow::Error) -> String {

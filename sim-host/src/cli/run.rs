@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
 use super::RunArgs;
@@ -24,6 +24,7 @@ pub(super) fn run(args: &RunArgs) -> Result<()> {
         let summary = fly(&scenario, args.seed, args.out.as_deref(), !args.json)?;
         return super::say(&if args.json { summary.to_json() } else { table::render(&summary) });
     };
+    ensure!(args.jobs != Some(0), "--jobs must be at least 1");
     let bar = progress::of_flights(seeds.last - seeds.first + 1, !args.json);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.jobs.unwrap_or(0))

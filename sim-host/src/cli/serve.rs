@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 use firmware::mavlink::TxBytes;
 
 use super::ServeArgs;
@@ -26,6 +26,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     if scenario.file.plant != PlantKind::RigidBody {
         bail!("scenario `{}` is not flown on the rigid-body plant: serve one that is", scenario.name);
     }
+    ensure!(args.speed.is_finite() && args.speed > 0.0, "--speed must be a number above zero, not {}", args.speed);
     let mut vehicle = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario))?;
     let mut link = UdpLink::bind(args.listen, &args.peers)?;
     let peers: Vec<String> = args.peers.iter().map(ToString::to_string).collect();

@@ -17,6 +17,8 @@ pub struct Ground {
     pub damping: f64,
     /// Coefficient of friction.
     pub friction: f64,
+    /// Below this sliding speed of the feet (m/s) friction against turning is proportional to it.
+    pub turn_stick_speed: f64,
 }
 
 /// Force in the world (N) and torque about the body's axes (N m).
@@ -30,13 +32,28 @@ pub struct Wrench {
 
 /// Below this sliding speed (m/s) friction is proportional to it: Coulomb's law made smooth.
 const STICK_SPEED: f64 = 0.02;
+/// The step with which the plants are integrated, s.
+const STEP_S: f64 = 1e-3;
 
 impl Ground {
-    /// Ground at `height` for a vehicle of the given weight (N): it sinks in by 1 mm, damped near critically.
-    pub fn for_weight(height: f64, weight: f64) -> Self {
+    /// Ground at `height` for a vehicle of the given weight (N) and yaw inertia Iz (kg m²): it sinks in by 1 mm, damped
+    /// near critically.
+    ///
+    /// Friction on light feet far out would stop a turn within less than a step, and an explicit integrator would
+    /// shake: friction against turning is softened so far that it takes a step.
+    pub fn for_weight(height: f64, weight: f64, yaw_inertia: f64) -> Self {
+        let (foot_radius, friction) = (0.15, 0.7);
         let stiffness = weight / 4.0 / 1e-3;
         let foot_mass = weight / 9.81 / 4.0;
-        Self { height, foot_radius: 0.15, stiffness, damping: (stiffness * foot_mass).sqrt(), friction: 0.7 }
+        let one_step = friction * weight * foot_radius * foot_radius * STEP_S / yaw_inertia;
+        Self {
+            height,
+            foot_radius,
+            stiffness,
+            damping: (stiffness * foot_mass).sqrt(),
+            friction,
+            turn_stick_speed: one_step.max(STICK_SPEED),
+        }
     }
 
     /// What the ground does to a body in this motion.
@@ -50,23 +67,26 @@ impl Ground {
         for (x, y) in [(side, side), (side, -side), (-side, -side), (-side, side)] {
             let arm = Vector3::new(x, y, 0.0);
             let place = motion.position + attitude * arm;
-            let velocity = motion.velocity + attitude * motion.rates.cross(&arm);
-            let force = self.foot_force(place.z, &velocity);
+            let turning = attitude * Vector3::new(0.0, 0.0, motion.rates.z).cross(&arm);
+            let tilting = attitude * Vector3::new(motion.rates.x, motion.rates.y, 0.0).cross(&arm);
+            let force = self.foot_force(place.z, &(motion.velocity + tilting), &turning);
             total.force += force;
             total.torque += arm.cross(&attitude.inverse_transform_vector(&force));
         }
         total
     }
 
-    /// Force on a foot at a height with a velocity.
-    fn foot_force(&self, height: f64, velocity: &Vector3<f64>) -> Vector3<f64> {
+    /// Force on a foot at a height, with a velocity and, besides, one from the body's turning about its z axis.
+    fn foot_force(&self, height: f64, moving: &Vector3<f64>, turning: &Vector3<f64>) -> Vector3<f64> {
         let depth = self.height - height;
         if depth <= 0.0 {
             return Vector3::zeros();
         }
+        let velocity = moving + turning;
         let normal = (self.stiffness * depth - self.damping * velocity.z).max(0.0);
         let speed = velocity.x.hypot(velocity.y);
-        let friction = -self.friction * normal / speed.max(STICK_SPEED);
-        Vector3::new(friction * velocity.x, friction * velocity.y, normal)
+        let slip = moving / speed.max(STICK_SPEED) + turning / speed.max(self.turn_stick_speed);
+        let grip = self.friction * normal / slip.x.hypot(slip.y).max(1.0);
+        Vector3::new(-grip * slip.x, -grip * slip.y, normal)
     }
 }

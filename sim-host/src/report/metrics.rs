@@ -101,6 +101,13 @@ pub struct Recovery {
     pub pitch: Option<f64>,
 }
 
+impl Recovery {
+    /// x, y, z, roll, pitch, yaw.
+    pub fn as_array(&self) -> [Option<f64>; 6] {
+        [self.x, self.y, self.z, self.roll, self.pitch, self.yaw]
+    }
+}
+
 /// Watches an error until it stays in a band for good.
 #[derive(Clone, Copy, Debug)]
 pub struct Settling {

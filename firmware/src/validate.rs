@@ -1,0 +1,54 @@
+//! Why a configuration is refused, and the checks that its parts share.
+
+/// Why a configuration is refused; each names the field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConfigError {
+    /// Not a finite number.
+    NonFinite(&'static str),
+    /// Must be above zero.
+    NotPositive(&'static str),
+    /// Must not be below zero.
+    Negative(&'static str),
+    /// Outside the range the field allows.
+    OutOfRange(&'static str),
+    /// The rotors cannot produce thrust and three torques independently.
+    SingularGeometry,
+}
+
+impl ConfigError {
+    /// # Errors
+    /// `name` unless `value` is finite and above zero.
+    pub fn require_positive(name: &'static str, value: f32) -> Result<(), Self> {
+        if !value.is_finite() {
+            Err(Self::NonFinite(name))
+        } else if value > 0.0 {
+            Ok(())
+        } else {
+            Err(Self::NotPositive(name))
+        }
+    }
+
+    /// # Errors
+    /// `name` unless `value` is finite and not below zero.
+    pub fn require_not_negative(name: &'static str, value: f32) -> Result<(), Self> {
+        if !value.is_finite() {
+            Err(Self::NonFinite(name))
+        } else if value >= 0.0 {
+            Ok(())
+        } else {
+            Err(Self::Negative(name))
+        }
+    }
+}
+
+impl core::fmt::Display for ConfigError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NonFinite(name) => write!(f, "`{name}` is not a finite number"),
+            Self::NotPositive(name) => write!(f, "`{name}` must be above zero"),
+            Self::Negative(name) => write!(f, "`{name}` must not be negative"),
+            Self::OutOfRange(name) => write!(f, "`{name}` is out of its range"),
+            Self::SingularGeometry => f.write_str("`airframe.geometry` cannot produce thrust and three torques"),
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! The command line as scripts use it: JSON with the documented keys, and bad input in one line with exit code 2.
+
+use std::fs;
+use std::net::UdpSocket;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// A folder of its own, in which the program runs: it needs nothing beside it.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("glissade-{}-cli-{name}", std::process::id()));
+        fs::create_dir_all(&path).expect("the temporary folder can be written");
+        Self(path)
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_sim-host"))
+            .args(arguments)
+            .current_dir(&self.0)
+            .output()
+            .expect("the program starts")
+    }
+
+    fn file(&self, name: &str, text: &str) -> String {
+        let path = self.0.join(name);
+        fs::write(&path, text).expect("the temporary folder can be written");
+        path.to_str().expect("a plain path").to_owned()
+    }
+
+    fn succeeds(&self, arguments: &[&str]) -> String {
+        let output = self.run(arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("UTF-8")
+    }
+
+    /// One line on standard error that holds `culprit`, nothing on standard output, exit code 2.
+    fn refuses(&self, arguments: &[&str], culprit: &str) {
+        let output = self.run(arguments);
+        let complaint = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {complaint}");
+        assert_eq!(complaint.lines().count(), 1, "{arguments:?}: {complaint}");
+        assert!(complaint.contains(culprit), "{arguments:?}: {complaint}");
+        assert!(!complaint.contains("panicked"), "{arguments:?}: {complaint}");
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+const HELIX: &str = include_str!("../scenarios/helix.toml");
+const AIRFRAME: &str = include_str!("../airframes/paper.toml");
+
+#[test]
+fn unknown_names_are_refused() {
+    let folder = Folder::new("names");
+    folder.refuses(&["run", "helicks"], "helicks");
+    folder.refuses(&["run", "helix", "--set", "airframe=papper"], "papper");
+    folder.refuses(&["serve", "padd"], "padd");
+    folder.refuses(&["plan", "helicks"], "helicks");
+    folder.refuses(&["run", "helix", "--colour"], "--colour");
+    folder.refuses(&["run"], "SCENARIO");
+    folder.refuses(&["fly", "helix"], "fly");
+    folder.refuses(&["run", "helix", "extra"], "extra");
+}
+
+#[test]
+fn bad_values_of_options_are_refused() {
+    let folder = Folder::new("options");
+    for bad in ["8..1", "1", "one..two", "1..99999999999"] {
+        folder.refuses(&["run", "helix", "--seeds", bad], "--seeds");
+    }
+    folder.refuses(&["run", "helix", "--seed", "-1"], "-1");
+    folder.refuses(&["run", "helix", "--seed", "1", "--seeds", "1..2"], "--seed");
+    folder.refuses(&["run", "helix", "--seeds", "1..2", "--jobs", "0"], "--jobs");
+    folder.refuses(&["run", "helix", "--seeds", "1..2", "--jobs", "many"], "--jobs");
+    folder.refuses(&["run", "helix", "--set", "duration_s"], "duration_s");
+    folder.refuses(&["run", "helix", "--set", "colour=1"], "colour");
+    folder.refuses(&["run", "helix", "--set", "duration_s=-1"], "duration_s");
+    folder.refuses(&["run", "helix", "--set", "duration_s=nan"], "duration_s");
+    folder.refuses(&["run", "helix", "--set", "airframe.mass_kg=-1"], "mass_kg");
+    folder.refuses(&["serve", "--listen", "nowhere"], "--listen");
+    folder.refuses(&["serve", "--speed", "0"], "speed");
+    folder.refuses(&["serve", "paper-ideal"], "paper-ideal");
+    folder.refuses(&["bench", "--runs", "0"], "--runs");
+    folder.refuses(&["bench", "--seconds", "nan"], "--seconds");
+}
+
+/// helix.toml with `from` replaced, which must be there.
+fn spoilt(from: &str, to: &str) -> String {
+    assert!(HELIX.contains(from), "{from}");
+    HELIX.replacen(from, to, 1)
+}
+
+#[test]
+fn spoilt_scenario_files_are_refused() {
+    let folder = Folder::new("files");
+    let cases = [
+        ("nan", spoilt("climb_m_s = 1.0", "climb_m_s = nan"), "trajectory.helix"),
+        ("infinite", spoilt("duration_s = 20.0", "duration_s = inf"), "duration_s"),
+        ("unknown", spoilt("[control]", "[control]\ncolour = 1"), "colour"),
+        ("unknown-top", spoilt("plant =", "colour = 1\nplant ="), "colour"),
+        ("type", spoilt("duration_s = 20.0", "duration_s = \"soon\""), "duration_s"),
+        ("plant", spoilt("plant = \"rigid-body\"", "plant = \"rubber-body\""), "rubber-body"),
+        ("missing", spoilt("duration_s = 20.0", ""), "duration_s"),
+        ("gain", spoilt("lambda = 30.0", "lambda = -30.0"), "roll"),
+        ("rho", spoilt("rho = 1.0", "rho = 0.0"), "roll"),
+        ("tilt", spoilt("tilt_max_rad = 1.3", "tilt_max_rad = 3.0"), "tilt_max_rad"),
+        ("join", spoilt("duration_s = 1.", "duration_s = -1."), "join"),
+        ("start", spoilt("plant =", "start_position_m = [0.0, nan, 0.0]\nplant ="), "start_position_m"),
+        ("syntax", spoilt("[control]", "[control"), "line"),
+        ("empty", String::new(), "summary"),
+        ("ratio", spoilt("thrust_to_weight = 2.0", "thrust_to_weight = nan"), "thrust_to_weight"),
+    ];
+    for (name, text, culprit) in cases {
+        let path = folder.file(&format!("{name}.toml"), &text);
+        folder.refuses(&["run", &path], culprit);
+        folder.refuses(&["run", &path], name);
+    }
+    fs::write(folder.0.join("bytes.toml"), [0xff, 0xfe, 0x00]).expect("can be written");
+    folder.refuses(&["run", "./bytes.toml"], "bytes.toml");
+    folder.refuses(&["run", "./gone.toml"], "gone.toml");
+    let directory = folder.0.join("folder.toml");
+    fs::create_dir(&directory).expect("can be made");
+    folder.refuses(&["run", "./folder.toml"], "folder.toml");
+}
+
+#[test]
+fn spoilt_airframe_files_are_refused() {
+    let folder = Folder::new("airframes");
+    let cases = [
+        ("mass_kg = 0.823", "mass_kg = -0.823", "mass_kg"),
+        ("mass_kg = 0.823", "mass_kg = nan", "mass_kg"),
+        ("0.5e-2, 0.1e-2]", "0.0, 0.1e-2]", "inertia_kg_m2"),
+        ("rotor_lag_s = 0.0", "rotor_lag_s = -0.1", "rotor_lag_s"),
+        ("drag_n_s_m = [0.3729", "drag_n_s_m = [-1.0", "drag_n_s_m"),
+        ("yaw_n_m_s2 = 33e-6", "yaw_n_m_s2 = nan", "geometry"),
+        ("x_m = 0.350", "x_m = inf", "geometry"),
+        ("lift_n_s2 = 29.8e-4", "lift_n_s2 = 0.0", "lift_n_s2"),
+        ("summary =", "colour = 1\nsummary =", "colour"),
+    ];
+    for (from, to, culprit) in cases {
+        assert!(AIRFRAME.contains(from), "{from}");
+        let airframe = folder.file("airframe.toml", &AIRFRAME.replacen(from, to, 1));
+        let scenario = folder.file("scenario.toml", &spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
+        folder.refuses(&["run", &scenario], culprit);
+    }
+    // Four rotors that all push the same way cannot yaw independently of thrust.
+    let airframe = folder.file("airframe.toml", &AIRFRAME.replace("= -33e-6", "= 33e-6"));
+    let scenario = folder.file("scenario.toml", &spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
+    folder.refuses(&["run", &scenario], "geometry");
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_named() {
+    let folder = Folder::new("out");
+    folder.file("taken", "");
+    folder.refuses(&["run", "helix", "--set", "duration_s=1", "--out", "taken"], "taken");
+    folder.refuses(&["run", "helix", "--set", "duration_s=1", "--out", "taken/below"], "taken");
+    fs::create_dir_all(folder.0.join("here/truth.csv")).expect("can be made");
+    folder.refuses(&["run", "helix", "--set", "duration_s=1", "--out", "here"], "truth.csv");
+}
+
+#[test]
+fn a_busy_port_is_named() {
+    let folder = Folder::new("port");
+    let socket = UdpSocket::bind("127.0.0.1:0").expect("a free port");
+    let address = socket.local_addr().expect("bound").to_string();
+    folder.refuses(&["serve", "--listen", &address], &address);
+}
+
+const NULLABLE: [&str; 5] = ["settle_5cm_s", "settle_2mm_s", "rms_m", "max_m", "overshoot"];
+
+fn assert_documented(summary: &Value) {
+    assert!(summary["scenario"].is_string() && summary["seed"].is_u64() && summary["survived"].is_boolean());
+    let hash = summary["truth_sha256"].as_str().expect("a hash");
+    assert!(hash.len() == 64 && hash.bytes().all(|b| b.is_ascii_hexdigit()), "{hash}");
+    for key in ["duration_s", "real_time_factor", "chattering", "saturated_fraction"] {
+        assert!(summary[key].is_f64(), "{key}: {}", summary[key]);
+    }
+    for axis in ["x", "y", "z", "yaw"] {
+        let axis = summary["axes"][axis].as_object().expect("an object an axis");
+        assert!(NULLABLE.iter().all(|key| axis.get(*key).is_some_and(|v| v.is_f64() || v.is_null())), "{axis:?}");
+    }
+    assert!(summary.as_object().expect("an object").contains_key("time_optimal_s"));
+}
+
+#[test]
+fn json_is_one_object_or_one_array_with_the_documented_keys() {
+    let folder = Folder::new("json");
+    let one: Value =
+        serde_json::from_str(&folder.succeeds(&["run", "helix", "--set", "duration_s=5", "--seed", "3", "--json"]))
+            .expect("one JSON value and nothing else");
+    assert_documented(&one);
+    assert_eq!((&one["scenario"], &one["seed"], &one["duration_s"]), (&"helix".into(), &3.into(), &5.0.into()));
+    assert_eq!(one["time_optimal_s"], 1.31);
+    let many: Value =
+        serde_json::from_str(&folder.succeeds(&["run", "helix", "--set", "duration_s=1", "--seeds", "4..6", "--json"]))
+            .expect("one JSON value and nothing else");
+    let many = many.as_array().expect("an array");
+    many.iter().for_each(assert_documented);
+    assert_eq!(many.iter().map(|s| s["seed"].as_u64()).collect::<Vec<_>>(), [Some(4), Some(5), Some(6)]);
+}
+
+#[test]
+fn a_file_s_path_and_settings_work_from_any_folder() {
+    let folder = Folder::new("path");
+    folder.file("mine.toml", HELIX);
+    folder.file("heavy.toml", &AIRFRAME.replace("0.823", "1.0"));
+    let text = folder.succeeds(&["run", "./mine.toml", "--set", "duration_s=2", "--out", "out/deep", "--json"]);
+    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(summary["duration_s"], 2.0);
+    let truth = fs::read_to_string(folder.0.join("out/deep/truth.csv")).expect("truth.csv is there");
+    assert_eq!(truth.lines().count(), 1 + 2000);
+    let file = fs::read_to_string(folder.0.join("out/deep/summary.json")).expect("summary.json is there");
+    let file: Value = serde_json::from_str(&file).expect("JSON");
+    assert_eq!(file["truth_sha256"], summary["truth_sha256"]);
+
+    let other =
+        folder.succeeds(&["run", "mine.toml", "--set", "duration_s=2", "--set", "airframe=heavy.toml", "--json"]);
+    let other: Value = serde_json::from_str(&other).expect("JSON");
+    assert_ne!(other["truth_sha256"], summary["truth_sha256"], "another airframe, another flight");
+}
+
+#[test]
+fn scenarios_lists_what_can_be_flown() {
+    let folder = Folder::new("list");
+    let text = folder.succeeds(&["scenarios"]);
+    let list: Value = serde_json::from_str(&folder.succeeds(&["scenarios", "--json"])).expect("JSON");
+    let names: Vec<&str> = list.as_array().expect("an array").iter().filter_map(|s| s["name"].as_str()).collect();
+    for name in ["helix", "helix-tw4", "helix-lag", "paper-ideal", "paper-attitude", "paper-disturbed", "paper-literal"]
+    {
+        assert!(names.contains(&name) && text.lines().any(|line| line.starts_with(name)), "{name}");
+    }
+}
+
+#[test]
+fn help_and_version_are_results() {
+    let folder = Folder::new("help");
+    assert!(folder.succeeds(&["--help"]).contains("scenarios"));
+    assert!(folder.succeeds(&["run", "--help"]).contains("--seeds"));
+    assert!(folder.succeeds(&["--version"]).contains(env!("CARGO_PKG_VERSION")));
+}

@@ -1,0 +1,81 @@
+//! Nothing allocates in the lockstep loop: firmware with all partitions, plant, noise, metrics and the MAVLink bytes.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use firmware::mavlink::Ground;
+use firmware::schedule::GROUND;
+use sim_host::flight;
+use sim_host::plant::rigid_body::RigidBody;
+use sim_host::report::{Metrics, TruthWriter};
+use sim_host::scenario::Scenario;
+use sim_host::sil::Flight;
+
+/// The system's allocator, counting.
+struct Counting;
+
+static ALLOCATIONS: AtomicU64 = AtomicU64::new(0);
+
+// Counting what the system's allocator is asked for needs an allocator, and its trait is unsafe: every call is passed
+// on as it came.
+#[allow(unsafe_code)]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(place, layout) }
+    }
+
+    unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { System.realloc(place, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Bytes of noise that a link may bring: every job of the ground partition parses some.
+fn noise(tick: u32) -> [u8; 8] {
+    (u64::from(tick).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0xfd).to_le_bytes()
+}
+
+/// Flies `ticks` ticks with a talking ground station; returns how many bytes the firmware sent.
+fn fly(flight: &mut Flight<RigidBody>, ticks: u32, recorder: &mut (Metrics, TruthWriter<std::io::Sink>)) -> usize {
+    let mut sent = 0;
+    for tick in 0..ticks {
+        if tick % GROUND.period == 0 {
+            flight.autopilot.inner.receive(&noise(tick));
+        }
+        assert!(flight.step(recorder));
+        if flight.autopilot.inner.has_transmit() {
+            sent += flight.autopilot.inner.take_transmit().len();
+        }
+    }
+    sent
+}
+
+/// One test only in this file: the count is the whole process's.
+#[test]
+fn five_seconds_of_flight_allocate_nothing() {
+    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    let settings = ["disturbance.from_s=0", "disturbance.to_s=9", "disturbance.hold_s=0.001"]
+        .into_iter()
+        .chain(["disturbance.acceleration_m_s2=0.5", "disturbance.angle_output_rad=0.001"])
+        .map(str::to_owned)
+        .collect::<Vec<_>>();
+    let scenario = Scenario::load("helix", &settings).expect("valid");
+    let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario)).expect("can be flown");
+    assert!(ALLOCATIONS.load(Ordering::Relaxed) > before, "the counter counts");
+    flight.autopilot.ground = Ground::default();
+
+    let mut recorder = (Metrics::new(), TruthWriter::hash_only());
+    fly(&mut flight, 1_000, &mut recorder);
+    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    let sent = fly(&mut flight, 5_000, &mut recorder);
+    assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0);
+    assert!(sent > 1_000, "telemetry was sent: {sent} bytes");
+}
