@@ -130,7 +130,9 @@ impl InnerTask {
                 // A full queue drops the command; the sender repeats what is not acknowledged.
                 let _ = self.commands.push(*command);
             }
-            self.transmit = output.transmit;
+            if !output.transmit.is_empty() {
+                self.transmit = output.transmit;
+            }
         }
     }
 

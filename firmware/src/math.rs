@@ -137,10 +137,14 @@ impl Phase {
     }
 }
 
-/// True if every number is finite.
+/// True if every number is finite: 0·x is 0 for those alone, and one comparison at the end is cheaper than one each.
 #[inline]
 pub fn all_finite(values: &[f32]) -> bool {
-    values.iter().all(|v| v.is_finite())
+    let mut probe = 0.0;
+    for value in values {
+        probe += 0.0 * value;
+    }
+    probe == 0.0
 }
 
 #[cfg(test)]
@@ -202,6 +206,18 @@ mod tests {
             let wrapped = wrap_angle(x);
             assert!((-PI - 1e-6..=PI + 1e-6).contains(&wrapped), "{x} -> {wrapped}");
             assert!((f64::from(wrapped).sin() - f64::from(x).sin()).abs() < 4e-6);
+        }
+    }
+
+    #[test]
+    fn all_finite_finds_one_that_is_not() {
+        assert!(all_finite(&[f32::MAX, f32::MIN, -0.0, f32::MIN_POSITIVE, f32::MAX]));
+        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            for place in 0..4 {
+                let mut values = [1.0; 4];
+                values[place] = bad;
+                assert!(!all_finite(&values));
+            }
         }
     }
 

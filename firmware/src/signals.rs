@@ -5,6 +5,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
+use crate::math;
 
 /// Number of the inner loop's tick, [`TICK_US`] apart, counted from boot.
 pub type Tick = u32;
@@ -45,7 +46,7 @@ impl NavState {
     /// True if every component is a finite number and the attitude is a unit quaternion within 1 %.
     pub fn is_valid(&self) -> bool {
         let q: &Quaternion<f32> = self.attitude.quaternion();
-        let finite = self.position.iter().chain(self.velocity.iter()).chain(self.rates.iter()).all(|v| v.is_finite());
+        let finite = [&self.position, &self.velocity, &self.rates].iter().all(|v| math::all_finite(v.as_slice()));
         let norm = q.norm_squared();
         finite && norm > 0.98 && norm < 1.02
     }

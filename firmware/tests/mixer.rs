@@ -53,7 +53,7 @@ fn skewed() -> [[f32; 4]; 4] {
 }
 
 fn mixer<const N: usize>(rows: &[[f32; N]; 4]) -> Mixer<N> {
-    Mixer::new(rows, (LIMIT as f32).sqrt()).expect("the rotors span U1..U4")
+    Mixer::new(rows, LIMIT.sqrt() as f32).expect("the rotors span U1..U4")
 }
 
 fn input(u: [f64; 4]) -> ControlInput {
@@ -68,7 +68,7 @@ fn produced<const N: usize>(rows: &[[f32; N]; 4], omega_sq: &[f32; N]) -> [f64; 
 
 /// Most that each of U1..U4 can be in size.
 fn most<const N: usize>(rows: &[[f32; N]; 4]) -> [f64; 4] {
-    rows.map(|row| row.iter().map(|b| f64::from(b.abs()) * LIMIT).sum())
+    rows.map(|row| row.iter().map(|b| f64::from(*b).abs() * LIMIT).sum())
 }
 
 /// `a·x ≤ bound`, x = (part of the torque, thrust, yaw).
@@ -225,9 +225,9 @@ proptest! {
     #[test]
     fn demands_far_beyond_the_limits_keep_their_order(
         plus in demand_within(RotorGeometry::plus(LIFT as f32, YAW as f32, ARM as f32).rows(), 1.0),
-        magnitude in 0.0..37.0_f32,
+        magnitude in 0.0..37.0_f64,
     ) {
-        let far = 10.0_f32.powf(magnitude);
+        let far = 10.0_f64.powf(magnitude) as f32;
         let beyond = ControlInput { roll_n_m: plus.roll_n_m * far, pitch_n_m: plus.pitch_n_m * far, ..plus };
         assert_optimal(&RotorGeometry::plus(LIFT as f32, YAW as f32, ARM as f32).rows(), &beyond);
     }

@@ -124,11 +124,12 @@ pub fn demand(
     angles: &Vector3<f32>,
     rates: &Vector3<f32>,
 ) -> AttitudeDemand {
-    let axis = |i: usize, gains: &AxisGains| {
-        gains.correction(math::wrap_angle(reference.angles[i] - angles[i]), reference.rates[i] - rates[i])
-    };
+    let error = (reference.angles - angles).map(math::wrap_angle);
+    let error_rate = reference.rates - rates;
     let [g1, g2, g3] = gains;
-    let (roll, pitch, yaw) = (axis(0, g1), axis(1, g2), axis(2, g3));
+    let roll = g1.correction(error.x, error_rate.x);
+    let pitch = g2.correction(error.y, error_rate.y);
+    let yaw = g3.correction(error.z, error_rate.z);
     AttitudeDemand {
         s: Vector3::new(roll.s, pitch.s, yaw.s),
         acceleration: reference.accelerations + Vector3::new(roll.acceleration, pitch.acceleration, yaw.acceleration),

@@ -141,6 +141,8 @@ impl<const N: usize> Mixer<N> {
         core::array::from_fn(|i| torque[i] + (self.thrust[i] * thrust + self.yaw[i] * yaw))
     }
 
+    #[cold]
+    #[inline(never)]
     fn allocate_limited(&self, torque: &[f32; N], demand: &ControlInput) -> [f32; N] {
         let share = self.torque_share(torque);
         let base = torque.map(|v| v * share);

@@ -41,7 +41,10 @@ impl Constants {
     /// U1..U4 of rotor speeds (rad/s), Eq. 4.
     #[inline]
     pub fn inputs(&self, omega: &Vector4<f64>) -> Vector4<f64> {
-        self.geometry * omega.component_mul(omega)
+        let square = omega.component_mul(omega);
+        let share = |rotor: usize| self.geometry.column(rotor) * square[rotor];
+        // Added in pairs: a sum of four in a row would be the longest wait in a step.
+        (share(0) + share(1)) + (share(2) + share(3))
     }
 
     /// Ωr of rotor speeds, rad/s.

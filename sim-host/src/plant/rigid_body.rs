@@ -154,6 +154,12 @@ impl RigidBody {
         ])
     }
 
+    /// [`rk4`](Self::rk4) with ground, kept out of the way of the flights without.
+    #[inline(never)]
+    fn rk4_in_contact(&self, stages: &[RotorState; 3], push: &Push, h: f64) -> State {
+        self.rk4::<true>(stages, push, h)
+    }
+
     /// The state after a step of the classical Runge–Kutta method.
     #[inline]
     fn rk4<const CONTACT: bool>(&self, [first, middle, last]: &[RotorState; 3], push: &Push, h: f64) -> State {
@@ -228,7 +234,7 @@ impl Plant for RigidBody {
     fn step(&mut self, command: &[f64; ROTORS], push: &Push, h: f64) {
         let (stages, omega) = self.rotor_stages(&Vector4::from(*command), h);
         self.state = if self.ground.is_some() {
-            self.rk4::<true>(&stages, push, h)
+            self.rk4_in_contact(&stages, push, h)
         } else {
             self.rk4::<false>(&stages, push, h)
         };

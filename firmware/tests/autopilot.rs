@@ -1,0 +1,237 @@
+//! The autopilot as a whole, through the doors a board uses: what it does with samples it cannot use, and when what its
+//! partitions decide takes effect.
+
+use firmware::airframe::Airframe;
+use firmware::autopilot::Autopilot;
+use firmware::commander::Request;
+use firmware::config::{FlightConfig, Start};
+use firmware::guidance::Trajectory;
+use firmware::inner::STALE_AFTER;
+use firmware::schedule::{COMMANDER, GROUND, OUTER};
+use firmware::signals::{MotorCommand, NavState, SensorFrame};
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// Hovering in the air at the origin.
+fn in_flight() -> FlightConfig {
+    FlightConfig {
+        start: Start::InFlight,
+        trajectory: Trajectory::Hold { position_m: [0.0; 3], yaw_rad: 0.0 },
+        join: None,
+        ..FlightConfig::default()
+    }
+}
+
+fn autopilot(config: &FlightConfig) -> Autopilot {
+    Autopilot::new(config).expect("valid")
+}
+
+fn at(position: [f32; 3]) -> SensorFrame {
+    SensorFrame { nav: NavState { position: position.into(), ..NavState::at_rest() } }
+}
+
+/// A sample for each number in it, spoilt by `bad`.
+fn spoilt(bad: f32) -> Vec<SensorFrame> {
+    let good = NavState::at_rest();
+    let spoil = |f: &dyn Fn(&mut NavState)| {
+        let mut nav = good;
+        f(&mut nav);
+        SensorFrame { nav }
+    };
+    let mut all = Vec::new();
+    for i in 0..3 {
+        all.push(spoil(&|nav| nav.position[i] = bad));
+        all.push(spoil(&|nav| nav.velocity[i] = bad));
+        all.push(spoil(&|nav| nav.rates[i] = bad));
+    }
+    for i in 0..4 {
+        all.push(spoil(&|nav| {
+            let mut q = *nav.attitude.quaternion();
+            q.coords[i] = bad;
+            nav.attitude = UnitQuaternion::new_unchecked(q);
+        }));
+    }
+    all
+}
+
+#[test]
+fn a_sample_that_is_not_finite_is_refused_and_the_last_good_one_held() {
+    let tilted = SensorFrame {
+        nav: NavState {
+            attitude: UnitQuaternion::from_euler_angles(0.1, -0.05, 0.2),
+            rates: Vector3::new(0.3, 0.2, -0.1),
+            ..NavState::at_rest()
+        },
+    };
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for sample in spoilt(bad) {
+            let (mut refusing, mut missing) = (autopilot(&in_flight()), autopilot(&in_flight()));
+            for _ in 0..10 {
+                refusing.tick(Some(&tilted));
+                missing.tick(Some(&tilted));
+            }
+            for _ in 0..20 {
+                let (with, without) = (*refusing.tick(Some(&sample)), *missing.tick(None));
+                assert_eq!(with, without, "a refused sample is as good as none: {sample:?}");
+                assert!(with.motors.omega_rad_s.iter().all(|w| w.is_finite()));
+            }
+            assert_ne!(*refusing.inner.inner_output(), *autopilot(&in_flight()).tick(Some(&at([0.0; 3]))), "it holds");
+        }
+    }
+}
+
+#[test]
+fn an_attitude_that_is_no_rotation_is_refused() {
+    for scale in [0.0, 0.5, 2.0] {
+        let nav = NavState {
+            attitude: UnitQuaternion::new_unchecked(*UnitQuaternion::identity().quaternion() * scale),
+            ..NavState::at_rest()
+        };
+        let (mut refusing, mut missing) = (autopilot(&in_flight()), autopilot(&in_flight()));
+        for _ in 0..10 {
+            assert_eq!(refusing.tick(Some(&SensorFrame { nav })), missing.tick(None));
+        }
+    }
+}
+
+#[test]
+fn without_samples_a_vehicle_is_not_armable_and_with_them_it_is_again() {
+    let mut vehicle = autopilot(&FlightConfig::default());
+    let armable = |vehicle: &Autopilot| vehicle.inner.commander_output().armable;
+    let good = at([0.0; 3]);
+    // A commander's job is released every period; its output takes effect after its offset.
+    let settle = COMMANDER.period + COMMANDER.offset + 1;
+    for _ in 0..settle {
+        vehicle.tick(Some(&good));
+    }
+    assert!(armable(&vehicle));
+    for _ in 0..STALE_AFTER + settle {
+        vehicle.tick(None);
+    }
+    assert!(!armable(&vehicle));
+    for _ in 0..settle {
+        vehicle.tick(Some(&good));
+    }
+    assert!(armable(&vehicle));
+}
+
+#[test]
+fn the_outer_loops_output_takes_effect_exactly_its_offset_after_its_release() {
+    let mut moved = autopilot(&in_flight());
+    let mut still = autopilot(&in_flight());
+    // From the release at tick 40 on, one vehicle is a metre off: its outer loop asks for something else at tick 42.
+    let released = 10 * OUTER.period;
+    for tick in 0..released + OUTER.period + OUTER.offset {
+        let place = if tick >= released { [1.0, 0.0, 0.0] } else { [0.0; 3] };
+        moved.tick(Some(&at(place)));
+        still.tick(Some(&at([0.0; 3])));
+        let differs = moved.inner.outer_output().attitude.angles != still.inner.outer_output().attitude.angles;
+        assert_eq!(differs, tick >= released + OUTER.offset, "tick {tick}");
+        let pitch = moved.inner.outer_output().attitude.angles.y;
+        assert!(!differs || pitch < -0.01, "too far north: it leans back, not {pitch}");
+    }
+    assert_eq!(OUTER.offset, 2, "the design's");
+}
+
+#[test]
+fn the_inner_loop_answers_in_the_same_tick() {
+    let (mut moved, mut still) = (autopilot(&in_flight()), autopilot(&in_flight()));
+    let tilted = SensorFrame {
+        nav: NavState { attitude: UnitQuaternion::from_euler_angles(0.01, 0.0, 0.0), ..NavState::at_rest() },
+    };
+    let (with, without) = (*moved.tick(Some(&tilted)), *still.tick(Some(&at([0.0; 3]))));
+    // Rolled by +0.01 (left side up): U2 turns it back, rotor 2 (right) over rotor 4 (left).
+    assert!(with.demand.roll_n_m < 0.0 && without.demand.roll_n_m == 0.0);
+    let [_, right, _, left] = with.motors.omega_rad_s;
+    assert!(right > left);
+}
+
+#[test]
+fn hover_asks_for_the_weight() {
+    let mut vehicle = autopilot(&in_flight());
+    let output = *vehicle.tick(Some(&at([0.0; 3])));
+    let weight = Airframe::paper(2.0).weight_n();
+    let near = |value: f32, exact: f32, part: f32| (exact * (1.0 - part)..exact * (1.0 + part)).contains(&value);
+    assert!(near(output.demand.thrust_n, weight, 1e-5), "{output:?}");
+    let hover = Airframe::paper(2.0).omega_for_thrust_to_weight(1.0);
+    assert!(output.motors.omega_rad_s.iter().all(|w| near(*w, hover, 1e-4)), "{output:?}");
+}
+
+/// MAVLink 2 `COMMAND_LONG` 400 (arm or disarm), by hand: from system 255, component 190, to system 1, component 1.
+fn command_arm(arm: bool, force: bool) -> Vec<u8> {
+    let mut payload = Vec::new();
+    let magic = if force { 21_196.0_f32 } else { 0.0 };
+    for parameter in [f32::from(u8::from(arm)), magic, 0.0, 0.0, 0.0, 0.0, 0.0] {
+        payload.extend(parameter.to_le_bytes());
+    }
+    payload.extend(400_u16.to_le_bytes());
+    payload.extend([1, 1, 0]);
+    while payload.len() > 1 && payload.last() == Some(&0) {
+        payload.pop();
+    }
+    let mut frame = vec![0xfd, payload.len() as u8, 0, 0, 0, 255, 190, 76, 0, 0];
+    frame.extend(payload);
+    // X.25 over all but the first byte, then COMMAND_LONG's CRC_EXTRA.
+    let crc = frame[1..].iter().chain(&[152]).fold(0xffff_u16, |crc, byte| {
+        let mut mixed = byte ^ (crc as u8);
+        mixed ^= mixed << 4;
+        let mixed = u16::from(mixed);
+        (crc >> 8) ^ (mixed << 8) ^ (mixed << 3) ^ (mixed >> 4)
+    });
+    frame.extend(crc.to_le_bytes());
+    frame
+}
+
+fn is_stopped(motors: &MotorCommand) -> bool {
+    *motors == MotorCommand::STOPPED
+}
+
+#[test]
+fn a_forced_disarm_stops_the_rotors_at_the_tick_it_is_published() {
+    let mut vehicle = autopilot(&in_flight());
+    let high = at([0.0, 0.0, 20.0]);
+    for _ in 0..GROUND.period {
+        vehicle.tick(Some(&high));
+    }
+    // Read by the ground's job released at tick 10, published at tick 20.
+    vehicle.inner.receive(&command_arm(false, true));
+    for tick in GROUND.period..500 {
+        let stopped = is_stopped(&vehicle.tick(Some(&high)).motors);
+        assert_eq!(stopped, tick >= GROUND.period + GROUND.offset, "tick {tick}");
+    }
+    assert_eq!(vehicle.inner.commander_output().flight_start, None, "and the commander knows");
+}
+
+#[test]
+fn a_disarm_in_the_air_is_refused_unless_forced() {
+    let mut vehicle = autopilot(&in_flight());
+    let high = at([0.0, 0.0, 20.0]);
+    vehicle.inner.receive(&command_arm(false, false));
+    for _ in 0..200 {
+        assert!(!is_stopped(&vehicle.tick(Some(&high)).motors));
+    }
+    let replies = vehicle.commander.step(
+        0,
+        &firmware::commander::CommanderInput {
+            nav: high.nav,
+            nav_fresh: true,
+            commands: [firmware::commander::Command { request: Request::Disarm { force: false }, sender: (255, 190) }]
+                .into_iter()
+                .collect(),
+        },
+    );
+    assert!(matches!(replies.replies[0].outcome, firmware::commander::Outcome::TemporarilyRejected(_)));
+}
+
+#[test]
+fn after_a_forced_disarm_the_vehicle_can_be_armed_again() {
+    let mut vehicle = autopilot(&FlightConfig::default());
+    let ground = at([0.0; 3]);
+    let mut fly = |frame: &[u8]| {
+        vehicle.inner.receive(frame);
+        (0..100).map(|_| is_stopped(&vehicle.tick(Some(&ground)).motors)).last()
+    };
+    assert_eq!(fly(&[]), Some(true), "disarmed at first");
+    assert_eq!(fly(&command_arm(true, false)), Some(false));
+    assert_eq!(fly(&command_arm(false, true)), Some(true));
+    assert_eq!(fly(&command_arm(true, false)), Some(false));
+}
