@@ -1,8 +1,6 @@
 //! The mixer against Eq. 4 written out by hand, and, where limits bind, against the exact lexicographic optimum
 //! in double precision, found by going through all vertices of the constraints: another algorithm than the mixer's.
 
-#![expect(clippy::disallowed_methods, reason = "what a test computes by std is not flown")]
-
 use firmware::airframe::{Airframe, RotorGeometry};
 use firmware::control::mixer::{Mixer, MixerError};
 use firmware::signals::ControlInput;
