@@ -1,7 +1,7 @@
 //! The ground partition, 100 Hz: MAVLink.
 //!
-//! Bytes in, bytes out; the board or the host only carries them. [`parser`] makes received bytes into messages,
-//! [`command`] carries out what they ask, [`telemetry`] says when what is sent, [`writer`] makes it into bytes.
+//! Bytes in, bytes out; the board or the host only carries them. `parser` makes received bytes into messages,
+//! `command` carries out what they ask, `telemetry` says when what is sent, `writer` makes it into bytes.
 //! Answers wait in a queue until they fit into a job's bytes. Knows NED/FRD through `frames` alone.
 
 mod command;

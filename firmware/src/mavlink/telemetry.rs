@@ -294,3 +294,26 @@ const fn decimal(text: &str) -> u32 {
         Err(_) => 0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glissade_dialect::MavMessage;
+    use glissade_dialect::mavlink_core::Message as _;
+
+    use super::*;
+
+    /// Number and period of a row ``| `NAME` | period in ms | …``.
+    fn documented(line: &str) -> Option<(u32, Tick)> {
+        let (name, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
+        let (period_ms, _) = rest.split_once(" |")?;
+        let id = MavMessage::message_id_from_name(name)?;
+        Some((id, period_ms.parse::<Tick>().ok()? * 1000 / TICK_US))
+    }
+
+    #[test]
+    fn the_document_tells_the_default_intervals() {
+        let rows: Vec<_> = include_str!("../../../docs/mavlink.md").lines().filter_map(documented).collect();
+        let streams: Vec<_> = STREAMS.iter().filter(|s| s.period != 0).map(|s| (s.id, s.period)).collect();
+        assert_eq!(rows, streams);
+    }
+}

@@ -1,7 +1,8 @@
 //! The paper plant: Eq. 2 with its errata, where Euler rates stand for body rates.
 //!
-//! Two readings. [`PaperPlant`] is the coupled one, driven by rotor speeds. [`Decoupled`] takes the specific
-//! force and the torques as direct inputs, of any size and sign: the model to which the paper's figures belong.
+//! Two readings. [`PaperPlant`] is the coupled one, driven by rotor speeds. The decoupled one
+//! ([`crate::decoupled`]) takes the specific force and the torques as direct inputs, of any size and sign: the model
+//! to which the paper's figures belong.
 
 use nalgebra::{UnitQuaternion, Vector3, Vector4};
 
