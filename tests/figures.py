@@ -131,7 +131,7 @@ def check(path, is_now, write):
     if was != is_now:
         print(f"{path.relative_to(ROOT)} is not what the program says (tests/figures.py --write updates it)")
         old = set(was.splitlines())
-        print("\n".join([line for line in is_now.splitlines() if line not in old][:20]))
+        print("\n".join([line[:200] for line in is_now.splitlines() if line not in old][:10]))
     return was == is_now
 
 
