@@ -18,8 +18,8 @@ macro_rules! built_in {
 }
 
 /// Scenarios that come with the binary, in the order in which they are listed.
-const SCENARIOS: [(&str, &str); 10] = built_in!("scenarios":
-    "helix", "helix-tw4", "helix-lag", "figure-eight", "pad",
+const SCENARIOS: [(&str, &str); 12] = built_in!("scenarios":
+    "helix", "helix-tw4", "helix-lag", "figure-eight", "step", "hover", "pad",
     "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
 );
 

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
+use firmware::guidance::Trajectory;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
 use super::RunArgs;
@@ -112,6 +113,7 @@ pub(super) fn summarise(
         truth_sha256,
         real_time_factor: duration_s / flown.wall_s,
         saturated_fraction: f64::from(outcome.saturated_ticks) / f64::from(outcome.ticks.max(1)),
+        papers_helix: scenario.file.trajectory == Trajectory::PAPER_HELIX,
         time_optimal_s: scenario.file.time_optimal_s,
         disturbance_onset_s: scenario.file.disturbance.map(|d| d.from_s),
         survived: outcome.survived,

@@ -26,6 +26,8 @@ pub struct Flight {
     pub saturated_fraction: f64,
     /// The time-optimal bound for joining the reference, where known, s.
     pub time_optimal_s: Option<f64>,
+    /// Whether the reference is the paper's helix, of which it makes its claims.
+    pub papers_helix: bool,
     /// When a disturbance set in, where one did, s.
     pub disturbance_onset_s: Option<f64>,
     /// False when the flight diverged or crashed, and the rows end there.
@@ -66,6 +68,9 @@ pub struct Summary {
     pub tilt: TiltFigures,
     /// Recovery from the disturbance; null without one.
     pub recovery_s: Option<Recovery>,
+    /// Whether the paper's claims belong beside these figures.
+    #[serde(skip)]
+    pub papers_helix: bool,
 }
 
 impl Summary {
@@ -87,6 +92,7 @@ impl Summary {
             saturated_fraction: flight.saturated_fraction,
             control_effort: metrics.control_effort(),
             tilt: metrics.tilt(),
+            papers_helix: flight.papers_helix,
             recovery_s: recovery.map(|r| if survived { r } else { Recovery::default() }),
         }
     }
@@ -153,6 +159,7 @@ pub(super) mod tests {
             real_time_factor: 3210.0,
             saturated_fraction: 0.0123,
             time_optimal_s: Some(1.31),
+            papers_helix: true,
             disturbance_onset_s: None,
             survived,
         }
