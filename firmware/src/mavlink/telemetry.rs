@@ -224,7 +224,8 @@ fn sys_status(input: &GroundInput, bad_checksums: u32) -> SYS_STATUS_DATA {
         MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_EXTERNAL_GROUND_TRUTH | MavSysStatusSensor::MAV_SYS_STATUS_AHRS;
     let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
     let present = controllers | navigation | prearm;
-    let mut health = controllers;
+    // There is no fence; a station takes its bit's absence for a breach.
+    let mut health = controllers | MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE;
     health.set(navigation, input.health.nav_fresh);
     health.set(prearm, input.armable);
     let [outer, commander, ground] = input.health.overruns.map(saturate);

@@ -175,6 +175,7 @@ fn health_shows_in_sys_status() {
         (status.onboard_control_sensors_present.bits(), status.onboard_control_sensors_health.bits());
     assert_eq!(present & 0x1020_0200, 0x1020_0200);
     assert_eq!(health & 0x1020_0200, 0);
+    assert_eq!(health & 0x0010_0000, 0x0010_0000, "no fence is breached");
     assert_eq!(status.errors_count1, u16::MAX);
     assert_eq!((status.errors_count2, status.errors_count3, status.errors_count4), (1, 2, 3));
 }
