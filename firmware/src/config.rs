@@ -50,9 +50,9 @@ impl FlightConfig {
     pub fn validate(&self) -> Result<(), ConfigError> {
         self.airframe.validate()?;
         let [roll, pitch, yaw] = &self.attitude;
-        roll.validate("attitude.roll")?;
-        pitch.validate("attitude.pitch")?;
-        yaw.validate("attitude.yaw")?;
+        roll.validate("control.roll")?;
+        pitch.validate("control.pitch")?;
+        yaw.validate("control.yaw")?;
         self.position.validate()?;
         if !crate::math::all_finite(&self.start_position_m) {
             return Err(ConfigError::NonFinite("start_position_m"));

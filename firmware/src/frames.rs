@@ -32,7 +32,7 @@ mod tests {
     }
 
     #[test]
-    fn euler_angles_change_sign_as_model_md_says() {
+    fn euler_angles_change_sign_in_pitch_and_yaw() {
         let (roll, pitch, yaw) = flip_attitude(&UnitQuaternion::from_euler_angles(0.3, -0.5, 1.1)).euler_angles();
         assert!((Vector3::new(roll, pitch, yaw) - Vector3::new(0.3, 0.5, -1.1)).norm() < 1e-6);
     }

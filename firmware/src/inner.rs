@@ -123,7 +123,7 @@ impl Inner {
                 s: wanted.s,
                 saturated: allocation.saturated,
             },
-            // Cannot come from valid configuration and samples; the last command is safer than none.
+            // A sample so wild that a product overflowed; the last command is safer than none.
             Err(_) => InnerOutput { saturated: true, ..self.output },
         }
     }

@@ -18,7 +18,7 @@ pub struct Timing {
 
 /// Guidance and position control: 250 Hz.
 pub const OUTER: Timing = Timing { period: 4, offset: 2 };
-/// Arming, modes and failsafes: 50 Hz.
+/// Arming: 50 Hz.
 pub const COMMANDER: Timing = Timing { period: 20, offset: 4 };
 /// MAVLink: 100 Hz.
 pub const GROUND: Timing = Timing { period: 10, offset: 10 };

@@ -15,28 +15,36 @@ pub enum ConfigError {
     SingularGeometry,
 }
 
+/// No quantity of a flight is larger, in SI units; products of three still fit an f32.
+const LARGEST: f32 = 1e9;
+
 impl ConfigError {
     /// # Errors
-    /// `name` unless `value` is finite and above zero.
+    /// `name` unless `value` is finite, above zero, and of a size with which f32 arithmetic neither overflows nor
+    /// vanishes: 1e-9 to 1e9.
     pub fn require_positive(name: &'static str, value: f32) -> Result<(), Self> {
         if !value.is_finite() {
             Err(Self::NonFinite(name))
-        } else if value > 0.0 {
+        } else if value <= 0.0 {
+            Err(Self::NotPositive(name))
+        } else if (1e-9..=LARGEST).contains(&value) {
             Ok(())
         } else {
-            Err(Self::NotPositive(name))
+            Err(Self::OutOfRange(name))
         }
     }
 
     /// # Errors
-    /// `name` unless `value` is finite and not below zero.
+    /// `name` unless `value` is finite, not below zero and at most 1e9.
     pub fn require_not_negative(name: &'static str, value: f32) -> Result<(), Self> {
         if !value.is_finite() {
             Err(Self::NonFinite(name))
-        } else if value >= 0.0 {
+        } else if value < 0.0 {
+            Err(Self::Negative(name))
+        } else if value <= LARGEST {
             Ok(())
         } else {
-            Err(Self::Negative(name))
+            Err(Self::OutOfRange(name))
         }
     }
 }

@@ -24,8 +24,6 @@ const STEPS_A_SECOND: f64 = 1e5;
 const STEP_S: f64 = 1.0 / STEPS_A_SECOND;
 /// Plant steps in a row of the record.
 const STEPS_A_ROW: u32 = 100;
-/// Further than this from its reference the vehicle is lost, m.
-const LOST_M: f64 = 50.0;
 
 /// The decoupled model with the control laws in its loop.
 #[derive(Debug)]
@@ -149,7 +147,7 @@ impl Decoupled {
                 let control = self.control(&disturbed);
                 if i == 0 {
                     let row = self.row(&control);
-                    outcome.survived = (0..3).all(|k| (row.position[k] - row.reference[k]).abs() < LOST_M);
+                    outcome.survived = row.is_tracking();
                     recorder.record(&row);
                 }
                 let input = PaperInput { force: control.force, torque: control.torque, spin: 0.0 };

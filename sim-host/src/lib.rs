@@ -6,7 +6,6 @@ pub mod decoupled;
 pub mod flight;
 pub mod link;
 pub mod noise;
-#[cfg(unix)]
 pub mod pil;
 pub mod plan;
 pub mod plant;

@@ -29,6 +29,9 @@ const ACCELERATION_SCALE: f64 = 5.0;
 /// Masses with which a path is flown, as parts of the vehicle's: its controller believes 1.
 const MASSES: [f64; 3] = [1.0, 0.99, 1.01];
 
+/// Paths that are tried before the search moves on.
+const POPULATION: usize = 24;
+
 /// How long the path is flown on after it has joined, s, to see that it stays joined.
 const AFTER_S: f64 = 1.0;
 
@@ -146,6 +149,11 @@ pub fn plan(scenario: &Scenario, flights: usize, seed: u64, mut progress: impl F
         "scenario `{}` is flown on the decoupled plant, which joins nothing: plan one on a coupled plant",
         scenario.name
     );
+    let generation = POPULATION * MASSES.len();
+    ensure!(
+        flights >= generation,
+        "--flights must be at least {generation}: a generation of paths, each with every mass"
+    );
     let flown = AtomicU64::new(0);
     let objective = |x: &DVector<f64>| {
         flown.fetch_add(MASSES.len() as u64, Ordering::Relaxed);
@@ -154,7 +162,7 @@ pub fn plan(scenario: &Scenario, flights: usize, seed: u64, mut progress: impl F
     let mut start = vec![0.0; PARAMETERS];
     start[0] = (scenario.file.join.as_ref().map_or(2.0, |join| f64::from(join.duration_s)) - 1.5) / DURATION_SCALE;
     let mut search = CMAESOptions::new(start, 0.5)
-        .population_size(24)
+        .population_size(POPULATION)
         .seed(seed)
         .max_function_evals(flights / MASSES.len())
         .tol_fun(1e-5)

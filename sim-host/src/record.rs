@@ -27,6 +27,18 @@ pub struct Row {
     pub s: [f64; 6],
 }
 
+/// A vehicle further than this from where it ought to be is lost, m.
+const LOST_M: f64 = 50.0;
+
+impl Row {
+    /// False if the vehicle is lost: further than 50 m from its reference, or its motion no longer finite.
+    pub fn is_tracking(&self) -> bool {
+        let near = self.position.iter().zip(&self.reference).all(|(is, ought)| (is - ought).abs() < LOST_M);
+        let mut rest = self.velocity.iter().chain(&self.attitude).chain(&self.rates);
+        near && rest.all(|value| value.is_finite())
+    }
+}
+
 /// Takes the rows of a flight, in order.
 pub trait Recorder {
     /// False where rows would be thrown away, so that the loop need not make them.

@@ -16,9 +16,6 @@ use crate::plant::{Motion, Plant};
 use crate::record::{Recorder, Row};
 use crate::reference;
 
-/// A vehicle further than this from where it ought to be is lost, m.
-const LOST_M: f64 = 50.0;
-
 /// How a flight ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
@@ -55,7 +52,7 @@ impl<P: Plant> Flight<P> {
         sense(&self.plant.motion(), self.noise.at(self.tick))
     }
 
-    /// One tick: sense, control, record, move. Returns false once the vehicle is lost.
+    /// One tick: sense, control, record, move. Returns false once a recorded row has shown that the vehicle is lost.
     #[inline]
     pub fn step<R: Recorder>(&mut self, recorder: &mut R) -> bool {
         let sample = self.sense();
@@ -65,7 +62,7 @@ impl<P: Plant> Flight<P> {
             self.complete(&inner, &outer, recorder)
         } else {
             self.actuate(&inner);
-            true
+            self.outcome.survived
         }
     }
 
@@ -73,7 +70,7 @@ impl<P: Plant> Flight<P> {
     /// vehicle is lost.
     pub fn complete(&mut self, inner: &InnerOutput, outer: &OuterOutput, recorder: &mut impl Recorder) -> bool {
         let row = self.row(inner, outer);
-        self.outcome.survived &= is_tracking(&row);
+        self.outcome.survived &= row.is_tracking();
         recorder.record(&row);
         self.actuate(inner);
         self.outcome.survived
@@ -89,13 +86,15 @@ impl<P: Plant> Flight<P> {
         self.outcome.ticks = self.tick;
     }
 
-    /// Flies `ticks` ticks, or until the vehicle is lost.
+    /// Flies `ticks` ticks, or until the vehicle is lost. Without a recorder, whether it was is seen at the end.
     pub fn run<R: Recorder>(&mut self, ticks: u32, recorder: &mut R) -> Outcome {
         for _ in 0..ticks {
             if !self.step(recorder) {
                 break;
             }
         }
+        let row = self.row(self.autopilot.inner.inner_output(), self.autopilot.inner.outer_output());
+        self.outcome.survived &= row.is_tracking();
         self.outcome
     }
 
@@ -149,9 +148,4 @@ fn sense(motion: &Motion, disturbed: &Disturbed) -> SensorFrame {
         measured.attitude = UnitQuaternion::from_euler_angles(angles.x, angles.y, angles.z).into_inner();
     }
     SensorFrame { nav: measured.as_nav() }
-}
-
-fn is_tracking(row: &Row) -> bool {
-    let error = |i: usize| (row.position[i] - row.reference[i]).abs();
-    (0..3).all(|i| error(i) < LOST_M) && row.rates.iter().all(|rate| rate.is_finite())
 }

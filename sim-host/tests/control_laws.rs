@@ -33,7 +33,7 @@ fn eq2_translation(velocity: &V, (u1, ux, uy): (f64, f64, f64), (roll, pitch): (
     )
 }
 
-/// sw(s) as model.md names it, and how far the firmware's may be from it: micromath's power is good to 12 %, the
+/// sw(s) as docs/control-laws.md names it, and how far the firmware's may be from it: micromath's power is good to 12 %, the
 /// others to f32 rounding (s/ρ to 2e-7 of itself, up to |s/ρ| = 1 where it still matters for sat, tanh less).
 fn sw(shape: Switching, s: f64) -> (f64, f64) {
     match shape {

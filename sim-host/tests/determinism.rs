@@ -126,7 +126,7 @@ fn read(folder: &Path) -> Vec<Row> {
         .collect()
 }
 
-/// The rigid body of model.md on Table 2, straight from its equations, cross products and all.
+/// The rigid body of docs/simulation.md on Table 2, straight from its equations, cross products and all.
 fn derivative(s: &State, [w1, w2, w3, w4]: [f64; 4]) -> State {
     let (b, d, l, m, jr, g, k, kr) = (29.8e-4, 33e-6, 0.350, 0.823, 28.4e-4, 9.81, 0.3729, 0.0556);
     let inertia = V::new(0.5e-2, 0.5e-2, 0.1e-2);

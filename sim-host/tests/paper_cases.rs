@@ -87,7 +87,7 @@ fn no_flight_beats_the_time_optimal_bound() {
 
 #[test]
 fn paper_literal_does_not_fly() {
-    // model.md: with Table 1 the coupled plant ends in a limit cycle or diverges.
+    // docs/control-laws.md: with Table 1 the coupled plant ends in a limit cycle or diverges.
     for thrust_to_weight in ["thrust_to_weight=2", "thrust_to_weight=4"] {
         let flown = fly("paper-literal", &[thrust_to_weight], 1);
         let worst = flown.rows.iter().filter(|row| row.t > 4.0).map(error).fold(0.0, f64::max);

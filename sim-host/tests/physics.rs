@@ -254,7 +254,7 @@ fn the_plants_agree_for_small_angles_to_second_order() {
 }
 
 #[test]
-fn eq_2_has_the_signs_of_model_md() {
+fn eq_2_has_the_signs_of_the_errata() {
     // By hand, for φ̇ = 2, θ̇ = −3, ψ̇ = 5, Ωr = 10, with U2 = 0.1, U3 = 0.2, U4 = −0.3 and drag 0.0556:
     let state = PaperState {
         angle_rates: V::new(2.0, -3.0, 5.0),

@@ -117,6 +117,8 @@ pub enum State {
 pub struct Commander {
     state: State,
     ground_height: f32,
+    /// Whether the start is a place on the ground; a flight that begins in the air has none that is known.
+    on_ground: bool,
 }
 
 /// cos 20°.
@@ -133,7 +135,7 @@ impl Commander {
             Start::OnGround => State::Disarmed,
         };
         let [_, _, ground_height] = config.start_position_m;
-        Self { state, ground_height }
+        Self { state, ground_height, on_ground: config.start == Start::OnGround }
     }
 
     /// What holds before the first job's output.
@@ -187,7 +189,7 @@ impl Commander {
     }
 
     fn is_landed(&self, nav: &NavState) -> bool {
-        nav.position.z - self.ground_height < LANDED_HEIGHT_M && is_slow(nav)
+        self.on_ground && nav.position.z - self.ground_height < LANDED_HEIGHT_M && is_slow(nav)
     }
 }
 

@@ -30,11 +30,11 @@ impl PositionGains {
     /// The first gain or limit that is out of its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let [x, y, z] = &self.axes;
-        x.validate("position.x")?;
-        y.validate("position.y")?;
-        z.validate("position.z")?;
-        ConfigError::require_positive("position.tilt_max_rad", self.tilt_max_rad)?;
-        if self.tilt_max_rad < 1.5 { Ok(()) } else { Err(ConfigError::OutOfRange("position.tilt_max_rad")) }
+        x.validate("control.x")?;
+        y.validate("control.y")?;
+        z.validate("control.z")?;
+        ConfigError::require_positive("control.tilt_max_rad", self.tilt_max_rad)?;
+        if self.tilt_max_rad < 1.5 { Ok(()) } else { Err(ConfigError::OutOfRange("control.tilt_max_rad")) }
     }
 }
 

@@ -127,7 +127,7 @@ struct ServeArgs {
     #[arg(long = "peer", default_values = crate::link::DEFAULT_PEERS)]
     peers: Vec<SocketAddr>,
     /// Simulated seconds a second.
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     speed: f64,
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1)]

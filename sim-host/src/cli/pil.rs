@@ -109,7 +109,8 @@ fn fly<W: std::io::Write>(
     Ok((run::summarise(scenario, seed, &flown, truth.finish()?, &metrics), wall_s))
 }
 
-/// One tick. Every firmware value that is recorded or moves the plant is the image's.
+/// One tick. What moves the plant and what truth.csv records of the firmware is the image's; the desired attitude,
+/// which only the figures of merit look at, is the desktop's.
 fn step(flight: &mut Flight<RigidBody>, pil: &mut Pil, recorder: &mut impl Recorder) -> Result<bool> {
     let tick = flight.autopilot.inner.next_tick();
     let sample = flight.sense();

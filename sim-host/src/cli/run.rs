@@ -16,19 +16,24 @@ use crate::report::{progress, summary, table};
 use crate::scenario::Scenario;
 use crate::sil::Outcome;
 
+/// More threads than this do not make it faster.
+const MOST_THREADS: usize = 256;
+
 /// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
 const FIGURES_UP_TO_S: f64 = 600.0;
 
 pub(super) fn run(args: &RunArgs) -> Result<()> {
+    ensure!(args.jobs != Some(0), "--jobs must be at least 1");
     let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
     let Some(seeds) = args.seeds else {
         let summary = fly(&scenario, args.seed, args.out.as_deref(), !args.json)?;
         return super::say(&if args.json { summary.to_json() } else { table::render(&summary) });
     };
-    ensure!(args.jobs != Some(0), "--jobs must be at least 1");
+    let count = (seeds.last - seeds.first + 1) as usize;
+    let threads = args.jobs.map_or(0, |jobs| jobs.min(count).min(MOST_THREADS));
     let bar = progress::of_flights(seeds.last - seeds.first + 1, !args.json);
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.jobs.unwrap_or(0))
+        .num_threads(threads)
         .build()
         .context("cannot start the threads that --jobs asks for")?;
     let summaries: Vec<Summary> = pool.install(|| {
@@ -41,7 +46,7 @@ pub(super) fn run(args: &RunArgs) -> Result<()> {
         (seeds.first..=seeds.last).into_par_iter().map(fly_one).collect::<Result<_>>()
     })?;
     bar.finish_and_clear();
-    super::say(&if args.json { summary::to_json_array(&summaries) } else { sweep_table(&summaries) })
+    super::say(&if args.json { summary::to_json_array(&summaries) } else { seeds_table(&summaries) })
 }
 
 /// A flight and how long it took, s.
@@ -105,7 +110,7 @@ pub(super) fn summarise(
     metrics: &Metrics,
 ) -> Summary {
     let outcome = flown.outcome;
-    let duration_s = f64::from(outcome.ticks) * 1e-3;
+    let duration_s = f64::from(outcome.ticks) / 1e3;
     let flight = Flight {
         scenario: scenario.name.clone(),
         seed,
@@ -127,8 +132,7 @@ fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, rows: &[Row]) -> Res
     }
     let samples = disturbance_samples(scenario, seed);
     let disturbance = scenario.file.disturbance.map(|d| {
-        let on_outputs = d.acceleration_m_s2 == 0.0 && d.angular_acceleration_rad_s2 == 0.0;
-        let (linear_unit, angular_unit) = if on_outputs { ("m", "rad") } else { ("m/s²", "rad/s²") };
+        let (linear_unit, angular_unit) = if d.is_on_accelerations() { ("m/s²", "rad/s²") } else { ("m", "rad") };
         Disturbance { samples: &samples, linear_unit, angular_unit, acting: (d.from_s, d.to_s) }
     });
     folder.figures(&Figures { rows, disturbance })?;
@@ -141,14 +145,18 @@ fn disturbance_samples(scenario: &Scenario, seed: u64) -> Vec<(f64, [f64; 6])> {
     let mut noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
     let sample = |tick: u32| {
         let now = noise.at(tick);
-        let (a, b) = (now.push.acceleration + now.position, now.push.angular_acceleration + now.angles);
+        let (a, b) = if scenario.file.disturbance.is_some_and(|d| d.is_on_accelerations()) {
+            (now.push.acceleration, now.push.angular_acceleration)
+        } else {
+            (now.position, now.angles)
+        };
         (f64::from(tick) * 1e-3, [a.x, a.y, a.z, b.x, b.y, b.z])
     };
     if scenario.file.disturbance.is_some() { (0..scenario.ticks()).map(sample).collect() } else { Vec::new() }
 }
 
 /// One line a seed.
-fn sweep_table(summaries: &[Summary]) -> String {
+fn seeds_table(summaries: &[Summary]) -> String {
     let mut lines =
         vec![format!("{:>8}  {:>9}  {:>9}  {:>9}  {:>9}  end", "seed", "settle s", "x RMS m", "y RMS m", "z RMS m")];
     for s in summaries {

@@ -84,9 +84,9 @@ impl Ground {
         }
         let velocity = moving + turning;
         let normal = (self.stiffness * depth - self.damping * velocity.z).max(0.0);
-        let speed = velocity.x.hypot(velocity.y);
+        let speed = velocity.xy().norm();
         let slip = moving / speed.max(STICK_SPEED) + turning / speed.max(self.turn_stick_speed);
-        let grip = self.friction * normal / slip.x.hypot(slip.y).max(1.0);
+        let grip = self.friction * normal / slip.xy().norm().max(1.0);
         Vector3::new(-grip * slip.x, -grip * slip.y, normal)
     }
 }

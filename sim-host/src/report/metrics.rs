@@ -254,6 +254,7 @@ pub struct Metrics {
     chattering: Variation,
     chattering_after_4s: Variation,
     effort: [Size; 4],
+    last_t: Option<f64>,
 }
 
 impl Metrics {
@@ -266,6 +267,7 @@ impl Metrics {
             chattering: Variation::from(f64::NEG_INFINITY),
             chattering_after_4s: Variation::from(TRACKING_FROM_S),
             effort: [Size::default(); 4],
+            last_t: None,
         }
     }
 
@@ -301,8 +303,11 @@ impl Metrics {
         }
     }
 
-    /// Recovery from a disturbance that set in at `onset_s`.
+    /// Recovery from a disturbance that set in at `onset_s`; not defined if the flight ended before.
     pub fn recovery(&self, onset_s: f64) -> Recovery {
+        if !self.last_t.is_some_and(|last| last > onset_s) {
+            return Recovery::default();
+        }
         let [x, y, z, _] = self.axes.map(|axis| axis.wide.after(onset_s));
         let [roll, pitch, yaw] = self.angles.map(|angle| angle.after(onset_s));
         Recovery { x, y, z, yaw, roll, pitch }
@@ -317,6 +322,7 @@ impl Default for Metrics {
 
 impl Recorder for Metrics {
     fn record(&mut self, row: &Row) {
+        self.last_t = Some(row.t);
         let errors = errors(row);
         for (axis, error) in self.axes.iter_mut().zip(errors) {
             axis.take(row.t, error);

@@ -65,7 +65,7 @@ pub struct Summary {
     /// Root mean squares of U1..U4.
     pub control_effort: ControlEffort,
     /// How roll and pitch followed the desired attitude.
-    pub tilt: TiltFigures,
+    pub attitude_error: TiltFigures,
     /// Recovery from the disturbance; null without one.
     pub recovery_s: Option<Recovery>,
     /// Whether the paper's claims belong beside these figures.
@@ -91,7 +91,7 @@ impl Summary {
             chattering_after_4s: metrics.chattering_after_4s(),
             saturated_fraction: flight.saturated_fraction,
             control_effort: metrics.control_effort(),
-            tilt: metrics.tilt(),
+            attitude_error: metrics.tilt(),
             papers_helix: flight.papers_helix,
             recovery_s: recovery.map(|r| if survived { r } else { Recovery::default() }),
         }
@@ -204,7 +204,7 @@ pub(super) mod tests {
         let documented = [
             ["scenario", "seed", "duration_s", "truth_sha256", "real_time_factor"].as_slice(),
             &["axes", "chattering", "saturated_fraction", "time_optimal_s", "survived"],
-            &["chattering_after_4s", "control_effort", "tilt", "recovery_s"],
+            &["chattering_after_4s", "control_effort", "attitude_error", "recovery_s"],
         ];
         assert_eq!(keys(&json), documented.concat().into_iter().collect());
         assert_eq!(keys(&json["axes"]), BTreeSet::from(["x", "y", "z", "yaw"]));

@@ -1,0 +1,142 @@
+//! What of a scenario is refused: numbers with which no flight makes sense, each by the key that the user wrote.
+
+use anyhow::{Result, anyhow, ensure};
+use firmware::guidance::Trajectory;
+
+use super::{AttitudeWave, Disturbance, PlantKind, Scenario, ScenarioFile};
+
+/// Greatest length or height, m: beyond it an f32 no longer resolves a decimetre.
+const LENGTH_MAX_M: f64 = 1e6;
+/// Fastest turn along a trajectory, rad/s.
+const RATE_MAX_RAD_S: f64 = 100.0;
+/// Longest flight, s: 11 days.
+const DURATION_MAX_S: f64 = 1e6;
+/// Longest flight on the decoupled plant, s: its steps of 10 µs are counted in 32 bits.
+const DECOUPLED_DURATION_MAX_S: f64 = 4e4;
+
+/// A number within `low ..= high`.
+fn within(key: &str, value: f64, low: f64, high: f64) -> Result<()> {
+    ensure!((low..=high).contains(&value), "`{key}` must be between {low} and {high}, not {value}");
+    Ok(())
+}
+
+impl Scenario {
+    /// Refuses what makes no flight.
+    ///
+    /// # Errors
+    /// The first key that is out of its range.
+    pub(super) fn validate(&self) -> Result<()> {
+        self.airframe.validate()?;
+        let f = &self.file;
+        let longest = if f.plant == PlantKind::PaperDecoupled { DECOUPLED_DURATION_MAX_S } else { DURATION_MAX_S };
+        within("duration_s", f.duration_s, 1e-3, longest)?;
+        for value in f.start_position_m {
+            within("start_position_m", value, -LENGTH_MAX_M, LENGTH_MAX_M)?;
+        }
+        optional(f)?;
+        trajectory(&f.trajectory)?;
+        if let Some(d) = &f.disturbance {
+            disturbance(d, f.duration_s)?;
+        }
+        if let Some(wave) = &f.attitude {
+            ensure!(
+                f.plant == PlantKind::PaperDecoupled,
+                "`attitude` is followed on the plant `paper-decoupled` alone: elsewhere it follows from the trajectory"
+            );
+            attitude(wave)?;
+        }
+        firmware::autopilot::Autopilot::new(&self.flight_config()).map_err(|error| anyhow!("{error}"))?;
+        Ok(())
+    }
+}
+
+fn optional(f: &ScenarioFile) -> Result<()> {
+    for (key, value, low, high) in [
+        ("true_mass_kg", f.true_mass_kg, 1e-3, 1e4),
+        ("time_optimal_s", f.time_optimal_s, 1e-3, 1e4),
+        ("thrust_to_weight", f.thrust_to_weight, 1.01, 1e3),
+        ("rotor_lag_s", f.rotor_lag_s, 0.0, 10.0),
+        ("join.duration_s", f.join.as_ref().map(|join| f64::from(join.duration_s)), 0.01, 1e4),
+    ] {
+        if let Some(value) = value {
+            within(key, value, low, high)?;
+        }
+    }
+    ensure!(!f.ground || f.plant == PlantKind::RigidBody, "`ground` is there on the plant `rigid-body` alone");
+    Ok(())
+}
+
+fn trajectory(trajectory: &Trajectory) -> Result<()> {
+    match *trajectory {
+        Trajectory::Hold { position_m, yaw_rad } => {
+            lengths("trajectory.hold.position_m", &position_m)?;
+            yaw("trajectory.hold.yaw_rad", yaw_rad)
+        }
+        Trajectory::Step { from_m, to_m, at_s, yaw_rad } => {
+            lengths("trajectory.step.from_m", &from_m)?;
+            lengths("trajectory.step.to_m", &to_m)?;
+            within("trajectory.step.at_s", f64::from(at_s), 0.0, DURATION_MAX_S)?;
+            yaw("trajectory.step.yaw_rad", yaw_rad)
+        }
+        Trajectory::Helix { amplitude_m, rate_rad_s, base_m, climb_m_s, yaw_rad } => {
+            lengths("trajectory.helix.amplitude_m", &amplitude_m)?;
+            lengths("trajectory.helix.base_m", &[base_m])?;
+            within("trajectory.helix.climb_m_s", f64::from(climb_m_s), -100.0, 100.0)?;
+            rate("trajectory.helix.rate_rad_s", rate_rad_s)?;
+            yaw("trajectory.helix.yaw_rad", yaw_rad)
+        }
+        Trajectory::FigureEight { center_m, amplitude_m, rate_rad_s, yaw_rad } => {
+            lengths("trajectory.figure-eight.center_m", &center_m)?;
+            lengths("trajectory.figure-eight.amplitude_m", &amplitude_m)?;
+            rate("trajectory.figure-eight.rate_rad_s", rate_rad_s)?;
+            yaw("trajectory.figure-eight.yaw_rad", yaw_rad)
+        }
+    }
+}
+
+fn lengths(key: &str, values: &[f32]) -> Result<()> {
+    values.iter().try_for_each(|value| within(key, f64::from(*value), -LENGTH_MAX_M, LENGTH_MAX_M))
+}
+
+fn rate(key: &str, value: f32) -> Result<()> {
+    within(key, f64::from(value), -RATE_MAX_RAD_S, RATE_MAX_RAD_S)
+}
+
+fn yaw(key: &str, value: f32) -> Result<()> {
+    within(key, f64::from(value), -core::f64::consts::TAU, core::f64::consts::TAU)
+}
+
+fn disturbance(d: &Disturbance, duration_s: f64) -> Result<()> {
+    for (key, value) in [
+        ("acceleration_m_s2", d.acceleration_m_s2),
+        ("angular_acceleration_rad_s2", d.angular_acceleration_rad_s2),
+        ("position_output_m", d.position_output_m),
+        ("angle_output_rad", d.angle_output_rad),
+    ] {
+        within(&format!("disturbance.{key}"), value, 0.0, 1e9)?;
+    }
+    within("disturbance.from_s", d.from_s, 0.0, duration_s)?;
+    ensure!(
+        d.from_s < duration_s && d.to_s > d.from_s && d.to_s.is_finite(),
+        "`disturbance` must set in before the flight ends and end after it sets in, not act from {} to {} of {} s",
+        d.from_s,
+        d.to_s,
+        duration_s
+    );
+    let ticks = d.hold_s * 1e3;
+    ensure!(
+        (1.0..=1e6).contains(&ticks.round()) && (ticks - ticks.round()).abs() < 1e-6,
+        "`disturbance.hold_s` must be whole milliseconds, not {}",
+        d.hold_s
+    );
+    Ok(())
+}
+
+fn attitude(wave: &AttitudeWave) -> Result<()> {
+    for i in 0..3 {
+        within("attitude.amplitude_rad", wave.amplitude_rad[i], -10.0, 10.0)?;
+        within("attitude.rate_rad_s", wave.rate_rad_s[i], -1e3, 1e3)?;
+        within("attitude.phase_rad", wave.phase_rad[i], -100.0, 100.0)?;
+    }
+    Ok(())
+}
