@@ -116,3 +116,28 @@ impl AirframeFile {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::scenario::Scenario;
+    use firmware::airframe::Airframe;
+
+    /// Table 2 stands in the firmware too, as the airframe of a board that has not been configured.
+    #[test]
+    fn the_papers_airframe_is_the_firmwares() {
+        let file = Scenario::load("helix", &[]).expect("valid").airframe.flight();
+        let firmware = Airframe::paper(2.0);
+        let same = |a: f32, b: f32| assert!((a - b).abs() <= 1e-6 * b.abs(), "{a} {b}");
+        same(file.mass_kg, firmware.mass_kg);
+        same(file.rotor_inertia_kg_m2, firmware.rotor_inertia_kg_m2);
+        same(file.omega_max_rad_s, firmware.omega_max_rad_s);
+        let pairs = [
+            (file.inertia_kg_m2, firmware.inertia_kg_m2),
+            (file.drag_n_s_m, firmware.drag_n_s_m),
+            (file.rotational_drag_n_m_s2, firmware.rotational_drag_n_m_s2),
+        ];
+        pairs.iter().flat_map(|(a, b)| a.iter().zip(b)).for_each(|(a, b)| same(*a, *b));
+        let (rows, other) = (file.geometry.rows(), firmware.geometry.rows());
+        rows.iter().flatten().zip(other.iter().flatten()).for_each(|(a, b)| same(*a, *b));
+    }
+}

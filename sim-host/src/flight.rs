@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 
 use crate::decoupled::Decoupled;
 use crate::noise::Noise;
-use crate::plant::Plant;
 use crate::plant::ground::Ground;
 use crate::plant::paper::PaperPlant;
 use crate::plant::rigid_body::RigidBody;
+use crate::plant::{Constants, Plant};
 use crate::record::Recorder;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sil::{Flight, Outcome};
@@ -18,8 +18,8 @@ use crate::sil::{Flight, Outcome};
 pub fn rigid_body(scenario: &Scenario) -> RigidBody {
     let constants = scenario.constants();
     let position = Vector3::from(scenario.file.start_position_m);
-    let weight = constants.mass * constants.gravity;
-    let ground = scenario.file.ground.then(|| Ground::for_weight(position.z, weight, constants.inertia.z));
+    let on = |c: &Constants| Ground::for_vehicle(position.z, c.mass, c.gravity, c.inertia.z);
+    let ground = scenario.file.ground.then(|| on(&constants));
     RigidBody::new(constants, ground, position)
 }
 

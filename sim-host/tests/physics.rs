@@ -1,6 +1,8 @@
 //! The plants against physics that does not depend on them: closed forms, conservation laws, orders of convergence,
 //! and each other where they must agree.
 
+#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
+
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
 use sim_host::plant::ground::Ground;
 use sim_host::plant::paper::{PaperInput, PaperPlant, PaperState};
@@ -313,7 +315,7 @@ fn energy(c: &Constants, motion: &Motion) -> f64 {
 
 fn standing(motion: Motion) -> RigidBody {
     let c = table_2();
-    let ground = Ground::for_weight(0.0, c.mass * c.gravity, c.inertia.z);
+    let ground = Ground::for_vehicle(0.0, c.mass, c.gravity, c.inertia.z);
     RigidBody::new(c, Some(ground), V::zeros()).with_state(motion, Vector4::zeros())
 }
 

@@ -33,18 +33,19 @@ pub struct Wrench {
 /// Below this sliding speed (m/s) friction is proportional to it: Coulomb's law made smooth.
 const STICK_SPEED: f64 = 0.02;
 /// The step with which the plants are integrated, s.
-const STEP_S: f64 = 1e-3;
+const STEP_S: f64 = firmware::signals::TICK_S_EXACT;
 
 impl Ground {
-    /// Ground at `height` for a vehicle of the given weight (N) and yaw inertia Iz (kg m²): it sinks in by 1 mm, damped
+    /// Ground at `height` for a vehicle of the given mass (kg), gravity (m/s²) and yaw inertia Iz (kg m²): it sinks in by 1 mm, damped
     /// near critically.
     ///
     /// Friction on light feet far out would stop a turn within less than a step, and an explicit integrator would
     /// shake: friction against turning is softened so far that it takes a step.
-    pub fn for_weight(height: f64, weight: f64, yaw_inertia: f64) -> Self {
+    pub fn for_vehicle(height: f64, mass: f64, gravity: f64, yaw_inertia: f64) -> Self {
         let (foot_radius, friction) = (0.15, 0.7);
+        let weight = mass * gravity;
         let stiffness = weight / 4.0 / 1e-3;
-        let foot_mass = weight / 9.81 / 4.0;
+        let foot_mass = mass / 4.0;
         let one_step = friction * weight * foot_radius * foot_radius * STEP_S / yaw_inertia;
         Self {
             height,

@@ -4,15 +4,15 @@ use std::f64::consts::{PI, TAU};
 
 /// Roll φ, pitch θ, yaw ψ (rad) of a body-to-world unit quaternion w, x, y, z, for R = Rz(ψ)·Ry(θ)·Rx(φ).
 pub fn roll_pitch_yaw([w, x, y, z]: [f64; 4]) -> [f64; 3] {
-    let roll = (2.0 * (w * x + y * z)).atan2(1.0 - 2.0 * (x * x + y * y));
+    let roll = libm::atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y));
     // Rounding may carry the sine just past ±1, where asin is NaN.
-    let pitch = (2.0 * (w * y - z * x)).clamp(-1.0, 1.0).asin();
+    let pitch = libm::asin((2.0 * (w * y - z * x)).clamp(-1.0, 1.0));
     [roll, pitch, yaw([w, x, y, z])]
 }
 
 /// Yaw ψ (rad) of a body-to-world unit quaternion w, x, y, z.
 pub fn yaw([w, x, y, z]: [f64; 4]) -> f64 {
-    (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z))
+    libm::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 }
 
 /// The same angle (rad) in [−π, π].

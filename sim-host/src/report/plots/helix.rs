@@ -18,9 +18,10 @@ const HAIR: f64 = 0.02;
 
 /// World (m) to the picture: right, up (m).
 fn project([x, y, z]: [f64; 3]) -> (f64, f64) {
-    let (sin, cos) = HEADING.sin_cos();
+    let (sin, cos) = libm::sincos(HEADING);
+    let (sin_down, cos_down) = libm::sincos(DOWN);
     let away = x * cos + y * sin;
-    (x * sin - y * cos, z * DOWN.cos() + away * DOWN.sin())
+    (x * sin - y * cos, z * cos_down + away * sin_down)
 }
 
 /// The box around the paths, its edges on ticks.
@@ -91,7 +92,7 @@ impl Frame {
 
 /// 1, 2 or 5 times a power of ten, for about five ticks.
 fn tick_step(size: f64) -> f64 {
-    let power = 10_f64.powf((size / 5.0).log10().floor());
+    let power = libm::pow(10.0, libm::log10(size / 5.0).floor());
     let factor = size / 5.0 / power - HAIR;
     power
         * if factor <= 1.0 {

@@ -276,7 +276,7 @@ pub(super) fn equalised(across: (f64, f64), up: (f64, f64), (width, height): (u3
 
 /// A tick's label with as many decimals as its axis of `size` needs for about six ticks.
 pub(super) fn tick(value: f64, size: f64) -> String {
-    let step = (size / 6.0).log10().floor();
+    let step = libm::log10(size / 6.0).floor();
     let value = if value.abs() < 1e-9 * size { 0.0 } else { value };
     if (-3.0..6.0).contains(&step) {
         return format!("{value:.0$}", (-step).max(0.0) as usize);
