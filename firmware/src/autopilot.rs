@@ -106,7 +106,7 @@ impl InnerTask {
         self.inner.sense(sample);
         let released = self.release(tick, mail);
         let armed = self.is_armed();
-        self.inner.step(tick, &self.outer.attitude, armed);
+        self.inner.step(tick, sample, &self.outer.attitude, armed);
         self.tick = tick.wrapping_add(1);
         released
     }

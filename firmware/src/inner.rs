@@ -89,27 +89,38 @@ impl Inner {
         }
     }
 
-    /// One tick of control towards `reference`; rotors stopped unless `armed`.
+    /// One tick of control towards `reference`; rotors stopped unless `armed`. `sample` is the one that was just
+    /// [sensed](Self::sense): if it was taken in, it is used as it came, which spares the wait for its copy.
     #[inline]
-    pub fn step(&mut self, tick: Tick, reference: &AttitudeReference, armed: bool) -> &InnerOutput {
-        self.output = if armed { self.control(tick, reference) } else { InnerOutput::IDLE };
+    pub fn step(
+        &mut self,
+        tick: Tick,
+        sample: Option<&SensorFrame>,
+        reference: &AttitudeReference,
+        armed: bool,
+    ) -> &InnerOutput {
+        let nav = match sample {
+            Some(frame) if self.stale_ticks == 0 => &frame.nav,
+            _ => &self.nav,
+        };
+        self.output = if armed { self.control(tick, nav, reference) } else { InnerOutput::IDLE };
         &self.output
     }
 
     #[inline]
-    fn control(&self, tick: Tick, reference: &AttitudeReference) -> InnerOutput {
+    fn control(&self, tick: Tick, nav: &NavState, reference: &AttitudeReference) -> InnerOutput {
         let dt = tick.wrapping_sub(reference.valid_at).cast_signed() as f32 * TICK_S;
         let target = EulerReference {
             angles: reference.angles + reference.rates * dt + reference.accelerations * (0.5 * dt * dt),
             rates: reference.rates + reference.accelerations * dt,
             accelerations: reference.accelerations,
         };
-        let euler = Euler::from_quaternion(&self.nav.attitude);
-        let rates = euler.rates(&self.nav.rates);
+        let euler = Euler::from_quaternion(&nav.attitude);
+        let rates = euler.rates(&nav.rates);
         let wanted = attitude::demand(&self.gains, &target, &euler.angles(), &rates);
         let acceleration = euler.body_acceleration(&rates, &wanted.acceleration);
         let spin = self.airframe.rotor_spin_rad_s(&self.output.motors.omega_rad_s);
-        let torque = attitude::torque(&self.airframe, &acceleration, &self.nav.rates, spin);
+        let torque = attitude::torque(&self.airframe, &acceleration, &nav.rates, spin);
         let demand = ControlInput {
             thrust_n: math::max(reference.thrust_n + reference.thrust_rate_n_s * dt, 0.0),
             roll_n_m: torque.x,

@@ -8,7 +8,7 @@ use firmware::autopilot::Autopilot;
 use firmware::guidance::Trajectory;
 use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
-use firmware::signals::{SensorFrame, TICK_S_EXACT, TICK_US, Tick};
+use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::noise::{Disturbed, Noise};
@@ -56,14 +56,14 @@ impl<P: Plant> Flight<P> {
     #[inline]
     pub fn step<R: Recorder>(&mut self, recorder: &mut R) -> bool {
         let sample = self.sense();
-        let inner = *self.autopilot.tick(Some(&sample));
+        let inner = self.autopilot.tick(Some(&sample));
         if R::ENABLED {
-            let outer = *self.autopilot.inner.outer_output();
-            self.complete(&inner, &outer, recorder)
-        } else {
-            self.actuate(&inner);
-            self.outcome.survived
+            let (inner, outer) = (*inner, *self.autopilot.inner.outer_output());
+            return self.complete(&inner, &outer, recorder);
         }
+        let (motors, saturated) = (inner.motors, inner.saturated);
+        self.actuate(&motors, saturated);
+        self.outcome.survived
     }
 
     /// Second half of a tick, with what a firmware has made of the sample: record, move. Returns false once the
@@ -72,16 +72,16 @@ impl<P: Plant> Flight<P> {
         let row = self.row(inner, outer);
         self.outcome.survived &= row.is_tracking();
         recorder.record(&row);
-        self.actuate(inner);
+        self.actuate(&inner.motors, inner.saturated);
         self.outcome.survived
     }
 
     /// The motor command acts on the plant until the next.
     #[inline]
-    fn actuate(&mut self, inner: &InnerOutput) {
-        let command = inner.motors.omega_rad_s.map(f64::from);
+    fn actuate(&mut self, motors: &MotorCommand, saturated: bool) {
+        let command = motors.omega_rad_s.map(f64::from);
         self.plant.step(&command, &self.noise.at(self.tick).push, TICK_S_EXACT);
-        self.outcome.saturated_ticks += u32::from(inner.saturated);
+        self.outcome.saturated_ticks += u32::from(saturated);
         self.tick += 1;
         self.outcome.ticks = self.tick;
     }
