@@ -19,17 +19,17 @@ use crate::validate::ConfigError;
 #[derive(Clone, Debug)]
 pub struct Mailboxes {
     /// Inner ⇄ outer.
-    pub outer: Mailbox<OuterInput, OuterOutput>,
+    pub outer: Mailbox<OuterInput, OuterOutput, { OUTER.period }, { OUTER.offset }>,
     /// Inner ⇄ commander.
-    pub commander: Mailbox<CommanderInput, CommanderOutput>,
+    pub commander: Mailbox<CommanderInput, CommanderOutput, { COMMANDER.period }, { COMMANDER.offset }>,
     /// Inner ⇄ ground.
-    pub ground: Mailbox<GroundInput, GroundOutput>,
+    pub ground: Mailbox<GroundInput, GroundOutput, { GROUND.period }, { GROUND.offset }>,
 }
 
 impl Mailboxes {
     /// All empty.
     pub const fn new() -> Self {
-        Self { outer: Mailbox::new(OUTER), commander: Mailbox::new(COMMANDER), ground: Mailbox::new(GROUND) }
+        Self { outer: Mailbox::new(), commander: Mailbox::new(), ground: Mailbox::new() }
     }
 
     /// Overruns since boot of outer, commander and ground.
