@@ -122,7 +122,7 @@ impl Outer {
         let axis_rate = nav.attitude * Vector3::new(nav.rates.y, -nav.rates.x, 0.0);
         let drag = Vector3::from(self.airframe.drag_n_s_m).component_mul(&nav.velocity);
         let gravity = Vector3::new(0.0, 0.0, self.airframe.gravity_m_s2);
-        let acceleration = (axis * input.thrust_n - drag) / self.airframe.mass_kg - gravity;
+        let acceleration = (axis * input.thrust_n - drag) * (1.0 / self.airframe.mass_kg) - gravity;
         let euler = Euler::from_quaternion(&nav.attitude);
         let heading_rate = euler.rates(&nav.rates).z;
         Predicted {

@@ -60,6 +60,14 @@ pub struct Disturbed {
     pub angles: Vector3<f64>,
 }
 
+impl Disturbed {
+    /// Whether it falsifies what is measured.
+    #[inline]
+    pub fn is_on_outputs(&self) -> bool {
+        self.position != Vector3::zeros() || self.angles != Vector3::zeros()
+    }
+}
+
 /// A scenario's disturbances, sample by sample.
 #[derive(Clone, Debug)]
 pub struct Noise {

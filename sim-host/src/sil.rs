@@ -140,12 +140,18 @@ fn time(tick: Tick) -> f64 {
 /// An ideal sensor, with the disturbances that a scenario puts on its outputs.
 #[inline]
 fn sense(motion: &Motion, disturbed: &Disturbed) -> SensorFrame {
-    let mut measured = *motion;
-    measured.position += disturbed.position;
-    if disturbed.angles != Vector3::zeros() {
-        let (roll, pitch, yaw) = UnitQuaternion::new_normalize(motion.attitude).euler_angles();
-        let angles = Vector3::new(roll, pitch, yaw) + disturbed.angles;
-        measured.attitude = UnitQuaternion::from_euler_angles(angles.x, angles.y, angles.z).into_inner();
+    let nav = if disturbed.is_on_outputs() { falsified(motion, disturbed).as_nav() } else { motion.as_nav() };
+    SensorFrame { nav }
+}
+
+/// The motion as a disturbed sensor sees it.
+#[cold]
+fn falsified(motion: &Motion, disturbed: &Disturbed) -> Motion {
+    let (roll, pitch, yaw) = UnitQuaternion::new_normalize(motion.attitude).euler_angles();
+    let angles = Vector3::new(roll, pitch, yaw) + disturbed.angles;
+    Motion {
+        position: motion.position + disturbed.position,
+        attitude: UnitQuaternion::from_euler_angles(angles.x, angles.y, angles.z).into_inner(),
+        ..*motion
     }
-    SensorFrame { nav: measured.as_nav() }
 }

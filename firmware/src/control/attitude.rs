@@ -33,11 +33,13 @@ impl Euler {
     pub fn from_quaternion(attitude: &UnitQuaternion<f32>) -> Self {
         let q = attitude.quaternion();
         let (w, x, y, z) = (q.w, q.i, q.j, q.k);
-        let sin_pitch = math::clamp(2.0 * (w * y - z * x), -1.0, 1.0);
-        let cos_pitch = math::max(math::sqrt(1.0 - sin_pitch * sin_pitch), COS_PITCH_MIN);
+        let sin_pitch = 2.0 * (w * y - z * x);
+        let cos_squared = math::max(1.0 - sin_pitch * sin_pitch, COS_PITCH_MIN * COS_PITCH_MIN);
+        // Root and reciprocal do not wait for each other.
+        let cos_pitch = math::sqrt(cos_squared);
+        let inverse = cos_pitch * (1.0 / cos_squared);
         let (roll_y, roll_x) = (2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y));
         let (yaw_y, yaw_x) = (2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z));
-        let inverse = 1.0 / cos_pitch;
         Self {
             roll: (roll_y * inverse, roll_x * inverse),
             pitch: (sin_pitch, cos_pitch),

@@ -82,13 +82,14 @@ pub fn euler_reference(profile: &ForceProfile, heading: &Heading) -> EulerRefere
 
     let sin_roll = math::clamp(-n.y, -0.999_95, 0.999_95);
     let cos_roll = math::sqrt(1.0 - sin_roll * sin_roll);
-    let roll_rate = -rate.y / cos_roll;
-    let roll_acceleration = (-acceleration.y + sin_roll * roll_rate * roll_rate) / cos_roll;
+    let sec_roll = 1.0 / cos_roll;
+    let roll_rate = -rate.y * sec_roll;
+    let roll_acceleration = (-acceleration.y + sin_roll * roll_rate * roll_rate) * sec_roll;
 
-    let square = math::max(n.x * n.x + n.z * n.z, 1e-4);
-    let pitch_rate = (rate.x * n.z - n.x * rate.z) / square;
+    let per_square = 1.0 / math::max(n.x * n.x + n.z * n.z, 1e-4);
+    let pitch_rate = (rate.x * n.z - n.x * rate.z) * per_square;
     let square_rate = 2.0 * (n.x * rate.x + n.z * rate.z);
-    let pitch_acceleration = (acceleration.x * n.z - n.x * acceleration.z - pitch_rate * square_rate) / square;
+    let pitch_acceleration = (acceleration.x * n.z - n.x * acceleration.z - pitch_rate * square_rate) * per_square;
 
     EulerReference {
         angles: Vector3::new(math::atan2(sin_roll, cos_roll), math::atan2(n.x, n.z), heading.angle),
