@@ -137,6 +137,7 @@ def check(path, is_now, write):
 
 def main():
     write = sys.argv[1:] == ["--write"]
+    assert "TODO" not in README.read_text(encoding="utf-8"), "README.md has a figure that nobody has filled in"
     good = [
         check(README, updated(README.read_text(encoding="utf-8")), write),
         check(PICTURE, picture(), write),
