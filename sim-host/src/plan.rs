@@ -45,7 +45,7 @@ const OFF_M: f64 = 1.5e-3;
 
 /// Watches how a flight settles.
 #[derive(Default)]
-struct Settling {
+struct Approach {
     /// Each axis' error at the start, m.
     start: [Option<f64>; 3],
     /// Last time at which each axis was [`AWAY_M`], and [`OFF_M`], or more away, s.
@@ -55,7 +55,7 @@ struct Settling {
     overshoot: f64,
 }
 
-impl Recorder for Settling {
+impl Recorder for Approach {
     fn record(&mut self, row: &Row) {
         for i in 0..3 {
             let error = row.reference[i] - row.position[i];
@@ -73,7 +73,7 @@ impl Recorder for Settling {
     }
 }
 
-impl Settling {
+impl Approach {
     /// Time from which all axes stay within [`AWAY_M`], s.
     fn settle_s(&self) -> f64 {
         self.last_away.into_iter().fold(0.0, f64::max)
@@ -120,14 +120,14 @@ fn decode(scenario: &Scenario, x: &DVector<f64>) -> JoinPlan {
 }
 
 /// How a plan settles with a vehicle of `mass_kg`; none if it is refused or the vehicle is lost.
-fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass_kg: f64) -> Option<Settling> {
+fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass_kg: f64) -> Option<Approach> {
     let mut scenario = scenario.clone();
     scenario.file.duration_s = f64::from(plan.duration_s) + AFTER_S;
     scenario.file.join = Some(plan.clone());
     scenario.file.true_mass_kg = Some(mass_kg);
-    let mut settling = Settling::default();
-    let outcome = flight::fly(&scenario, 0, &mut settling).ok()?;
-    outcome.survived.then_some(settling)
+    let mut approach = Approach::default();
+    let outcome = flight::fly(&scenario, 0, &mut approach).ok()?;
+    outcome.survived.then_some(approach)
 }
 
 /// Cost of a plan, by flying it: that of the worst of its vehicles. A plan that suits only one is tuned to the last
@@ -135,7 +135,7 @@ fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass_kg: f64) -> Option<Settli
 fn cost(scenario: &Scenario, plan: &JoinPlan) -> f64 {
     const REFUSED: f64 = 1e3;
     let mass = scenario.constants().mass;
-    let of = |part: &f64| try_plan(scenario, plan, mass * part).map_or(REFUSED, |settling| settling.cost());
+    let of = |part: &f64| try_plan(scenario, plan, mass * part).map_or(REFUSED, |approach| approach.cost());
     MASSES.iter().map(of).fold(0.0, f64::max)
 }
 
@@ -177,7 +177,7 @@ pub fn plan(scenario: &Scenario, flights: usize, seed: u64, mut progress: impl F
     };
     let best = ended.overall_best.ok_or_else(|| anyhow!("no flight was flown: ask for more than {flights}"))?;
     let plan = decode(scenario, &best.point);
-    let settling = try_plan(scenario, &plan, scenario.constants().mass)
+    let approach = try_plan(scenario, &plan, scenario.constants().mass)
         .with_context(|| format!("no path was found with {flights} flights: ask for more"))?;
-    Ok(Planned { plan, settle_s: settling.settle_s(), flights: flown.load(Ordering::Relaxed) })
+    Ok(Planned { plan, settle_s: approach.settle_s(), flights: flown.load(Ordering::Relaxed) })
 }

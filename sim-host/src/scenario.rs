@@ -210,6 +210,17 @@ impl Scenario {
         Ok(scenario)
     }
 
+    /// Refuses a scenario that is not flown on the rigid-body plant.
+    ///
+    /// # Errors
+    /// The scenario's name, and the key to look at.
+    pub fn require_rigid_body(&self) -> Result<()> {
+        if self.file.plant == PlantKind::RigidBody {
+            return Ok(());
+        }
+        bail!("scenario `{}`: `plant` must be `rigid-body` for this command", self.name)
+    }
+
     /// What the firmware is told.
     pub fn flight_config(&self) -> FlightConfig {
         let c = &self.file.control;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
 use serde_json::json;
@@ -14,16 +14,12 @@ use crate::pil::{BusyWait, Difference, Overrun, Pil, PilOptions, PilOutput, Stop
 use crate::plant::rigid_body::RigidBody;
 use crate::record::Recorder;
 use crate::report::{Metrics, OutFolder, Progress, Summary, TruthWriter, table};
-use crate::scenario::{PlantKind, Scenario};
+use crate::scenario::Scenario;
 use crate::sil::Flight;
 
 pub(super) fn run(args: &PilArgs) -> Result<()> {
     let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
-    ensure!(
-        scenario.file.plant == PlantKind::RigidBody,
-        "scenario `{}` is not flown on the rigid-body plant: choose one that is",
-        scenario.name
-    );
+    scenario.require_rigid_body()?;
     let config = scenario.flight_config();
     let busy =
         BusyWait { outer_us: args.busy_outer_us, commander_us: args.busy_commander_us, ground_us: args.busy_ground_us };

@@ -2,14 +2,14 @@
 
 use std::sync::atomic::AtomicBool;
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Result, ensure};
 use firmware::mavlink::TxBytes;
 
 use super::ServeArgs;
 use crate::flight;
 use crate::link::UdpLink;
 use crate::plant::rigid_body::RigidBody;
-use crate::scenario::{PlantKind, Scenario};
+use crate::scenario::Scenario;
 use crate::serve::{Pacing, Vehicle, serve};
 use crate::sil::Flight;
 
@@ -23,9 +23,7 @@ impl Vehicle for Flight<RigidBody> {
 
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
-    if scenario.file.plant != PlantKind::RigidBody {
-        bail!("scenario `{}` is not flown on the rigid-body plant: serve one that is", scenario.name);
-    }
+    scenario.require_rigid_body()?;
     ensure!(args.speed.is_finite() && args.speed > 0.0, "--speed must be a number above zero, not {}", args.speed);
     let mut vehicle = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario))?;
     let mut link = UdpLink::bind(args.listen, &args.peers)?;

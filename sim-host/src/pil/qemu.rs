@@ -26,6 +26,7 @@ impl Qemu {
     /// Boots the image and opens both pipes.
     pub(super) fn start(image: &Path, timeout: Duration) -> Result<Self> {
         ensure!(image.is_file(), "there is no image {}: build it with `cargo fw-pil`", image.display());
+        ensure!(is_elf(image), "{} is not an ELF file: build the image with `cargo fw-pil`", image.display());
         let directory = Directory::create()?;
         let from_image = fifo::open_to_read(&directory.out_of_image())?;
         let mut process = Process::spawn(image, directory.path())?;
@@ -61,6 +62,12 @@ impl Qemu {
         ensure!(status.success(), "{PROGRAM} has ended badly ({status}){}", self.process.complaint());
         Ok(())
     }
+}
+
+/// Whether a file begins as an ELF file does. QEMU boots anything, and complains in many lines.
+fn is_elf(path: &Path) -> bool {
+    let mut start = [0; 4];
+    File::open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok() && start == *b"\x7fELF"
 }
 
 /// The child process, killed when dropped.
