@@ -1,7 +1,7 @@
 //! What a flight leaves behind: one row a tick, and who takes it.
 
 /// One tick of a flight. World frame NWU, body frame FLU, SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Row {
     /// Time, s.
     pub t: f64,

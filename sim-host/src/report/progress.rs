@@ -61,19 +61,7 @@ mod tests {
     use super::*;
 
     fn row(t: f64) -> Row {
-        Row {
-            t,
-            position: [0.0; 3],
-            velocity: [0.0; 3],
-            attitude: [1.0, 0.0, 0.0, 0.0],
-            rates: [0.0; 3],
-            omega: [0.0; 4],
-            omega_command: [0.0; 4],
-            reference: [0.0; 4],
-            desired_attitude: [0.0; 3],
-            u: [0.0; 4],
-            s: [0.0; 6],
-        }
+        Row { t, ..Row::default() }
     }
 
     #[test]

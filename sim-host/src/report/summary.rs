@@ -178,15 +178,11 @@ pub(super) mod tests {
         Row {
             t,
             position: [if t < 1.0 { -4.0 } else { -0.0015 }, 0.0, 0.0],
-            velocity: [0.0; 3],
             attitude: [1.0, 0.0, 0.0, 0.0],
-            rates: [0.0; 3],
             omega: [26.0; 4],
             omega_command: [26.0; 4],
-            reference: [0.0; 4],
-            desired_attitude: [0.0; 3],
             u: [8.0, 0.0, 0.0, 0.0],
-            s: [0.0; 6],
+            ..Row::default()
         }
     }
 
