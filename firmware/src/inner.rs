@@ -17,6 +17,10 @@ use crate::validate::ConfigError;
 /// After this many ticks without a valid sample the motion is no longer trusted.
 pub const STALE_AFTER: u32 = 50;
 
+/// A reference is followed this many ticks beyond the one it holds for: an outer loop that has stopped answering must
+/// not have its last accelerations flown for ever.
+const EXTRAPOLATED_AT_MOST: Tick = 20;
+
 /// What the inner partition has done in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InnerOutput {
@@ -109,7 +113,8 @@ impl Inner {
 
     #[inline]
     fn control(&self, tick: Tick, nav: &NavState, reference: &AttitudeReference) -> InnerOutput {
-        let dt = tick.wrapping_sub(reference.valid_at).cast_signed() as f32 * TICK_S;
+        let age = tick.wrapping_sub(reference.valid_at).min(EXTRAPOLATED_AT_MOST);
+        let dt = age as f32 * TICK_S;
         let target = EulerReference {
             angles: reference.angles + reference.rates * dt + reference.accelerations * (0.5 * dt * dt),
             rates: reference.rates + reference.accelerations * dt,

@@ -157,6 +157,32 @@ fn hover_asks_for_the_weight() {
 }
 
 /// MAVLink 2 `COMMAND_LONG` 400 (arm or disarm), by hand: from system 255, component 190, to system 1, component 1.
+/// Ticks without the outer partition's jobs being run.
+fn fly_without_outer(pilot: &mut Autopilot, sample: &SensorFrame, ticks: u32) {
+    for _ in 0..ticks {
+        pilot.inner.tick(&mut pilot.mail, Some(sample));
+    }
+}
+
+#[test]
+fn an_outer_loop_that_stops_answering_is_not_extrapolated_for_ever() {
+    // On the helix and with its velocity, the attitude reference has rates and accelerations.
+    let helix = FlightConfig { trajectory: Trajectory::PAPER_HELIX, ..in_flight() };
+    let mut pilot = autopilot(&helix);
+    let mut sample = at([0.0, 5.0, 2.0]);
+    sample.nav.velocity = Vector3::new(4.0, 0.0, 1.0);
+    for _ in 0..8 {
+        pilot.tick(Some(&sample));
+    }
+    assert!(!pilot.inner.outer_output().limited && pilot.inner.outer_output().attitude.rates.norm() > 0.01);
+    fly_without_outer(&mut pilot, &sample, 100);
+    let soon = pilot.inner.inner_output().demand;
+    fly_without_outer(&mut pilot, &sample, 10_000);
+    let late = pilot.inner.inner_output().demand;
+    assert_eq!(soon, late, "after 20 ms nothing changes any more");
+    assert!(pilot.mail.overruns()[0] > 0, "and it is counted");
+}
+
 fn command_arm(arm: bool, force: bool) -> Vec<u8> {
     let mut payload = Vec::new();
     let magic = if force { 21_196.0_f32 } else { 0.0 };
