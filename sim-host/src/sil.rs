@@ -27,8 +27,10 @@ pub struct Outcome {
     pub survived: bool,
 }
 
-/// A plant with the firmware in its loop.
+/// A plant with the firmware in its loop. On a cache line of its own: where a stack happens to begin would otherwise
+/// decide a fifth of the speed.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub struct Flight<P> {
     /// The firmware.
     pub autopilot: Autopilot,
