@@ -90,12 +90,7 @@ impl Outer {
         let demand = position::demand(axes, &self.airframe, &reference, &now.position, &now.velocity);
         let mut profile =
             position::force_profile(axes, &self.airframe, &reference, &demand, &now.velocity, &now.acceleration);
-        let (force, limited) = position::limit_force(&demand.force, self.force_max, self.tan_tilt_max);
-        profile.force = force;
-        if limited {
-            profile.rate = Vector3::zeros();
-            profile.acceleration = Vector3::zeros();
-        }
+        let limited = position::limit(&mut profile, self.force_max, self.tan_tilt_max);
         let heading = Heading { angle: now.heading, rate: now.heading_rate, acceleration: reference.yaw_acceleration };
         let mut target = flatness::euler_reference(&profile, &heading);
         target.angles.z = reference.yaw;
@@ -107,7 +102,7 @@ impl Outer {
                 angles: target.angles,
                 rates: target.rates,
                 accelerations: target.accelerations,
-                thrust_n: math::max(mass * force.dot(&now.thrust_axis), 0.0),
+                thrust_n: math::max(mass * profile.force.dot(&now.thrust_axis), 0.0),
                 thrust_rate_n_s: mass * profile.rate.dot(&now.thrust_axis),
             },
             s: demand.s,

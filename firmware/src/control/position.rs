@@ -106,18 +106,25 @@ pub fn force_profile(
     }
 }
 
-/// A specific force brought within what the rotors can give: not below `FLOOR`, at most `force_max` in size,
-/// tilted at most the angle of which the tangent is given. Height is kept before horizontal acceleration. Returns whether a limit acted.
-pub fn limit_force(force: &Vector3<f32>, force_max: f32, tan_tilt_max: f32) -> (Vector3<f32>, bool) {
+/// Brings a specific force within what the rotors can give: not below `FLOOR`, at most `force_max` in size, tilted at
+/// most the angle of which the tangent is given. Height is kept before horizontal acceleration. Returns whether a
+/// limit acted; then the derivatives are those of a force that is not flown, and are dropped.
+pub fn limit(profile: &mut ForceProfile, force_max: f32, tan_tilt_max: f32) -> bool {
     /// Least vertical part, as a part of the greatest force: the thrust axis must not point down.
     const FLOOR: f32 = 0.02;
+    let force = profile.force;
     let vertical = math::clamp(force.z, FLOOR * force_max, force_max);
     let by_size = math::sqrt(math::max(force_max * force_max - vertical * vertical, 0.0));
     let limit = math::min(by_size, vertical * tan_tilt_max);
     let horizontal = math::sqrt(force.x * force.x + force.y * force.y);
     let scale = if horizontal > limit { limit / horizontal } else { 1.0 };
-    let limited = Vector3::new(force.x * scale, force.y * scale, vertical);
-    (limited, scale < 1.0 || vertical != force.z)
+    let limited = scale < 1.0 || vertical != force.z;
+    if limited {
+        let zero = Vector3::zeros();
+        let force = Vector3::new(force.x * scale, force.y * scale, vertical);
+        *profile = ForceProfile { force, rate: zero, acceleration: zero };
+    }
+    limited
 }
 
 /// U1, Ux, Uy as printed in Eq. 28, 30 and 31, from the demand's force and the vehicle's roll and pitch cosines.
