@@ -115,7 +115,6 @@ impl Decoupled {
     }
 
     fn row(&self, control: &Control) -> Row {
-        let motion = paper::motion(&self.state);
         let t = self.time();
         let mut reference = reference::at(&self.trajectory, t);
         if self.wave.is_some() {
@@ -124,17 +123,11 @@ impl Decoupled {
         }
         let thrust = control.force.z * self.constants.mass;
         Row {
-            t,
-            position: motion.position.into(),
-            velocity: motion.velocity.into(),
-            attitude: [motion.attitude.w, motion.attitude.i, motion.attitude.j, motion.attitude.k],
-            rates: motion.rates.into(),
-            omega: [0.0; 4],
-            omega_command: [0.0; 4],
             reference,
             desired_attitude: self.attitude_reference(t),
             u: [thrust, control.torque.x, control.torque.y, control.torque.z],
             s: control.s,
+            ..Row::of_motion(t, &paper::motion(&self.state))
         }
     }
 

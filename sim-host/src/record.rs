@@ -1,5 +1,7 @@
 //! What a flight leaves behind: one row a tick, and who takes it.
 
+use crate::plant::Motion;
+
 /// One tick of a flight. World frame NWU, body frame FLU, SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Row {
@@ -31,6 +33,19 @@ pub struct Row {
 const LOST_M: f64 = 50.0;
 
 impl Row {
+    /// The true motion at `t` (s), and nothing else yet.
+    pub fn of_motion(t: f64, motion: &Motion) -> Self {
+        let q = &motion.attitude;
+        Self {
+            t,
+            position: motion.position.into(),
+            velocity: motion.velocity.into(),
+            attitude: [q.w, q.i, q.j, q.k],
+            rates: motion.rates.into(),
+            ..Self::default()
+        }
+    }
+
     /// False if the vehicle is lost: further than 50 m from its reference, or its motion no longer finite.
     pub fn is_tracking(&self) -> bool {
         let near = self.position.iter().zip(&self.reference).all(|(is, ought)| (is - ought).abs() < LOST_M);

@@ -102,22 +102,17 @@ impl<P: Plant> Flight<P> {
 
     /// The record of this tick, with what the firmware has made of it.
     fn row(&self, inner: &InnerOutput, outer: &OuterOutput) -> Row {
-        let motion = self.plant.motion();
         let t = time(self.tick);
         let command: [f64; ROTORS] = inner.motors.omega_rad_s.map(f64::from);
         let omega = self.plant.omega_during(&command);
         Row {
-            t,
-            position: motion.position.into(),
-            velocity: motion.velocity.into(),
-            attitude: [motion.attitude.w, motion.attitude.i, motion.attitude.j, motion.attitude.k],
-            rates: motion.rates.into(),
             omega,
             omega_command: command,
             reference: reference::at(&self.trajectory, self.flight_time(t)),
             desired_attitude: outer.attitude.angles.map(f64::from).into(),
             u: inner.demand.as_array().map(f64::from),
             s: [inner.s.x, inner.s.y, inner.s.z, outer.s.x, outer.s.y, outer.s.z].map(f64::from),
+            ..Row::of_motion(t, &self.plant.motion())
         }
     }
 
