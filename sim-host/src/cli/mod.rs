@@ -21,6 +21,8 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, bail};
 use clap::{Args, Parser, Subcommand};
 
+use crate::scenario::Scenario;
+
 /// Glissade on the desktop: flies the firmware against a plant model, in lockstep.
 ///
 /// Without a command: flies `helix` and the paper's disturbed case, and leaves plots in runs/.
@@ -59,29 +61,25 @@ enum Command {
     },
     /// Scale a scenario's disturbance up until it fails.
     Sweep {
-        /// Name of a built-in scenario, or path of a file.
-        scenario: String,
+        #[command(flatten)]
+        which: Which,
         /// Seed of the random numbers.
         #[arg(long, default_value_t = 1)]
         seed: u64,
-        #[command(flatten)]
-        settings: Settings,
         /// Print a JSON array.
         #[arg(long)]
         json: bool,
     },
     /// Plan the path that joins a scenario's trajectory, and print it as that scenario's `[join]` table.
     Plan {
-        /// Name of a built-in scenario, or path of a file.
-        scenario: String,
+        #[command(flatten)]
+        which: Which,
         /// Seed of the search.
         #[arg(long, default_value_t = 1)]
         seed: u64,
         /// Flights to spend at most.
         #[arg(long, default_value_t = 60_000)]
         flights: usize,
-        #[command(flatten)]
-        settings: Settings,
     },
 }
 
@@ -92,10 +90,25 @@ struct Settings {
     set: Vec<String>,
 }
 
+/// A scenario, and what is to be different in it.
 #[derive(Args, Clone, Debug)]
-struct RunArgs {
+struct Which {
     /// Name of a built-in scenario, or path of a file.
     scenario: String,
+    #[command(flatten)]
+    settings: Settings,
+}
+
+impl Which {
+    fn load(&self) -> Result<Scenario> {
+        Scenario::load(&self.scenario, &self.settings.set)
+    }
+}
+
+#[derive(Args, Clone, Debug)]
+struct RunArgs {
+    #[command(flatten)]
+    which: Which,
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1, conflicts_with = "seeds")]
     seed: u64,
@@ -105,8 +118,6 @@ struct RunArgs {
     /// Flights at once; as many as there are cores by default. The results do not depend on it.
     #[arg(long, value_name = "J")]
     jobs: Option<usize>,
-    #[command(flatten)]
-    settings: Settings,
     /// Write truth.csv, summary.json and figures there; with several seeds, into a folder a seed.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -138,8 +149,8 @@ struct ServeArgs {
 
 #[derive(Args, Clone, Debug)]
 struct PilArgs {
-    /// Name of a built-in scenario, or path of a file.
-    scenario: String,
+    #[command(flatten)]
+    which: Which,
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -155,8 +166,6 @@ struct PilArgs {
     /// Let the ground partition's jobs take this much longer, µs.
     #[arg(long, default_value_t = 0, value_name = "US")]
     busy_ground_us: u32,
-    #[command(flatten)]
-    settings: Settings,
     /// Write truth.csv and summary.json there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -195,8 +204,8 @@ pub fn main() -> ExitCode {
         Some(Command::Serve(args)) => serve::run(&args),
         Some(Command::Pil(args)) => pil::run(&args),
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
-        Some(Command::Sweep { scenario, seed, settings, json }) => sweep::run(&scenario, seed, &settings.set, json),
-        Some(Command::Plan { scenario, seed, flights, settings }) => plan::run(&scenario, seed, flights, &settings.set),
+        Some(Command::Sweep { which, seed, json }) => sweep::run(&which, seed, json),
+        Some(Command::Plan { which, seed, flights }) => plan::run(&which, seed, flights),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -18,7 +18,7 @@ use crate::scenario::Scenario;
 use crate::sil::Flight;
 
 pub(super) fn run(args: &PilArgs) -> Result<()> {
-    let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
+    let scenario = args.which.load()?;
     scenario.require_rigid_body()?;
     let config = scenario.flight_config();
     let busy =

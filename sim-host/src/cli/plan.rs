@@ -2,11 +2,11 @@
 
 use anyhow::{Context, Result};
 
+use super::Which;
 use crate::report::progress;
-use crate::scenario::Scenario;
 
-pub(super) fn run(name: &str, seed: u64, flights: usize, settings: &[String]) -> Result<()> {
-    let scenario = Scenario::load(name, settings)?;
+pub(super) fn run(which: &Which, seed: u64, flights: usize) -> Result<()> {
+    let scenario = which.load()?;
     let bar = progress::of_flights(flights as u64, true);
     let planned = crate::plan::plan(&scenario, flights, seed, |flown| bar.set_position(flown))?;
     bar.finish_and_clear();

@@ -24,7 +24,7 @@ const FIGURES_UP_TO_S: f64 = 600.0;
 
 pub(super) fn run(args: &RunArgs) -> Result<()> {
     ensure!(args.jobs != Some(0), "--jobs must be at least 1");
-    let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
+    let scenario = args.which.load()?;
     let Some(seeds) = args.seeds else {
         let summary = fly(&scenario, args.seed, args.out.as_deref(), !args.json)?;
         return super::say(&if args.json { summary.to_json() } else { table::render(&summary) });

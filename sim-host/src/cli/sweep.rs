@@ -2,15 +2,15 @@
 
 use anyhow::Result;
 
+use super::Which;
 use crate::report::table::DISTURBANCE_REMOVED;
-use crate::scenario::Scenario;
 use crate::sweep::{Strength, sweep};
 
 /// Halvings of the interval in which the failure lies: to 3 % of the factor.
 const REFINEMENTS: u32 = 5;
 
-pub(super) fn run(name: &str, seed: u64, settings: &[String], as_json: bool) -> Result<()> {
-    let scenario = Scenario::load(name, settings)?;
+pub(super) fn run(which: &Which, seed: u64, as_json: bool) -> Result<()> {
+    let scenario = which.load()?;
     let mut flown = sweep(&scenario, seed, REFINEMENTS)?;
     flown.sort_by(|a, b| a.factor.total_cmp(&b.factor));
     super::say(&if as_json { serde_json::to_string(&flown)? } else { table(&flown) })
