@@ -3,6 +3,8 @@
 //! Owns: Table 2's quantities (b, d, m, I, Jr, k1..k6), ωmax, and the matrix from squared rotor speeds to
 //! U = (U1, U2, U3, U4), Eq. 4. The values of a particular airframe come from its file on the desktop.
 
+use nalgebra::Vector3;
+
 use crate::math;
 use crate::validate::ConfigError;
 
@@ -57,6 +59,14 @@ impl RotorGeometry {
             pitch: [-l * b, 0.0, l * b, 0.0],
             yaw: [d, -d, d, -d],
         }
+    }
+
+    /// Torque (N m) of rotor speeds (rad/s): the last three rows of U = B ω².
+    #[inline]
+    pub fn torque(&self, omega_rad_s: &[f32; ROTORS]) -> Vector3<f32> {
+        let square = omega_rad_s.map(|omega| omega * omega);
+        let sum = |row: &[f32; ROTORS]| row.iter().zip(&square).fold(0.0, |sum, (b, square)| sum + b * square);
+        Vector3::new(sum(&self.roll), sum(&self.pitch), sum(&self.yaw))
     }
 
     /// The matrix B, 4 × [`ROTORS`].

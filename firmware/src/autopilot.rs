@@ -8,6 +8,9 @@
 
 use crate::commander::{Commander, CommanderInput, CommanderOutput, Commands, Replies, Request};
 use crate::config::FlightConfig;
+use crate::control::attitude::SlidingAttitude;
+use crate::control::law::{AttitudeLaw, PositionLaw};
+use crate::control::position::SlidingPosition;
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::outer::{Outer, OuterInput, OuterOutput};
@@ -57,9 +60,9 @@ pub struct Released {
 
 /// The top of the schedule: owns the inner partition and the outputs now in effect.
 #[derive(Clone, Debug)]
-pub struct InnerTask {
+pub struct InnerTask<A = SlidingAttitude> {
     tick: Tick,
-    inner: Inner,
+    inner: Inner<A>,
     outer: OuterOutput,
     commander: CommanderOutput,
     /// Commands for the commander's next job, and its replies for the ground's.
@@ -74,9 +77,9 @@ pub struct InnerTask {
     kill: bool,
 }
 
-impl InnerTask {
+impl<A: AttitudeLaw> InnerTask<A> {
     /// The outer loop has run once for the first tick, hovering at the start, as if it had always been there.
-    fn new(config: &FlightConfig, inner: Inner, outer: &Outer, commander: &Commander) -> Self {
+    fn new(config: &FlightConfig, inner: Inner<A>, outer: &mut Outer<impl PositionLaw>, commander: &Commander) -> Self {
         let commander = commander.initial_output();
         let before = OuterInput {
             nav: *inner.nav(),
@@ -239,11 +242,11 @@ impl InnerTask {
 /// Everything that flies, for one configuration: the top of the schedule, the partitions below it, and the
 /// mailboxes between them. A board takes it apart and gives each part to its task.
 #[derive(Clone, Debug)]
-pub struct Autopilot {
+pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
     /// Runs every tick.
-    pub inner: InnerTask,
+    pub inner: InnerTask<A>,
     /// Guidance and position control.
-    pub outer: Outer,
+    pub outer: Outer<P>,
     /// Arming.
     pub commander: Commander,
     /// MAVLink.
@@ -253,16 +256,30 @@ pub struct Autopilot {
 }
 
 impl Autopilot {
-    /// Ready for the first tick.
+    /// Ready for the first tick, with the sliding mode laws.
     ///
     /// # Errors
     /// The first field of the configuration that is out of its range.
     pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
         config.validate()?;
+        let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
+        let position = SlidingPosition::new(&config.airframe, &config.position);
+        Self::with_laws(config, attitude, position)
+    }
+}
+
+impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
+    /// Ready for the first tick, with other laws; what the configuration says of the sliding mode laws is not used.
+    ///
+    /// # Errors
+    /// The first field of the configuration that is out of its range.
+    pub fn with_laws(config: &FlightConfig, attitude: A, position: P) -> Result<Self, ConfigError> {
+        config.validate()?;
         let commander = Commander::new(config);
-        let outer = Outer::new(config)?;
+        let mut outer = Outer::new(config, position)?;
+        let inner = Inner::new(config, attitude)?;
         Ok(Self {
-            inner: InnerTask::new(config, Inner::new(config)?, &outer, &commander),
+            inner: InnerTask::new(config, inner, &mut outer, &commander),
             outer,
             commander,
             ground: Ground::default(),

@@ -3,6 +3,8 @@
 use nalgebra::Vector3;
 
 use crate::airframe::Airframe;
+use crate::control::attitude::{AttitudeForm, AttitudeGains};
+use crate::control::observer::ObserverGains;
 use crate::control::position::PositionGains;
 use crate::control::sliding::AxisGains;
 use crate::guidance::{JoinPlan, Trajectory};
@@ -29,9 +31,13 @@ pub struct FlightConfig {
     /// The vehicle, as the controller believes it to be.
     pub airframe: Airframe,
     /// Gains for roll, pitch and yaw.
-    pub attitude: [AxisGains; 3],
-    /// Gains and limits for x, y and z.
+    pub attitude: AttitudeGains,
+    /// Gains for x, y and z.
     pub position: PositionGains,
+    /// Greatest tilt that position control asks for, rad.
+    pub tilt_max_rad: f32,
+    /// Time constant to which the rotors' lag is brought down by lead, s; 0 for none.
+    pub rotor_time_constant_s: f32,
     /// What to fly.
     pub trajectory: Trajectory,
     /// How to get there.
@@ -49,11 +55,13 @@ impl FlightConfig {
     /// The first field that is out of its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
         self.airframe.validate()?;
-        let [roll, pitch, yaw] = &self.attitude;
-        roll.validate("control.roll")?;
-        pitch.validate("control.pitch")?;
-        yaw.validate("control.yaw")?;
+        self.attitude.validate()?;
         self.position.validate()?;
+        ConfigError::require_positive("control.tilt_max_rad", self.tilt_max_rad)?;
+        if self.tilt_max_rad >= 1.5 {
+            return Err(ConfigError::OutOfRange("control.tilt_max_rad"));
+        }
+        ConfigError::require_not_negative("control.rotor_time_constant_s", self.rotor_time_constant_s)?;
         if !crate::math::all_finite(&self.start_position_m) {
             return Err(ConfigError::NonFinite("start_position_m"));
         }
@@ -71,15 +79,21 @@ impl Default for FlightConfig {
     fn default() -> Self {
         Self {
             airframe: Airframe::paper(2.0),
-            attitude: [
-                AxisGains::sat(60.0, 20.0, 0.5),
-                AxisGains::sat(60.0, 20.0, 0.5),
-                AxisGains::sat(30.0, 10.0, 0.5),
-            ],
+            attitude: AttitudeGains {
+                axes: [
+                    AxisGains::sat(60.0, 20.0, 0.5),
+                    AxisGains::sat(60.0, 20.0, 0.5),
+                    AxisGains::sat(30.0, 10.0, 0.5),
+                ],
+                form: AttitudeForm::Group,
+                observer: ObserverGains::default(),
+            },
             position: PositionGains {
                 axes: [AxisGains::sat(6.0, 2.0, 2.0), AxisGains::sat(6.0, 2.0, 2.0), AxisGains::sat(6.0, 3.0, 1.5)],
-                tilt_max_rad: 0.6,
+                observer: ObserverGains::default(),
             },
+            tilt_max_rad: 0.6,
+            rotor_time_constant_s: 0.0,
             trajectory: Trajectory::Hold { position_m: [0.0, 0.0, 2.0], yaw_rad: 0.0 },
             join: Some(JoinPlan { duration_s: 3.0, start_acceleration_m_s2: [0.0; 3], middle_m: heapless::Vec::new() }),
             start: Start::OnGround,

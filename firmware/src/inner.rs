@@ -6,10 +6,11 @@
 use nalgebra::Vector3;
 
 use crate::airframe::{Airframe, ROTORS};
-use crate::config::FlightConfig;
-use crate::control::attitude::{self, Euler, EulerReference};
+use crate::config::{FlightConfig, Start};
+use crate::control::attitude::SlidingAttitude;
+use crate::control::law::{AttitudeInput, AttitudeLaw};
 use crate::control::mixer::Mixer;
-use crate::control::sliding::AxisGains;
+use crate::control::rotor::RotorModel;
 use crate::math;
 use crate::signals::{AttitudeReference, ControlInput, MotorCommand, NavState, SensorFrame, TICK_S, Tick};
 use crate::validate::ConfigError;
@@ -44,37 +45,35 @@ impl InnerOutput {
     };
 }
 
-/// The inner partition.
+/// The inner partition, with an attitude law.
 #[derive(Clone, Debug)]
-pub struct Inner {
+pub struct Inner<A = SlidingAttitude> {
     airframe: Airframe,
-    gains: [AxisGains; 3],
+    law: A,
     mixer: Mixer<ROTORS>,
+    rotors: RotorModel,
     nav: NavState,
     stale_ticks: u32,
     refused_samples: u32,
     output: InnerOutput,
 }
 
-impl Inner {
+impl<A: AttitudeLaw> Inner<A> {
     /// Ready to run with a valid configuration.
     ///
     /// # Errors
     /// [`ConfigError::SingularGeometry`] if the rotors cannot be mixed.
-    pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
-        let rows = config.airframe.geometry.rows();
-        let mixer = Mixer::new(&rows, config.airframe.omega_max_rad_s).map_err(|_| ConfigError::SingularGeometry)?;
+    pub fn new(config: &FlightConfig, law: A) -> Result<Self, ConfigError> {
+        let airframe = config.airframe;
+        let omega_max = airframe.omega_max_rad_s;
+        let mixer = Mixer::new(&airframe.geometry.rows(), omega_max).map_err(|_| ConfigError::SingularGeometry)?;
+        let mut rotors = RotorModel::new(airframe.rotor_lag_s, config.rotor_time_constant_s, omega_max);
+        if config.start == Start::InFlight {
+            rotors.set([airframe.omega_for_thrust_to_weight(1.0); ROTORS]);
+        }
         let mut nav = NavState::at_rest();
         nav.position = config.start_position();
-        Ok(Self {
-            airframe: config.airframe,
-            gains: config.attitude,
-            mixer,
-            nav,
-            stale_ticks: 0,
-            refused_samples: 0,
-            output: InnerOutput::IDLE,
-        })
+        Ok(Self { airframe, law, mixer, rotors, nav, stale_ticks: 0, refused_samples: 0, output: InnerOutput::IDLE })
     }
 
     /// Takes in this tick's sample. A missing one, or one that holds a number that is not finite, leaves the
@@ -103,44 +102,51 @@ impl Inner {
         reference: &AttitudeReference,
         armed: bool,
     ) -> &InnerOutput {
-        let nav = match sample {
-            Some(frame) if self.stale_ticks == 0 => &frame.nav,
-            _ => &self.nav,
+        self.output = if armed {
+            let age = tick.wrapping_sub(reference.valid_at).min(EXTRAPOLATED_AT_MOST);
+            match sample {
+                Some(frame) if self.stale_ticks == 0 => self.control(&frame.nav, reference, age as f32 * TICK_S),
+                _ => {
+                    let nav = self.nav;
+                    self.control(&nav, reference, age as f32 * TICK_S)
+                }
+            }
+        } else {
+            self.law.reset();
+            self.rotors.follow(&MotorCommand::STOPPED.omega_rad_s);
+            InnerOutput::IDLE
         };
-        self.output = if armed { self.control(tick, nav, reference) } else { InnerOutput::IDLE };
         &self.output
     }
 
+    /// One tick of control, `dt` seconds after the reference holds.
     #[inline]
-    fn control(&self, tick: Tick, nav: &NavState, reference: &AttitudeReference) -> InnerOutput {
-        let age = tick.wrapping_sub(reference.valid_at).min(EXTRAPOLATED_AT_MOST);
-        let dt = age as f32 * TICK_S;
-        let target = EulerReference {
-            angles: reference.angles + reference.rates * dt + reference.accelerations * (0.5 * dt * dt),
-            rates: reference.rates + reference.accelerations * dt,
-            accelerations: reference.accelerations,
-        };
-        let euler = Euler::from_quaternion(&nav.attitude);
-        let rates = euler.rates(&nav.rates);
-        let wanted = attitude::demand(&self.gains, &target, &euler.angles(), &rates);
-        let acceleration = euler.body_acceleration(&rates, &wanted.acceleration);
-        let spin = self.airframe.rotor_spin_rad_s(&self.output.motors.omega_rad_s);
-        let torque = attitude::torque(&self.airframe, &acceleration, &nav.rates, spin);
+    fn control(&mut self, nav: &NavState, reference: &AttitudeReference, dt: f32) -> InnerOutput {
+        let wanted = self.law.step(&AttitudeInput {
+            attitude: &nav.attitude,
+            rates: &nav.rates,
+            target: &reference.target_after(dt),
+            rotor_speeds: self.rotors.omega_rad_s(),
+            saturated: self.output.saturated,
+        });
         let demand = ControlInput {
             thrust_n: math::max(reference.thrust_n + reference.thrust_rate_n_s * dt, 0.0),
-            roll_n_m: torque.x,
-            pitch_n_m: torque.y,
-            yaw_n_m: torque.z,
+            roll_n_m: wanted.torque.x,
+            pitch_n_m: wanted.torque.y,
+            yaw_n_m: wanted.torque.z,
         };
-        match self.mixer.allocate(&demand) {
-            Ok(allocation) => InnerOutput {
-                motors: MotorCommand { omega_rad_s: allocation.omega_sq.map(math::sqrt) },
-                demand,
-                s: wanted.s,
-                saturated: allocation.saturated,
-            },
-            // A sample so wild that a product overflowed; the last command is safer than none.
-            Err(_) => InnerOutput { saturated: true, ..self.output },
+        let Ok(allocation) = self.mixer.allocate(&demand) else {
+            // A sample so wild that a product overflowed. The last command is safer than none; what the law has made
+            // of the sample is not to stay.
+            self.law.reset();
+            self.rotors.follow(&self.output.motors.omega_rad_s);
+            return InnerOutput { saturated: true, ..self.output };
+        };
+        InnerOutput {
+            motors: MotorCommand { omega_rad_s: self.rotors.command(allocation.omega_sq.map(math::sqrt)) },
+            demand,
+            s: wanted.s,
+            saturated: allocation.saturated,
         }
     }
 
@@ -154,9 +160,9 @@ impl Inner {
         &self.output
     }
 
-    /// Thrust of the last motor command, N.
+    /// Thrust that the rotors are believed to give, N.
     pub fn thrust_n(&self) -> f32 {
-        let omega = &self.output.motors.omega_rad_s;
+        let omega = self.rotors.omega_rad_s();
         omega.iter().zip(&self.airframe.geometry.thrust).map(|(omega, lift)| lift * omega * omega).sum()
     }
 

@@ -6,7 +6,20 @@
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
+/// Square root, correctly rounded: by the core's own instruction, as `libm` would need 52 for it.
+#[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
+#[inline]
+pub fn sqrt(x: f32) -> f32 {
+    /// The argument comes, and the result goes, in s0 (AAPCS, hard float).
+    #[unsafe(naked)]
+    extern "C" fn vsqrt(x: f32) -> f32 {
+        core::arch::naked_asm!("vsqrt.f32 s0, s0", "bx lr")
+    }
+    vsqrt(x)
+}
+
 /// Square root, correctly rounded.
+#[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
 #[inline]
 pub fn sqrt(x: f32) -> f32 {
     libm::sqrtf(x)
@@ -84,6 +97,12 @@ pub fn atan2(y: f32, x: f32) -> f32 {
     let quadrant = if ay > ax { FRAC_PI_2 - octant } else { octant };
     let half = if x < 0.0 { PI - quadrant } else { quadrant };
     if y < 0.0 { -half } else { half }
+}
+
+/// e^x; `libm`'s.
+#[inline]
+pub fn exp(x: f32) -> f32 {
+    libm::expf(x)
 }
 
 /// Hyperbolic tangent; `libm`'s.

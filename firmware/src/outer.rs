@@ -5,15 +5,14 @@
 
 use nalgebra::Vector3;
 
-use crate::airframe::Airframe;
 use crate::config::FlightConfig;
-use crate::control::attitude::Euler;
-use crate::control::flatness::{self, Heading};
-use crate::control::position::{self, PositionGains};
+use crate::control::flatness::{self, ForceProfile, Heading};
+use crate::control::law::{PositionDemand, PositionInput, PositionLaw};
+use crate::control::position::{ForceLimits, SlidingPosition, Translation};
 use crate::guidance::Guidance;
 use crate::math;
 use crate::schedule::OUTER;
-use crate::signals::{AttitudeReference, NavState, TICK_S, Tick};
+use crate::signals::{AttitudeReference, FlatReference, NavState, TICK_S, Tick};
 use crate::validate::ConfigError;
 
 /// Snapshot for the outer partition.
@@ -21,7 +20,7 @@ use crate::validate::ConfigError;
 pub struct OuterInput {
     /// The motion at the release.
     pub nav: NavState,
-    /// Thrust of the last motor command, N.
+    /// Thrust that the rotors are believed to give, N.
     pub thrust_n: f32,
     /// The tick at which the flight's clock started; none while disarmed.
     pub flight_start: Option<Tick>,
@@ -38,14 +37,15 @@ pub struct OuterOutput {
     pub limited: bool,
 }
 
-/// The outer partition.
+/// The outer partition, with a position law.
 #[derive(Clone, Debug)]
-pub struct Outer {
-    airframe: Airframe,
-    gains: PositionGains,
+pub struct Outer<P = SlidingPosition> {
+    mass_kg: f32,
+    model: Translation,
+    limits: ForceLimits,
     guidance: Guidance,
-    force_max: f32,
-    tan_tilt_max: f32,
+    law: P,
+    limited: bool,
 }
 
 /// Position, velocity, acceleration and thrust axis when the output takes effect.
@@ -54,79 +54,84 @@ struct Predicted {
     velocity: Vector3<f32>,
     acceleration: Vector3<f32>,
     thrust_axis: Vector3<f32>,
-    heading: f32,
-    heading_rate: f32,
 }
 
-impl Outer {
+/// From the release to the publication, s.
+const AHEAD_S: f32 = OUTER.offset as f32 * TICK_S;
+
+impl<P: PositionLaw> Outer<P> {
     /// Ready to run with a valid configuration.
     ///
     /// # Errors
     /// What of the trajectory or the joining path is out of its range.
-    pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
-        let (sin_tilt, cos_tilt) = math::sin_cos(config.position.tilt_max_rad);
+    pub fn new(config: &FlightConfig, law: P) -> Result<Self, ConfigError> {
         Ok(Self {
-            airframe: config.airframe,
-            gains: config.position,
+            mass_kg: config.airframe.mass_kg,
+            model: Translation::new(&config.airframe),
+            limits: ForceLimits::new(&config.airframe, config.tilt_max_rad),
             guidance: Guidance::new(config.trajectory, config.join.as_ref(), config.start_position())?,
-            tan_tilt_max: sin_tilt / cos_tilt,
-            force_max: config.airframe.thrust_max_n() / config.airframe.mass_kg,
+            law,
+            limited: false,
         })
     }
 
     /// One job, released at `released`.
-    pub fn step(&self, released: Tick, input: &OuterInput) -> OuterOutput {
+    pub fn step(&mut self, released: Tick, input: &OuterInput) -> OuterOutput {
         let effective = released.wrapping_add(OUTER.offset);
-        let now = self.predict(input, OUTER.offset as f32 * TICK_S);
         let Some(start) = input.flight_start else {
-            return OuterOutput {
-                attitude: AttitudeReference::level(now.heading, 0.0),
-                s: Vector3::zeros(),
-                limited: false,
-            };
+            self.law.reset();
+            self.limited = false;
+            let attitude = AttitudeReference::idle(input.nav.attitude);
+            return OuterOutput { attitude, s: Vector3::zeros(), limited: false };
         };
         let reference = self.guidance.at(effective.wrapping_sub(start));
-        let axes = &self.gains.axes;
-        let demand = position::demand(axes, &self.airframe, &reference, &now.position, &now.velocity);
-        let mut profile =
-            position::force_profile(axes, &self.airframe, &reference, &demand, &now.velocity, &now.acceleration);
-        let limited = position::limit(&mut profile, self.force_max, self.tan_tilt_max);
-        let heading = Heading { angle: now.heading, rate: now.heading_rate, acceleration: reference.yaw_acceleration };
-        let mut target = flatness::euler_reference(&profile, &heading);
-        target.angles.z = reference.yaw;
-        target.rates.z = reference.yaw_rate;
-        let mass = self.airframe.mass_kg;
+        self.follow(effective, input, &reference)
+    }
+
+    /// Position control towards a reference that holds, as the output will, at the tick `effective`.
+    #[inline]
+    pub fn follow(&mut self, effective: Tick, input: &OuterInput, reference: &FlatReference) -> OuterOutput {
+        let now = self.predict(input);
+        let PositionDemand { s, mut profile } = self.law.step(&PositionInput {
+            reference,
+            position: &now.position,
+            velocity: &now.velocity,
+            acceleration: &now.acceleration,
+            limited: self.limited,
+        });
+        if !math::all_finite(profile.force.as_slice()) {
+            // A motion so wild that a product overflowed: what the law has made of it is not to stay.
+            self.law.reset();
+            profile = ForceProfile::hover(self.model.gravity);
+        }
+        self.limited = self.limits.apply(&mut profile);
+        let heading =
+            Heading { angle: reference.yaw, rate: reference.yaw_rate, acceleration: reference.yaw_acceleration };
+        let mass = self.mass_kg;
         OuterOutput {
             attitude: AttitudeReference {
                 valid_at: effective,
-                angles: target.angles,
-                rates: target.rates,
-                accelerations: target.accelerations,
+                target: flatness::attitude_target(&profile, &heading),
                 thrust_n: math::max(mass * profile.force.dot(&now.thrust_axis), 0.0),
                 thrust_rate_n_s: mass * profile.rate.dot(&now.thrust_axis),
             },
-            s: demand.s,
-            limited,
+            s,
+            limited: self.limited,
         }
     }
 
-    /// The motion `dt` seconds after the snapshot, by Eq. 2 with the last thrust.
-    fn predict(&self, input: &OuterInput, dt: f32) -> Predicted {
+    /// The motion [`AHEAD_S`] after the snapshot, by Eq. 2 with the thrust that the rotors are believed to give.
+    #[inline]
+    fn predict(&self, input: &OuterInput) -> Predicted {
         let nav = &input.nav;
         let axis = nav.attitude * Vector3::z();
         let axis_rate = nav.attitude * Vector3::new(nav.rates.y, -nav.rates.x, 0.0);
-        let drag = Vector3::from(self.airframe.drag_n_s_m).component_mul(&nav.velocity);
-        let gravity = Vector3::new(0.0, 0.0, self.airframe.gravity_m_s2);
-        let acceleration = (axis * input.thrust_n - drag) * (1.0 / self.airframe.mass_kg) - gravity;
-        let euler = Euler::from_quaternion(&nav.attitude);
-        let heading_rate = euler.rates(&nav.rates).z;
+        let acceleration = self.model.acceleration(&(axis * (input.thrust_n / self.mass_kg)), &nav.velocity);
         Predicted {
-            position: nav.position + nav.velocity * dt + acceleration * (0.5 * dt * dt),
-            velocity: nav.velocity + acceleration * dt,
+            position: nav.position + nav.velocity * AHEAD_S + acceleration * (0.5 * AHEAD_S * AHEAD_S),
+            velocity: nav.velocity + acceleration * AHEAD_S,
             acceleration,
-            thrust_axis: axis + axis_rate * dt,
-            heading: euler.heading() + heading_rate * dt,
-            heading_rate,
+            thrust_axis: axis + axis_rate * AHEAD_S,
         }
     }
 }

@@ -5,6 +5,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
+use crate::control::law::AttitudeTarget;
 use crate::math;
 
 /// Number of the inner loop's tick, [`TICK_US`] apart, counted from boot.
@@ -109,17 +110,13 @@ impl FlatReference {
     }
 }
 
-/// What the outer loop asks of the inner: Euler angles with two derivatives, and the thrust.
+/// What the outer loop asks of the inner: an attitude with two derivatives, and the thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeReference {
     /// The tick for which the values hold; inner extrapolates from there.
     pub valid_at: Tick,
-    /// φd, θd, ψd, rad.
-    pub angles: Vector3<f32>,
-    /// φ̇d, θ̇d, ψ̇d, rad/s.
-    pub rates: Vector3<f32>,
-    /// φ̈d, θ̈d, ψ̈d, rad/s².
-    pub accelerations: Vector3<f32>,
+    /// Attitude, rates and accelerations.
+    pub target: AttitudeTarget,
     /// Thrust U1, N.
     pub thrust_n: f32,
     /// U̇1, N/s.
@@ -127,15 +124,26 @@ pub struct AttitudeReference {
 }
 
 impl AttitudeReference {
-    /// Level, at the given heading and thrust.
-    pub fn level(yaw: f32, thrust_n: f32) -> Self {
-        Self {
-            valid_at: 0,
-            angles: Vector3::new(0.0, 0.0, yaw),
-            rates: Vector3::zeros(),
-            accelerations: Vector3::zeros(),
-            thrust_n,
-            thrust_rate_n_s: 0.0,
+    /// An attitude at rest, without thrust.
+    pub fn idle(attitude: UnitQuaternion<f32>) -> Self {
+        let zero = Vector3::zeros();
+        let target = AttitudeTarget { attitude, rates: zero, accelerations: zero };
+        Self { valid_at: 0, target, thrust_n: 0.0, thrust_rate_n_s: 0.0 }
+    }
+
+    /// The attitude to follow `dt` seconds later, for turns of a few degrees: the quaternion's exponential to third
+    /// order, the product's size to fourth.
+    #[inline]
+    pub fn target_after(&self, dt: f32) -> AttitudeTarget {
+        let AttitudeTarget { attitude, rates, accelerations } = &self.target;
+        let half = (rates + accelerations * (0.5 * dt)) * (0.5 * dt);
+        let square = half.norm_squared();
+        let vector = half * (1.0 - square * (1.0 / 6.0));
+        let turn = Quaternion::new(1.0 - 0.5 * square, vector.x, vector.y, vector.z);
+        AttitudeTarget {
+            attitude: UnitQuaternion::new_unchecked(attitude.quaternion() * turn),
+            rates: rates + accelerations * dt,
+            accelerations: *accelerations,
         }
     }
 }

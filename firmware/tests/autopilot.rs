@@ -124,9 +124,10 @@ fn the_outer_loops_output_takes_effect_exactly_its_offset_after_its_release() {
         let place = if tick >= released { [1.0, 0.0, 0.0] } else { [0.0; 3] };
         moved.tick(Some(&at(place)));
         still.tick(Some(&at([0.0; 3])));
-        let differs = moved.inner.outer_output().attitude.angles != still.inner.outer_output().attitude.angles;
+        let target = |vehicle: &Autopilot| vehicle.inner.outer_output().attitude.target.attitude;
+        let differs = target(&moved) != target(&still);
         assert_eq!(differs, tick >= released + OUTER.offset, "tick {tick}");
-        let pitch = moved.inner.outer_output().attitude.angles.y;
+        let (_, pitch, _) = target(&moved).euler_angles();
         assert!(!differs || pitch < -0.01, "too far north: it leans back, not {pitch}");
     }
     assert_eq!(OUTER.offset, 2, "the design's");
@@ -174,7 +175,7 @@ fn an_outer_loop_that_stops_answering_is_not_extrapolated_for_ever() {
     for _ in 0..8 {
         pilot.tick(Some(&sample));
     }
-    assert!(!pilot.inner.outer_output().limited && pilot.inner.outer_output().attitude.rates.norm() > 0.01);
+    assert!(!pilot.inner.outer_output().limited && pilot.inner.outer_output().attitude.target.rates.norm() > 0.01);
     fly_without_outer(&mut pilot, &sample, 100);
     let soon = pilot.inner.inner_output().demand;
     fly_without_outer(&mut pilot, &sample, 10_000);

@@ -4,9 +4,10 @@
 //! This is the reading in which Table 1's gains give the paper's curves. No rotor turns in it: Ωr = 0.
 
 use firmware::airframe::Airframe;
-use firmware::control::attitude::{self, EulerReference};
-use firmware::control::position;
-use firmware::control::sliding::AxisGains;
+use firmware::control::attitude;
+use firmware::control::euler::EulerReference;
+use firmware::control::position::{self, Translation};
+use firmware::control::sliding::SlidingAxis;
 use firmware::guidance::{Guidance, Trajectory};
 use nalgebra::Vector3;
 
@@ -30,8 +31,9 @@ const STEPS_A_ROW: u32 = 100;
 pub struct Decoupled {
     constants: Constants,
     airframe: Airframe,
-    position_gains: [AxisGains; 3],
-    attitude_gains: [AxisGains; 3],
+    translation: Translation,
+    position_axes: [SlidingAxis; 3],
+    attitude_axes: [SlidingAxis; 3],
     trajectory: Trajectory,
     guidance: Guidance,
     wave: Option<AttitudeWave>,
@@ -72,8 +74,9 @@ impl Decoupled {
         Ok(Self {
             constants: scenario.constants(),
             airframe: config.airframe,
-            position_gains: config.position.axes,
-            attitude_gains: config.attitude,
+            translation: Translation::new(&config.airframe),
+            position_axes: config.position.axes.map(|axis| SlidingAxis::new(&axis, STEP_S as f32)),
+            attitude_axes: config.attitude.axes.map(|axis| SlidingAxis::new(&axis, STEP_S as f32)),
             trajectory: config.trajectory,
             guidance,
             wave: scenario.file.attitude,
@@ -94,17 +97,18 @@ impl Decoupled {
     }
 
     /// Eq. 25–31 on the state as measured.
-    fn control(&self, disturbed: &Disturbed) -> Control {
+    fn control(&mut self, disturbed: &Disturbed) -> Control {
         let measured: Vector3<f32> = (self.state.position + disturbed.position).cast();
         let velocity: Vector3<f32> = self.state.velocity.cast();
         let flat = self.guidance.at(self.step);
-        let translation = position::demand(&self.position_gains, &self.airframe, &flat, &measured, &velocity);
+        let translation =
+            position::demand(&mut self.position_axes, &self.translation, &flat, &measured, &velocity, false);
 
         let [angles, rates, accelerations] = wave_at(self.wave.as_ref(), self.time()).map(|v: Vector3<f64>| v.cast());
         let target = EulerReference { angles, rates, accelerations };
         let measured: Vector3<f32> = (self.state.angles + disturbed.angles).cast();
         let angle_rates: Vector3<f32> = self.state.angle_rates.cast();
-        let rotation = attitude::demand(&self.attitude_gains, &target, &measured, &angle_rates);
+        let rotation = attitude::euler_demand(&mut self.attitude_axes, &target, &measured, &angle_rates, false);
         let torque = attitude::torque(&self.airframe, &rotation.acceleration, &angle_rates, 0.0);
         let (s, p) = (rotation.s, translation.s);
         Control {

@@ -2,8 +2,12 @@
 
 use anyhow::{Result, anyhow};
 use firmware::autopilot::Autopilot;
+use firmware::control::attitude::SlidingAttitude;
+use firmware::control::law::{AttitudeLaw, PositionLaw};
+use firmware::control::position::SlidingPosition;
 use nalgebra::Vector3;
 
+use crate::controller::Controller;
 use crate::decoupled::Decoupled;
 use crate::noise::Noise;
 use crate::plant::ground::Ground;
@@ -23,13 +27,31 @@ pub fn rigid_body(scenario: &Scenario) -> RigidBody {
     RigidBody::new(constants, ground, position)
 }
 
-/// A plant with the firmware of a scenario in its loop.
+/// A plant with the firmware of a scenario in its loop, flying by its own sliding mode laws.
 ///
 /// # Errors
 /// What of the scenario the firmware refuses.
 pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Flight<P>> {
     let config = scenario.flight_config();
-    let autopilot = Autopilot::new(&config).map_err(|error| anyhow!("scenario `{}`: {error}", scenario.name))?;
+    let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
+    let position = SlidingPosition::new(&config.airframe, &config.position);
+    with_laws(scenario, seed, plant, attitude, position)
+}
+
+/// The same with other control laws.
+///
+/// # Errors
+/// What of the scenario the firmware refuses.
+pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
+    scenario: &Scenario,
+    seed: u64,
+    plant: P,
+    attitude: A,
+    position: L,
+) -> Result<Flight<P, A, L>> {
+    let config = scenario.flight_config();
+    let autopilot = Autopilot::with_laws(&config, attitude, position)
+        .map_err(|error| anyhow!("scenario `{}`: {error}", scenario.name))?;
     let noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
     Ok(Flight::new(autopilot, plant, noise, config.trajectory))
 }
@@ -39,13 +61,20 @@ pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Fl
 /// # Errors
 /// What of the scenario the firmware refuses.
 pub fn fly(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Outcome> {
-    let ticks = scenario.ticks();
     Ok(match scenario.file.plant {
-        PlantKind::RigidBody => lockstep(scenario, seed, rigid_body(scenario))?.run(ticks, recorder),
+        PlantKind::RigidBody => on_plant(scenario, seed, rigid_body(scenario), recorder)?,
         PlantKind::Paper => {
             let plant = PaperPlant::new(scenario.constants(), Vector3::from(scenario.file.start_position_m));
-            lockstep(scenario, seed, plant)?.run(ticks, recorder)
+            on_plant(scenario, seed, plant, recorder)?
         }
-        PlantKind::PaperDecoupled => Decoupled::new(scenario, seed)?.run(ticks, recorder),
+        PlantKind::PaperDecoupled => Decoupled::new(scenario, seed)?.run(scenario.ticks(), recorder),
+    })
+}
+
+/// Flies a scenario on a plant by the control laws that it asks for.
+fn on_plant<P: Plant>(scenario: &Scenario, seed: u64, plant: P, recorder: &mut impl Recorder) -> Result<Outcome> {
+    let ticks = scenario.ticks();
+    Ok(match &scenario.controller {
+        Controller::Smc(_) => lockstep(scenario, seed, plant)?.run(ticks, recorder),
     })
 }

@@ -7,6 +7,7 @@
 
 pub mod airframe;
 pub mod cli;
+pub mod controller;
 pub mod decoupled;
 pub mod flight;
 pub mod link;

@@ -1,17 +1,19 @@
 //! Scenarios: what to fly, typed. Built into the binary, or read from a file; every key can be set from outside.
 
+mod control;
 mod validate;
+
+pub use control::Control;
 
 use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
 use firmware::config::{FlightConfig, Start};
-use firmware::control::position::PositionGains;
-use firmware::control::sliding::AxisGains;
 use firmware::guidance::{JoinPlan, Trajectory};
 use serde::{Deserialize, Serialize};
 
 use crate::airframe::AirframeFile;
+use crate::controller::{Controller, TuningFile};
 
 macro_rules! built_in {
     ($folder:literal: $($name:literal),+ $(,)?) => {
@@ -28,6 +30,9 @@ const SCENARIOS: [(&str, &str); 12] = built_in!("scenarios":
 /// Airframes that come with the binary.
 const AIRFRAMES: [(&str, &str); 1] = built_in!("airframes": "paper");
 
+/// Tunings that come with the binary.
+const TUNINGS: [(&str, &str); 0] = [];
+
 /// Which model of the world is flown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -38,26 +43,6 @@ pub enum PlantKind {
     Paper,
     /// Eq. 2 with the force and the torques as direct, unlimited inputs, the control laws evaluated every 10 µs.
     PaperDecoupled,
-}
-
-/// Gains, by axis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Control {
-    /// Roll φ.
-    pub roll: AxisGains,
-    /// Pitch θ.
-    pub pitch: AxisGains,
-    /// Yaw ψ.
-    pub yaw: AxisGains,
-    /// x.
-    pub x: AxisGains,
-    /// y.
-    pub y: AxisGains,
-    /// z.
-    pub z: AxisGains,
-    /// Greatest tilt that position control asks for, rad.
-    pub tilt_max_rad: f32,
 }
 
 /// Gaussian disturbances, each value held for `hold_s`; standard deviations a component.
@@ -135,8 +120,10 @@ pub struct ScenarioFile {
     pub trajectory: Trajectory,
     /// How to get there; without it, the trajectory is followed from the first tick.
     pub join: Option<JoinPlan>,
-    /// Gains.
-    pub control: Control,
+    /// Gains of the sliding mode laws.
+    pub control: Option<Control>,
+    /// In their place, name or path of a tuning file.
+    pub tuning: Option<String>,
     /// Gaussian disturbances.
     pub disturbance: Option<Disturbance>,
     /// What roll, pitch and yaw are to follow (decoupled plant only); level without it.
@@ -162,6 +149,8 @@ pub struct Scenario {
     pub file: ScenarioFile,
     /// The vehicle.
     pub airframe: AirframeFile,
+    /// What flies it.
+    pub controller: Controller,
 }
 
 /// Names and summaries of the built-in scenarios.
@@ -205,7 +194,8 @@ impl Scenario {
         airframe.thrust_to_weight = file.thrust_to_weight.unwrap_or(airframe.thrust_to_weight);
         airframe.rotor_lag_s = file.rotor_lag_s.unwrap_or(airframe.rotor_lag_s);
 
-        let scenario = Self { name: name.to_owned(), file, airframe };
+        let controller = controller(&file).with_context(context)?;
+        let scenario = Self { name: name.to_owned(), file, airframe, controller };
         scenario.validate().with_context(context)?;
         Ok(scenario)
     }
@@ -223,16 +213,16 @@ impl Scenario {
 
     /// What the firmware is told.
     pub fn flight_config(&self) -> FlightConfig {
-        let c = &self.file.control;
-        FlightConfig {
+        let mut config = FlightConfig {
             airframe: self.airframe.flight(),
-            attitude: [c.roll, c.pitch, c.yaw],
-            position: PositionGains { axes: [c.x, c.y, c.z], tilt_max_rad: c.tilt_max_rad },
             trajectory: self.file.trajectory,
             join: self.file.join.clone(),
             start: self.file.start,
             start_position_m: self.file.start_position_m.map(|v| v as f32),
-        }
+            ..FlightConfig::default()
+        };
+        self.controller.configure(&mut config);
+        config
     }
 
     /// What the plant is made of.
@@ -245,6 +235,21 @@ impl Scenario {
     /// Number of ticks to fly.
     pub fn ticks(&self) -> u32 {
         (self.file.duration_s * 1e3).round() as u32
+    }
+}
+
+/// The controller that a scenario asks for.
+fn controller(file: &ScenarioFile) -> Result<Controller> {
+    match (&file.tuning, &file.control) {
+        (Some(name), None) => {
+            let tuning = parse(&source(name, "tuning", &TUNINGS)?)
+                .and_then(|table| table.try_into::<TuningFile>().map_err(|error| one_line(&error)))
+                .with_context(|| format!("tuning `{name}`"))?;
+            Ok(tuning.controller)
+        }
+        (None, Some(control)) => Ok(Controller::Smc(control.clone())),
+        (Some(_), Some(_)) => bail!("`tuning` and `control` both say what flies: keep one"),
+        (None, None) => bail!("`tuning` is missing: name a tuning file, or give gains under `[control]`"),
     }
 }
 

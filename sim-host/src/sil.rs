@@ -5,6 +5,9 @@
 
 use firmware::airframe::ROTORS;
 use firmware::autopilot::Autopilot;
+use firmware::control::attitude::SlidingAttitude;
+use firmware::control::law::{AttitudeLaw, PositionLaw};
+use firmware::control::position::SlidingPosition;
 use firmware::guidance::Trajectory;
 use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
@@ -15,6 +18,7 @@ use crate::noise::{Disturbed, Noise};
 use crate::plant::{Motion, Plant};
 use crate::record::{Recorder, Row};
 use crate::reference;
+use crate::report::angles::roll_pitch_yaw;
 
 /// How a flight ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,13 +31,13 @@ pub struct Outcome {
     pub survived: bool,
 }
 
-/// A plant with the firmware in its loop. On a cache line of its own: where a stack happens to begin would otherwise
+/// A plant with the firmware in its loop, and the control laws that it flies by. On a cache line of its own: where a stack happens to begin would otherwise
 /// decide a fifth of the speed.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
-pub struct Flight<P> {
+pub struct Flight<P, A = SlidingAttitude, L = SlidingPosition> {
     /// The firmware.
-    pub autopilot: Autopilot,
+    pub autopilot: Autopilot<A, L>,
     plant: P,
     noise: Noise,
     trajectory: Trajectory,
@@ -41,9 +45,9 @@ pub struct Flight<P> {
     outcome: Outcome,
 }
 
-impl<P: Plant> Flight<P> {
+impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// Before the first tick.
-    pub fn new(autopilot: Autopilot, plant: P, noise: Noise, trajectory: Trajectory) -> Self {
+    pub fn new(autopilot: Autopilot<A, L>, plant: P, noise: Noise, trajectory: Trajectory) -> Self {
         let outcome = Outcome { survived: true, ..Outcome::default() };
         Self { autopilot, plant, noise, trajectory, tick: 0, outcome }
     }
@@ -105,11 +109,12 @@ impl<P: Plant> Flight<P> {
         let t = time(self.tick);
         let command: [f64; ROTORS] = inner.motors.omega_rad_s.map(f64::from);
         let omega = self.plant.omega_during(&command);
+        let desired = outer.attitude.target.attitude.cast::<f64>();
         Row {
             omega,
             omega_command: command,
             reference: reference::at(&self.trajectory, self.flight_time(t)),
-            desired_attitude: outer.attitude.angles.map(f64::from).into(),
+            desired_attitude: roll_pitch_yaw([desired.w, desired.i, desired.j, desired.k]),
             u: inner.demand.as_array().map(f64::from),
             s: [inner.s.x, inner.s.y, inner.s.z, outer.s.x, outer.s.y, outer.s.z].map(f64::from),
             ..Row::of_motion(t, &self.plant.motion())

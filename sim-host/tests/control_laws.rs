@@ -4,9 +4,10 @@
 #![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
 
 use firmware::airframe::Airframe;
-use firmware::control::attitude::{self, EulerReference};
-use firmware::control::position;
-use firmware::control::sliding::{AxisGains, Switching};
+use firmware::control::attitude;
+use firmware::control::euler::EulerReference;
+use firmware::control::position::{self, Translation};
+use firmware::control::sliding::{AxisGains, ReachingLaw, SlidingAxis};
 use firmware::signals::FlatReference;
 use nalgebra::Vector3;
 use rand::{RngExt as _, SeedableRng as _};
@@ -37,16 +38,21 @@ fn eq2_translation(velocity: &V, (u1, ux, uy): (f64, f64, f64), (roll, pitch): (
 
 /// sw(s) as docs/control-laws.md names it, and how far the firmware's may be from it: micromath's power is good to 12 %, the
 /// others to f32 rounding (s/ρ to 2e-7 of itself, up to |s/ρ| = 1 where it still matters for sat, tanh less).
-fn sw(shape: Switching, s: f64) -> (f64, f64) {
+fn sw(shape: ReachingLaw, s: f64) -> (f64, f64) {
     match shape {
-        Switching::Sgn => (s.signum(), 0.0),
-        Switching::Sat { rho } => ((s / f64::from(rho)).clamp(-1.0, 1.0), 1e-6),
-        Switching::Tanh { rho } => ((s / f64::from(rho)).tanh(), 1e-6),
-        Switching::Power { alpha } => {
+        ReachingLaw::Sgn => (s.signum(), 0.0),
+        ReachingLaw::Sat { rho } => ((s / f64::from(rho)).clamp(-1.0, 1.0), 1e-6),
+        ReachingLaw::Tanh { rho } => ((s / f64::from(rho)).tanh(), 1e-6),
+        ReachingLaw::Power { alpha } => {
             let value = s.signum() * s.abs().powf(f64::from(alpha));
             (value, 0.12 * value.abs())
         }
+        _ => unreachable!("not one of the paper's"),
     }
+}
+
+fn axes(gains: &[AxisGains; 3]) -> [SlidingAxis; 3] {
+    gains.map(|gains| SlidingAxis::new(&gains, 1e-3))
 }
 
 struct Draw(ChaCha8Rng);
@@ -62,13 +68,13 @@ impl Draw {
 
     fn gains(&mut self) -> AxisGains {
         let rho = self.number(0.001, 3.0);
-        let switching = match self.0.random_range(0..4) {
-            0 => Switching::Sgn,
-            1 => Switching::Sat { rho },
-            2 => Switching::Tanh { rho },
-            _ => Switching::Power { alpha: self.number(0.2, 0.95) },
+        let reaching = match self.0.random_range(0..4) {
+            0 => ReachingLaw::Sgn,
+            1 => ReachingLaw::Sat { rho },
+            2 => ReachingLaw::Tanh { rho },
+            _ => ReachingLaw::Power { alpha: self.number(0.2, 0.95) },
         };
-        AxisGains { lambda: self.number(0.5, 30.0), gain: self.number(1.0, 350.0), switching }
+        AxisGains::new(self.number(1.0, 350.0), self.number(0.5, 30.0), reaching)
     }
 }
 
@@ -78,11 +84,11 @@ impl Draw {
 /// s itself is rounded at 1.2e-7 of its terms, which the layer's slope K/ρ magnifies.
 fn assert_reaching(gains: &AxisGains, e: f64, e_rate: f64, s_rate: f64, scale: f64) {
     let s = f64::from(gains.lambda) * e + e_rate;
-    let (shape, shape_error) = sw(gains.switching, s);
+    let (shape, shape_error) = sw(gains.reaching, s);
     let gain = f64::from(gains.gain);
     let s_rounding = 3e-7 * (f64::from(gains.lambda) * e.abs() + e_rate.abs());
-    let slope = match gains.switching {
-        Switching::Sat { rho } | Switching::Tanh { rho } => gain / f64::from(rho),
+    let slope = match gains.reaching {
+        ReachingLaw::Sat { rho } | ReachingLaw::Tanh { rho } => gain / f64::from(rho),
         _ => 0.0,
     };
     let bound = 2e-6 * (scale + gain) + gain * shape_error + slope * s_rounding;
@@ -98,7 +104,7 @@ fn eq_25_to_27_make_each_attitude_surface_reach_by_its_law() {
         let (angles, rates, spin) = (draw.vector(0.7), draw.vector(6.0), draw.number(-60.0, 60.0));
         let reference =
             EulerReference { angles: draw.vector(0.7), rates: draw.vector(6.0), accelerations: draw.vector(100.0) };
-        let demand = attitude::demand(&gains, &reference, &angles, &rates);
+        let demand = attitude::euler_demand(&mut axes(&gains), &reference, &angles, &rates, false);
         let u = attitude::torque(&Airframe::paper(2.0), &demand.acceleration, &rates, spin);
         let acceleration = eq2_rotation(&rates.cast(), &u.cast(), f64::from(spin));
         for i in 0..3 {
@@ -122,7 +128,8 @@ fn eq_28_30_31_make_each_position_surface_reach_by_its_law() {
         (reference.velocity, reference.acceleration) = (draw.vector(10.0), draw.vector(20.0));
 
         let airframe = Airframe::paper(2.0);
-        let demand = position::demand(&gains, &airframe, &reference, &position, &velocity);
+        let demand =
+            position::demand(&mut axes(&gains), &Translation::new(&airframe), &reference, &position, &velocity, false);
         let (u1, ux, uy) = position::paper_inputs(&airframe, &demand.force, tilt.x.cos(), tilt.y.cos());
         if u1.abs() < 1e-3 {
             continue; // Ux and Uy are not defined without thrust.
@@ -144,12 +151,12 @@ fn eq_28_30_31_make_each_position_surface_reach_by_its_law() {
 fn sliding_reaches_zero_in_the_time_that_the_law_promises() {
     // Eq. 16 with sgn: |s| falls at K, so s0 = K/4 takes 0.25 s; then e decays as e^(−λt). Integrated here by Euler
     // steps of 10 µs on roll, with the law and the plant of the other tests.
-    let gains = [AxisGains { lambda: 5.0, gain: 40.0, switching: Switching::Sgn }; 3];
+    let mut axes = axes(&[AxisGains::new(40.0, 5.0, ReachingLaw::Sgn); 3]);
     let (mut angle, mut rate, h) = (V::new(-2.0, 0.0, 0.0), V::zeros(), 1e-5);
     let mut crossed = None;
     let target = EulerReference { angles: Vector3::zeros(), rates: Vector3::zeros(), accelerations: Vector3::zeros() };
     for step in 0..50_000 {
-        let demand = attitude::demand(&gains, &target, &angle.cast(), &rate.cast());
+        let demand = attitude::euler_demand(&mut axes, &target, &angle.cast(), &rate.cast(), false);
         if demand.s.x <= 0.0 {
             crossed.get_or_insert(f64::from(step) * h);
         }

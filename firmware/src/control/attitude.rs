@@ -1,144 +1,173 @@
-//! Attitude control, Eq. 25–27: sliding mode on the Euler angles, then the torque that makes it so.
+//! Attitude control: sliding mode on the rotation group, or on the paper's Euler angles, then the torque that makes
+//! it so.
 //!
-//! The surfaces and reaching laws act on η = (φ, θ, ψ) and give the angular acceleration η̈ that is wanted
-//! ([`demand`]); the inverse model [`torque`] gives the torques. Fed with η̇ and η̈ themselves these are Eq. 25–27
-//! to the letter, where φ̇ ≈ p; what flies first takes η̇, η̈ to body rates and accelerations by the exact
-//! kinematics ([`Euler::body_acceleration`]), which hold at any tilt short of θ = ±90°.
+//! Both forms give the angular acceleration that is wanted, `η̈d + λ ė + u_r(s)`; the inverse model [`torque`] gives
+//! the torques. On the group the error is [`PointingError`]'s and the surface `s = λ e + R(qe) Ωd − Ω`, defined at any
+//! attitude. The Euler form is Eq. 25–27: surfaces on φ, θ, ψ. Fed with η̇ and η̈ themselves [`euler_demand`] and
+//! [`torque`] are those equations to the letter, where φ̇ ≈ p; in flight η̇, η̈ are taken to body rates and
+//! accelerations by the exact kinematics, which hold short of θ = ±90°.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 
 use crate::airframe::Airframe;
-use crate::control::sliding::AxisGains;
+use crate::control::euler::{Euler, EulerReference};
+use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw};
+use crate::control::observer::{DisturbanceObserver, ObserverGains};
+use crate::control::pointing::PointingError;
+use crate::control::sliding::{AxisGains, SlidingAxis};
 use crate::math;
+use crate::signals::TICK_S;
+use crate::validate::ConfigError;
 
-/// Euler angles φ, θ, ψ, with `R = Rz(ψ)·Ry(θ)·Rx(φ)`, as the sines and cosines that the laws need.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Euler {
-    /// sin φ, cos φ.
-    pub roll: (f32, f32),
-    /// sin θ, cos θ.
-    pub pitch: (f32, f32),
-    /// 1/cos θ.
-    pub sec_pitch: f32,
-    /// sin ψ, cos ψ.
-    pub yaw: (f32, f32),
+/// In which coordinates the surfaces are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+pub enum AttitudeForm {
+    /// On the rotation group, without a singularity.
+    #[default]
+    Group,
+    /// Euler angles, as in the paper.
+    Euler,
 }
 
-/// cos θ is kept away from zero by this much: at θ = ±90° the Euler angles are not defined.
-const COS_PITCH_MIN: f32 = 0.02;
+/// Gains of the attitude loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+pub struct AttitudeGains {
+    /// Roll, pitch, yaw.
+    pub axes: [AxisGains; 3],
+    /// In which coordinates.
+    pub form: AttitudeForm,
+    /// Observer of the angular acceleration's disturbance, rad/s².
+    pub observer: ObserverGains,
+}
 
-impl Euler {
-    /// Of a rotation from body to world.
-    #[inline]
-    pub fn from_quaternion(attitude: &UnitQuaternion<f32>) -> Self {
-        let q = attitude.quaternion();
-        let (w, x, y, z) = (q.w, q.i, q.j, q.k);
-        let sin_pitch = 2.0 * (w * y - z * x);
-        let cos_squared = math::max(1.0 - sin_pitch * sin_pitch, COS_PITCH_MIN * COS_PITCH_MIN);
-        // Root and reciprocal do not wait for each other.
-        let cos_pitch = math::sqrt(cos_squared);
-        let inverse = cos_pitch * (1.0 / cos_squared);
-        let (roll_y, roll_x) = (2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y));
-        let (yaw_y, yaw_x) = (2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z));
-        Self {
-            roll: (roll_y * inverse, roll_x * inverse),
-            pitch: (sin_pitch, cos_pitch),
-            sec_pitch: inverse,
-            yaw: (yaw_y * inverse, yaw_x * inverse),
-        }
-    }
-
-    /// Of three angles, rad.
-    pub fn from_angles(angles: Vector3<f32>) -> Self {
-        let (sin_pitch, cos_pitch) = math::sin_cos(angles.y);
-        Self {
-            roll: math::sin_cos(angles.x),
-            pitch: (sin_pitch, cos_pitch),
-            sec_pitch: 1.0 / math::max(cos_pitch, COS_PITCH_MIN),
-            yaw: math::sin_cos(angles.z),
-        }
-    }
-
-    /// φ, θ, ψ, rad.
-    #[inline]
-    pub fn angles(&self) -> Vector3<f32> {
-        let angle = |(sin, cos): (f32, f32)| math::atan2(sin, cos);
-        Vector3::new(angle(self.roll), angle(self.pitch), self.heading())
-    }
-
-    /// ψ, rad.
-    #[inline]
-    pub fn heading(&self) -> f32 {
-        let (sin, cos) = self.yaw;
-        math::atan2(sin, cos)
-    }
-
-    /// η̇ from the body rates Ω = (p, q, r).
-    #[inline]
-    pub fn rates(&self, body: &Vector3<f32>) -> Vector3<f32> {
-        let ((sin_roll, cos_roll), (sin_pitch, _)) = (self.roll, self.pitch);
-        let yaw_rate = (body.y * sin_roll + body.z * cos_roll) * self.sec_pitch;
-        Vector3::new(body.x + sin_pitch * yaw_rate, body.y * cos_roll - body.z * sin_roll, yaw_rate)
-    }
-
-    /// Ω̇ = E(η) η̈ + Ė(η, η̇) η̇, with Ω = E(η) η̇.
-    #[inline]
-    pub fn body_acceleration(&self, rates: &Vector3<f32>, accelerations: &Vector3<f32>) -> Vector3<f32> {
-        let ((sr, cr), (sp, cp)) = (self.roll, self.pitch);
-        let (roll, pitch, yaw) = (rates.x, rates.y, rates.z);
-        let (a_roll, a_pitch, a_yaw) = (accelerations.x, accelerations.y, accelerations.z);
-        // Across the roll axis: y' = θ̇, z' = ψ̇ cos θ, turned by φ.
-        let z_rate = cp * yaw;
-        let z_acceleration = cp * a_yaw - sp * pitch * yaw;
-        Vector3::new(
-            (a_roll - cp * pitch * yaw) - sp * a_yaw,
-            cr * (a_pitch + roll * z_rate) + sr * (z_acceleration - roll * pitch),
-            cr * (z_acceleration - roll * pitch) - sr * (a_pitch + roll * z_rate),
-        )
+impl AttitudeGains {
+    /// Refuses gains with which the law is not defined.
+    ///
+    /// # Errors
+    /// The first gain that is out of its range.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        let [roll, pitch, yaw] = &self.axes;
+        roll.validate("control.roll")?;
+        pitch.validate("control.pitch")?;
+        yaw.validate("control.yaw")?;
+        self.observer.validate("control.attitude_observer")
     }
 }
 
-/// Angles, rates and accelerations that the attitude is to follow.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EulerReference {
-    /// φd, θd, ψd, rad.
-    pub angles: Vector3<f32>,
-    /// Their first derivatives, rad/s.
-    pub rates: Vector3<f32>,
-    /// Their second derivatives, rad/s².
-    pub accelerations: Vector3<f32>,
+/// Sliding mode control of the attitude, in the loop.
+#[derive(Clone, Debug)]
+pub struct SlidingAttitude {
+    airframe: Airframe,
+    inverse_inertia: Vector3<f32>,
+    axes: [SlidingAxis; 3],
+    form: AttitudeForm,
+    observer: Option<DisturbanceObserver>,
+}
+
+impl SlidingAttitude {
+    /// With valid gains.
+    pub fn new(airframe: &Airframe, gains: &AttitudeGains) -> Self {
+        let observer = gains.observer;
+        Self {
+            airframe: *airframe,
+            inverse_inertia: Vector3::from(airframe.inertia_kg_m2).map(|i| 1.0 / i),
+            axes: gains.axes.map(|axis| SlidingAxis::new(&axis, TICK_S)),
+            form: gains.form,
+            observer: (observer.bandwidth_rad_s > 0.0).then(|| DisturbanceObserver::new(&observer, TICK_S)),
+        }
+    }
+
+    /// s, and the angular acceleration Ω̇ wanted: on the group.
+    #[inline]
+    fn on_group(&mut self, input: &AttitudeInput) -> (Vector3<f32>, Vector3<f32>) {
+        let pointing = PointingError::between(input.attitude, &input.target.attitude);
+        let desired = pointing.rotation * input.target.rates;
+        let rate_error = desired - input.rates;
+        let (e, rate) = (&pointing.error, pointing.rate(&rate_error));
+        let hold = input.saturated;
+        let [g1, g2, g3] = &mut self.axes;
+        let roll = g1.correction_along(e.x, rate.x, rate_error.x, hold);
+        let pitch = g2.correction_along(e.y, rate.y, rate_error.y, hold);
+        let yaw = g3.correction_along(e.z, rate.z, rate_error.z, hold);
+        // d/dt [R(qe) Ωd] = R(qe) Ω̇d − Ω × R(qe) Ωd.
+        let feedforward = pointing.rotation * input.target.accelerations - input.rates.cross(&desired);
+        let correction = Vector3::new(roll.acceleration, pitch.acceleration, yaw.acceleration);
+        (Vector3::new(roll.s, pitch.s, yaw.s), feedforward + correction)
+    }
+
+    /// The same by Eq. 25–27, with the exact kinematics.
+    fn on_euler_angles(&mut self, input: &AttitudeInput) -> (Vector3<f32>, Vector3<f32>) {
+        let target = EulerReference::of_target(input.target);
+        let euler = Euler::from_quaternion(input.attitude);
+        let rates = euler.rates(input.rates);
+        let wanted = euler_demand(&mut self.axes, &target, &euler.angles(), &rates, input.saturated);
+        (wanted.s, euler.body_acceleration(&rates, &wanted.acceleration))
+    }
+
+    /// d̂ of Ω̇, rad/s².
+    #[inline]
+    fn disturbance(&mut self, input: &AttitudeInput, spin: f32) -> Vector3<f32> {
+        let Some(observer) = &mut self.observer else { return Vector3::zeros() };
+        let applied = self.airframe.geometry.torque(input.rotor_speeds);
+        let own = torque(&self.airframe, &Vector3::zeros(), input.rates, spin);
+        observer.step(input.rates, &(applied - own).component_mul(&self.inverse_inertia))
+    }
+}
+
+impl AttitudeLaw for SlidingAttitude {
+    #[inline]
+    fn step(&mut self, input: &AttitudeInput) -> AttitudeDemand {
+        let spin = self.airframe.rotor_spin_rad_s(input.rotor_speeds);
+        let (s, acceleration) = match self.form {
+            AttitudeForm::Group => self.on_group(input),
+            AttitudeForm::Euler => self.on_euler_angles(input),
+        };
+        let acceleration = acceleration - self.disturbance(input, spin);
+        AttitudeDemand { s, torque: torque(&self.airframe, &acceleration, input.rates, spin) }
+    }
+
+    fn reset(&mut self) {
+        self.axes.iter_mut().for_each(SlidingAxis::reset);
+        if let Some(observer) = &mut self.observer {
+            observer.reset();
+        }
+    }
 }
 
 /// Sliding variables s1..s3 and the angular acceleration they ask for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AttitudeDemand {
+pub struct EulerDemand {
     /// s1, s2, s3 (Eq. 18–20), rad/s.
     pub s: Vector3<f32>,
-    /// `η̈d + λ ė + K sw(s)`, rad/s².
+    /// `η̈d + λ ė + u_r(s)`, rad/s².
     pub acceleration: Vector3<f32>,
 }
 
-/// The part of Eq. 25–27 inside the brackets that does not depend on the model: `η̈d + λ ė + K sw(s)`.
+/// The part of Eq. 25–27 inside the brackets that does not depend on the model: `η̈d + λ ė + u_r(s)`. `hold` as in
+/// [`SlidingAxis::correction`].
 #[inline]
-pub fn demand(
-    gains: &[AxisGains; 3],
+pub fn euler_demand(
+    axes: &mut [SlidingAxis; 3],
     reference: &EulerReference,
     angles: &Vector3<f32>,
     rates: &Vector3<f32>,
-) -> AttitudeDemand {
+    hold: bool,
+) -> EulerDemand {
     let error = (reference.angles - angles).map(math::wrap_angle);
     let error_rate = reference.rates - rates;
-    let [g1, g2, g3] = gains;
-    let roll = g1.correction(error.x, error_rate.x);
-    let pitch = g2.correction(error.y, error_rate.y);
-    let yaw = g3.correction(error.z, error_rate.z);
-    AttitudeDemand {
+    let [g1, g2, g3] = axes;
+    let roll = g1.correction(error.x, error_rate.x, hold);
+    let pitch = g2.correction(error.y, error_rate.y, hold);
+    let yaw = g3.correction(error.z, error_rate.z, hold);
+    EulerDemand {
         s: Vector3::new(roll.s, pitch.s, yaw.s),
         acceleration: reference.accelerations + Vector3::new(roll.acceleration, pitch.acceleration, yaw.acceleration),
     }
 }
 
-/// Torques U2..U4 that give the body the acceleration Ω̇ at rates Ω, `spin` being Ωr of the last commanded speeds:
+/// Torques U2..U4 that give the body the acceleration Ω̇ at rates Ω, `spin` being Ωr of the rotors' speeds:
 /// `τ = I Ω̇ + Ω × IΩ + Ω × (0, 0, Jr Ωr) + (k4 p|p|, k5 q|q|, k6 r|r|)`.
 ///
 /// With Ω = η̇ these are Eq. 25–27 to the letter: `U2 = Ix[φ̈ − c1 θ̇ψ̇ − c2 φ̇|φ̇| − c3 Ωr θ̇]` and so on.

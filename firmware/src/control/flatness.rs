@@ -2,11 +2,13 @@
 //!
 //! The specific force f (thrust a unit of mass) fixes where the body's z axis must point, n = f/|f|; turned by
 //! −ψ, the corrected Eq. 11 reads φd = asin(−n′y) = asin(Ux sψ − Uy cψ), θd = asin(n′x/cφd). Differentiating it
-//! twice gives the rates and accelerations that the attitude loop needs for exact tracking.
+//! twice gives the rates and accelerations that the attitude loop needs for exact tracking. The angles themselves are
+//! never computed: their sines and cosines are n′'s components, and those of their halves make the quaternion.
 
 use nalgebra::Vector3;
 
-use crate::control::attitude::EulerReference;
+use crate::control::euler::Euler;
+use crate::control::law::AttitudeTarget;
 use crate::math;
 
 /// A specific force, m/s², with two derivatives.
@@ -42,6 +44,12 @@ struct Direction {
 }
 
 impl ForceProfile {
+    /// What holds a vehicle still under gravity `g`, m/s².
+    pub fn hover(g: f32) -> Self {
+        let zero = Vector3::zeros();
+        Self { force: Vector3::new(0.0, 0.0, g), rate: zero, acceleration: zero }
+    }
+
     /// n = f/|f| with ṅ and n̈ (from f = |f| n).
     fn direction(&self) -> Direction {
         let magnitude = math::max(math::sqrt(self.force.norm_squared()), FORCE_MIN);
@@ -65,12 +73,14 @@ fn across(v: &Vector3<f32>) -> Vector3<f32> {
     Vector3::new(-v.y, v.x, 0.0)
 }
 
-/// φd, θd by the corrected Eq. 11, ψ's angle and rates as given, all with two derivatives.
+/// The attitude by the corrected Eq. 11, ψ's angle and rates as given, with rates and accelerations.
 ///
 /// Defined for a force that points above the horizon (|θd| < 90°); roll is kept off ±90° by 1 % in its cosine.
-pub fn euler_reference(profile: &ForceProfile, heading: &Heading) -> EulerReference {
+#[inline]
+pub fn attitude_target(profile: &ForceProfile, heading: &Heading) -> AttitudeTarget {
     let direction = profile.direction();
-    let turn = math::sin_cos(heading.angle);
+    let (sin_half, cos_half) = math::sin_cos(0.5 * heading.angle);
+    let turn = (2.0 * sin_half * cos_half, 1.0 - 2.0 * sin_half * sin_half);
     // In the frame that turns with ψ: d/dt [Rz(−ψ) n] = Rz(−ψ)(ṅ − ψ̇ e3×n), and once more.
     let n = turn_back(&direction.n, turn);
     let n_rate = turn_back(&direction.rate, turn);
@@ -86,22 +96,32 @@ pub fn euler_reference(profile: &ForceProfile, heading: &Heading) -> EulerRefere
     let roll_rate = -rate.y * sec_roll;
     let roll_acceleration = (-acceleration.y + sin_roll * roll_rate * roll_rate) * sec_roll;
 
-    let per_square = 1.0 / math::max(n.x * n.x + n.z * n.z, 1e-4);
+    let square = math::max(n.x * n.x + n.z * n.z, 1e-4);
+    let per_square = 1.0 / square;
     let pitch_rate = (rate.x * n.z - n.x * rate.z) * per_square;
     let square_rate = 2.0 * (n.x * rate.x + n.z * rate.z);
     let pitch_acceleration = (acceleration.x * n.z - n.x * acceleration.z - pitch_rate * square_rate) * per_square;
 
-    EulerReference {
-        angles: Vector3::new(math::atan2(sin_roll, cos_roll), math::atan2(n.x, n.z), heading.angle),
-        rates: Vector3::new(roll_rate, pitch_rate, heading.rate),
-        accelerations: Vector3::new(roll_acceleration, pitch_acceleration, heading.acceleration),
+    let per_root = math::sqrt(per_square);
+    let (sin_pitch, cos_pitch) = (n.x * per_root, n.z * per_root);
+    let euler = Euler { roll: (sin_roll, cos_roll), pitch: (sin_pitch, cos_pitch), sec_pitch: 0.0, yaw: turn };
+    let rates = Vector3::new(roll_rate, pitch_rate, heading.rate);
+    let accelerations = Vector3::new(roll_acceleration, pitch_acceleration, heading.acceleration);
+    AttitudeTarget {
+        attitude: euler.to_quaternion((sin_half, cos_half)),
+        rates: euler.body_rates(&rates),
+        accelerations: euler.body_acceleration(&rates, &accelerations),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::attitude::Euler;
+    use crate::control::euler::{Euler, EulerReference};
+
+    fn euler_reference(profile: &ForceProfile, heading: &Heading) -> EulerReference {
+        EulerReference::of_target(&attitude_target(profile, heading))
+    }
 
     /// A made-up smooth force and heading, in f64 and exactly differentiable.
     fn sample(t: f64) -> (ForceProfile, Heading) {

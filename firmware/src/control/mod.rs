@@ -1,10 +1,17 @@
-//! The control laws: pure functions of their gains and inputs, as they stand in the paper.
+//! The control laws: pure functions of their gains, state and inputs.
 //!
-//! [`sliding`] owns the surfaces and reaching laws, [`position`] Eq. 28–31, [`flatness`] the way from a force
-//! and its derivatives to angles and theirs (Eq. 11), [`attitude`] Eq. 25–27, [`mixer`] the inverse of Eq. 4.
+//! [`law`] is what the partitions ask of a control law. [`sliding`] owns the surfaces and reaching laws, [`observer`] the
+//! disturbance observer; [`position`] Eq. 28–31, [`flatness`] the way from a force and its derivatives to an attitude
+//! and its derivatives (Eq. 11), [`attitude`] the surfaces on the rotation group ([`pointing`]) and Eq. 25–27 on Euler
+//! angles ([`euler`]), [`mixer`] the inverse of Eq. 4, [`rotor`] the rotors' lag.
 
 pub mod attitude;
+pub mod euler;
 pub mod flatness;
+pub mod law;
 pub mod mixer;
+pub mod observer;
+pub mod pointing;
 pub mod position;
+pub mod rotor;
 pub mod sliding;

@@ -1,130 +1,201 @@
 //! Position control, Eq. 28, 30 and 31: sliding mode on x, y, z, as a specific force and its derivatives.
 //!
 //! The paper's three laws share one form. With Ux U1/m, Uy U1/m and U1 cφcθ/m the components of the specific
-//! force f (Eq. 2), each reads `f = r̈d − c ṙ + λ ė + K sw(s)`, plus g on z. Written so, the division by U1 and
+//! force f (Eq. 2), each reads `f = r̈d − c ṙ + λ ė + u_r(s)`, plus g on z. Written so, the division by U1 and
 //! by cφ cθ disappears and with it their singularities; [`paper_inputs`] gives U1, Ux, Uy as printed.
 
 use nalgebra::Vector3;
 
 use crate::airframe::Airframe;
 use crate::control::flatness::ForceProfile;
-use crate::control::sliding::AxisGains;
+use crate::control::law::{PositionDemand, PositionInput, PositionLaw};
+use crate::control::observer::{DisturbanceObserver, ObserverGains};
+use crate::control::sliding::{AxisGains, Correction, SlidingAxis};
 use crate::math;
-use crate::signals::FlatReference;
+use crate::schedule::OUTER;
+use crate::signals::{FlatReference, TICK_S};
 use crate::validate::ConfigError;
 
-/// Gains and limits of the position loop.
+/// Gains of the position loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct PositionGains {
     /// x, y, z.
     pub axes: [AxisGains; 3],
-    /// Greatest tilt the loop asks for, rad.
-    pub tilt_max_rad: f32,
+    /// Observer of the acceleration's disturbance, m/s².
+    pub observer: ObserverGains,
 }
 
 impl PositionGains {
     /// Refuses gains with which the law is not defined.
     ///
     /// # Errors
-    /// The first gain or limit that is out of its range.
+    /// The first gain that is out of its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let [x, y, z] = &self.axes;
         x.validate("control.x")?;
         y.validate("control.y")?;
         z.validate("control.z")?;
-        ConfigError::require_positive("control.tilt_max_rad", self.tilt_max_rad)?;
-        if self.tilt_max_rad < 1.5 { Ok(()) } else { Err(ConfigError::OutOfRange("control.tilt_max_rad")) }
+        self.observer.validate("control.position_observer")
+    }
+}
+
+/// What of the model the position laws compensate, ready for the loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Translation {
+    /// k1..k3 over m: −c9..c11, 1/s.
+    pub specific_drag: Vector3<f32>,
+    /// g, m/s².
+    pub gravity: f32,
+}
+
+impl Translation {
+    /// Of an airframe.
+    pub fn new(airframe: &Airframe) -> Self {
+        Self { specific_drag: Vector3::from(airframe.drag_n_s_m) / airframe.mass_kg, gravity: airframe.gravity_m_s2 }
+    }
+
+    /// r̈ = f − (k/m) ṙ − g e3, the translational half of Eq. 2.
+    #[inline]
+    pub fn acceleration(&self, force: &Vector3<f32>, velocity: &Vector3<f32>) -> Vector3<f32> {
+        let mut acceleration = force - self.drag(velocity);
+        acceleration.z -= self.gravity;
+        acceleration
+    }
+
+    /// (k/m) ṙ, m/s²; or its derivatives, for those of ṙ.
+    #[inline]
+    pub fn drag(&self, velocity: &Vector3<f32>) -> Vector3<f32> {
+        self.specific_drag.component_mul(velocity)
+    }
+}
+
+/// Sliding mode control of the position, in the loop.
+#[derive(Clone, Debug)]
+pub struct SlidingPosition {
+    axes: [SlidingAxis; 3],
+    model: Translation,
+    observer: Option<DisturbanceObserver>,
+}
+
+impl SlidingPosition {
+    /// Stepped once a job of the outer partition, with valid gains.
+    pub fn new(airframe: &Airframe, gains: &PositionGains) -> Self {
+        let step_s = OUTER.period as f32 * TICK_S;
+        let observer = gains.observer;
+        Self {
+            axes: gains.axes.map(|axis| SlidingAxis::new(&axis, step_s)),
+            model: Translation::new(airframe),
+            observer: (observer.bandwidth_rad_s > 0.0).then(|| DisturbanceObserver::new(&observer, step_s)),
+        }
+    }
+}
+
+impl PositionLaw for SlidingPosition {
+    /// Eq. 28, 30, 31 as a specific force, less the disturbance, with its derivatives: ḟ is exact but for the motion
+    /// of the disturbance; f̈ holds the reference's snap and drag only, since the feedback's second derivative would
+    /// need the jerk.
+    #[inline]
+    fn step(&mut self, input: &PositionInput) -> PositionDemand {
+        let reference = input.reference;
+        let disturbance = match &mut self.observer {
+            Some(observer) => observer.step(input.velocity, input.acceleration),
+            None => Vector3::zeros(),
+        };
+        let demand = demand(&mut self.axes, &self.model, reference, input.position, input.velocity, input.limited);
+        let error = reference.position - input.position;
+        let error_rate = reference.velocity - input.velocity;
+        let error_acceleration = reference.acceleration - (input.acceleration + disturbance);
+        let rate = |i: usize, axis: &SlidingAxis| {
+            axis.correction_rate(demand.s[i], error[i], error_rate[i], error_acceleration[i])
+        };
+        let [x, y, z] = &self.axes;
+        let correction_rate = Vector3::new(rate(0, x), rate(1, y), rate(2, z));
+        PositionDemand {
+            s: demand.s,
+            profile: ForceProfile {
+                force: demand.force - disturbance,
+                rate: reference.jerk + self.model.drag(&reference.acceleration) + correction_rate,
+                acceleration: reference.snap + self.model.drag(&reference.jerk),
+            },
+        }
+    }
+
+    fn reset(&mut self) {
+        self.axes.iter_mut().for_each(SlidingAxis::reset);
+        if let Some(observer) = &mut self.observer {
+            observer.reset();
+        }
     }
 }
 
 /// Sliding variables sx, sy, sz and the specific force they ask for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PositionDemand {
+pub struct ForceDemand {
     /// Eq. 21–23, m/s.
     pub s: Vector3<f32>,
     /// f, m/s².
     pub force: Vector3<f32>,
 }
 
-/// Eq. 28, 30, 31 as a specific force (see the module text).
+/// Eq. 28, 30, 31 as a specific force (see the module text). `hold` as in [`SlidingAxis::correction`].
 #[inline]
 pub fn demand(
-    axes: &[AxisGains; 3],
-    airframe: &Airframe,
+    axes: &mut [SlidingAxis; 3],
+    model: &Translation,
     reference: &FlatReference,
     position: &Vector3<f32>,
     velocity: &Vector3<f32>,
-) -> PositionDemand {
+    hold: bool,
+) -> ForceDemand {
     let error = reference.position - position;
     let error_rate = reference.velocity - velocity;
     let [gx, gy, gz] = axes;
-    let x = gx.correction(error.x, error_rate.x);
-    let y = gy.correction(error.y, error_rate.y);
-    let z = gz.correction(error.z, error_rate.z);
-    let correction = Vector3::new(x.acceleration, y.acceleration, z.acceleration);
-    let force =
-        reference.acceleration + drag(airframe, velocity) + correction + Vector3::new(0.0, 0.0, airframe.gravity_m_s2);
-    PositionDemand { s: Vector3::new(x.s, y.s, z.s), force }
+    let x = gx.correction(error.x, error_rate.x, hold);
+    let y = gy.correction(error.y, error_rate.y, hold);
+    let z = gz.correction(error.z, error_rate.z, hold);
+    let along = |axis: Correction| axis.acceleration;
+    let correction = Vector3::new(along(x), along(y), along(z) + model.gravity);
+    ForceDemand { s: Vector3::new(x.s, y.s, z.s), force: reference.acceleration + model.drag(velocity) + correction }
 }
 
-/// −c9..c11 times `v`: the specific drag force at velocity v, or its derivatives at v's.
-#[inline]
-fn drag(airframe: &Airframe, v: &Vector3<f32>) -> Vector3<f32> {
-    let inverse = 1.0 / airframe.mass_kg;
-    let [k1, k2, k3] = airframe.drag_n_s_m;
-    Vector3::new(k1 * v.x, k2 * v.y, k3 * v.z) * inverse
+/// Limits of the force that the rotors can give.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceLimits {
+    /// Greatest specific force, m/s².
+    force_max: f32,
+    /// Tangent of the greatest tilt.
+    tan_tilt_max: f32,
 }
 
-/// The demand's force with its derivatives, for the attitude's feedforward.
-///
-/// `acceleration` is the vehicle's own, m/s², by the model. ḟ is exact but for the motion of the disturbance;
-/// f̈ holds the reference's snap and drag only, since the feedback's second derivative would need the jerk.
-pub fn force_profile(
-    axes: &[AxisGains; 3],
-    airframe: &Airframe,
-    reference: &FlatReference,
-    demand: &PositionDemand,
-    velocity: &Vector3<f32>,
-    acceleration: &Vector3<f32>,
-) -> ForceProfile {
-    let error_rate = reference.velocity - velocity;
-    let error_acceleration = reference.acceleration - acceleration;
-    let [gx, gy, gz] = axes;
-    let feedback = |gains: &AxisGains, s: f32, rate: f32, acceleration: f32| {
-        gains.lambda * acceleration + gains.reach_slope(s) * gains.surface(rate, acceleration)
-    };
-    let correction_rate = Vector3::new(
-        feedback(gx, demand.s.x, error_rate.x, error_acceleration.x),
-        feedback(gy, demand.s.y, error_rate.y, error_acceleration.y),
-        feedback(gz, demand.s.z, error_rate.z, error_acceleration.z),
-    );
-    ForceProfile {
-        force: demand.force,
-        rate: reference.jerk + drag(airframe, &reference.acceleration) + correction_rate,
-        acceleration: reference.snap + drag(airframe, &reference.jerk),
+impl ForceLimits {
+    /// Of an airframe, and a greatest tilt (rad).
+    pub fn new(airframe: &Airframe, tilt_max_rad: f32) -> Self {
+        let (sin_tilt, cos_tilt) = math::sin_cos(tilt_max_rad);
+        Self { force_max: airframe.thrust_max_n() / airframe.mass_kg, tan_tilt_max: sin_tilt / cos_tilt }
     }
-}
 
-/// Brings a specific force within what the rotors can give: not below `FLOOR`, at most `force_max` in size, tilted at
-/// most the angle of which the tangent is given. Height is kept before horizontal acceleration. Returns whether a
-/// limit acted; then the derivatives are those of a force that is not flown, and are dropped.
-pub fn limit(profile: &mut ForceProfile, force_max: f32, tan_tilt_max: f32) -> bool {
-    /// Least vertical part, as a part of the greatest force: the thrust axis must not point down.
-    const FLOOR: f32 = 0.02;
-    let force = profile.force;
-    let vertical = math::clamp(force.z, FLOOR * force_max, force_max);
-    let by_size = math::sqrt(math::max(force_max * force_max - vertical * vertical, 0.0));
-    let limit = math::min(by_size, vertical * tan_tilt_max);
-    let horizontal = math::sqrt(force.x * force.x + force.y * force.y);
-    let scale = if horizontal > limit { limit / horizontal } else { 1.0 };
-    let limited = scale < 1.0 || vertical != force.z;
-    if limited {
-        let zero = Vector3::zeros();
-        let force = Vector3::new(force.x * scale, force.y * scale, vertical);
-        *profile = ForceProfile { force, rate: zero, acceleration: zero };
+    /// Brings a specific force within what the rotors can give: not below `FLOOR`, at most the greatest in size, tilted
+    /// at most the greatest tilt. Height is kept before horizontal acceleration. Returns whether a limit acted; then
+    /// the derivatives are those of a force that is not flown, and are dropped.
+    #[inline]
+    pub fn apply(&self, profile: &mut ForceProfile) -> bool {
+        /// Least vertical part, as a part of the greatest force: the thrust axis must not point down.
+        const FLOOR: f32 = 0.02;
+        let (force, force_max) = (profile.force, self.force_max);
+        let vertical = math::clamp(force.z, FLOOR * force_max, force_max);
+        let by_size = math::sqrt(math::max(force_max * force_max - vertical * vertical, 0.0));
+        let limit = math::min(by_size, vertical * self.tan_tilt_max);
+        let horizontal = math::sqrt(force.x * force.x + force.y * force.y);
+        let scale = if horizontal > limit { limit / horizontal } else { 1.0 };
+        let limited = scale < 1.0 || vertical != force.z;
+        if limited {
+            let zero = Vector3::zeros();
+            let force = Vector3::new(force.x * scale, force.y * scale, vertical);
+            *profile = ForceProfile { force, rate: zero, acceleration: zero };
+        }
+        limited
     }
-    limited
 }
 
 /// U1, Ux, Uy as printed in Eq. 28, 30 and 31, from the demand's force and the vehicle's roll and pitch cosines.

@@ -1,113 +1,201 @@
-//! Sliding surfaces and reaching laws.
+//! Sliding surfaces and reaching laws: one axis of a sliding mode controller.
 //!
 //! With the error `e = desired − actual` a surface is `s = λ e + ė` (Eq. 18–23); a reaching law makes
-//! `ṡ = −K sw(s)` (Eq. 16), with `sw` one of the shapes of [`Switching`]. For every shape `s·sw(s) > 0` where
-//! s ≠ 0, so V = s²/2 decreases as long as K·|sw(s)| exceeds the disturbance (Eq. 13–14).
+//! `ṡ = −u_r(s)` (Eq. 16), and a disturbance d of the axis' acceleration turns that into `ṡ = −u_r(s) − d`.
+//! [`ReachingLaw`] is the family of u_r, each with what it guarantees; [`AxisGains`] is an axis as configured,
+//! [`SlidingAxis`] the same built into the form the loop uses, with its state. `K` is [`AxisGains::gain`], D a bound
+//! on |d|, L one on |ḋ|, V = s²/2.
 
 use crate::math;
 use crate::validate::ConfigError;
 
-/// The shape `sw(s)` of a reaching law.
+/// A reaching law u_r(s), selectable an axis at run time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(rename_all = "kebab-case", deny_unknown_fields)
 )]
-pub enum Switching {
-    /// `sgn(s)`, Eq. 17: reaches s = 0 after |s0|/K, rejects any disturbance below K; chatters when sampled.
+pub enum ReachingLaw {
+    /// `K sgn(s)`, Eq. 17. K > D: V̇ ≤ −(K − D)|s|, so s = 0 after |s0|/(K − D), for any such disturbance, without a
+    /// remaining error. Sampled every h seconds it chatters by K h.
     Sgn,
-    /// `sat(s/ρ)`: sgn outside a boundary layer of half-width ρ, linear inside. A disturbance D < K leaves
-    /// |s| ≤ ρ·D/K. Sampled every h seconds it needs ρ ≥ K·h, or it chatters as sgn does.
+    /// `K sat(s/ρ)`: sgn outside a boundary layer of half-width ρ, linear inside. K > D: V̇ < 0 for |s| > ρ D/K, which is
+    /// the error that remains. Sampled every h seconds it needs ρ ≥ K h, or it chatters as sgn does.
     Sat {
         /// Half-width ρ of the boundary layer, in units of s.
         rho: f32,
     },
-    /// `tanh(s/ρ)`: smooth everywhere; a disturbance D < K leaves |s| ≤ ρ·artanh(D/K).
+    /// `K tanh(s/ρ)`: smooth everywhere. K > D: V̇ < 0 for |s| > ρ artanh(D/K), which is the error that remains.
     Tanh {
         /// Scale ρ of the layer, in units of s.
         rho: f32,
     },
-    /// `|s|^α sgn(s)`, 0 < α < 1 (the power-rate law): reaches s = 0 in |s0|^(1−α)/((1−α)K) without a jump; a
-    /// disturbance D leaves |s| ≤ (D/K)^(1/α). Its power is good to 12 %, which moves these figures by as much.
+    /// `K |s|^α sgn(s)`, 0 < α < 1 (the power-rate law): reaches s = 0 in |s0|^(1−α)/((1−α)K) without a jump; V̇ < 0 for
+    /// |s| > (D/K)^(1/α). Its power is good to 12 %, which moves these figures by as much.
     Power {
         /// Exponent α.
         alpha: f32,
     },
+    /// `K sat(s/ρ) + q s` (exponential reaching, Gao and Hung 1993): far out V̇ ≤ −2 q V, so s comes down as e^(−qt)
+    /// and not at the constant rate K; close in as [`Sat`](Self::Sat), which leaves |s| ≤ ρ D/(K + q ρ).
+    Exponential {
+        /// Rate q, 1/s.
+        rate: f32,
+        /// Half-width ρ of the boundary layer, in units of s.
+        rho: f32,
+    },
+    /// Set-valued sgn by backward Euler (Acary and Brogliato 2010): the u of `s⁺ = s − T u, u ∈ K sgn(s⁺)`, which is
+    /// `s/T` limited to ±K. With T the sampling step and K > D: s reaches |s| ≤ T D in a finite number of steps and
+    /// stays, without chattering, however large K is. Where the actuator answers later than a step, T is the time it
+    /// takes: sampling, delay and lag together.
+    ImplicitSgn {
+        /// T, s.
+        horizon_s: f32,
+    },
+    /// `K √|s| sgn(s) + v, v̇ = k2 sgn(s)` (super-twisting, Levant 1993), explicit Euler. With k2 > L and
+    /// K² ≥ 4 L (k2 + L)/(k2 − L) both s and ṡ reach 0 in finite time (strict Lyapunov function: Moreno and Osorio
+    /// 2012), whatever the size of d. Sampled it leaves |s| of the order of h², and chatters by k2 h.
+    SuperTwisting {
+        /// k2, in units of s a second squared.
+        twist: f32,
+    },
+    /// Super-twisting by backward Euler (after Brogliato, Polyakov and Efimov 2020), v taken as the estimate of the
+    /// disturbance: with `u = v + w`, w solves `s⁺ = s − T w, w ∈ K √|s⁺| sgn(s⁺) + T k2 sgn(s⁺)`, and
+    /// `v̇ ∈ k2 sgn(s⁺)`. No chattering; where it is not saturated it is `s/T + ∫s/T²`, so a constant disturbance
+    /// leaves no error. T as for [`ImplicitSgn`](Self::ImplicitSgn).
+    ImplicitSuperTwisting {
+        /// k2, in units of s a second squared.
+        twist: f32,
+        /// T, s.
+        horizon_s: f32,
+    },
 }
 
-/// Gains of one axis: surface slope λ, reaching gain K and shape.
+/// The sliding surface of an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+pub enum Surface {
+    /// `s = λ e + ė` (Eq. 18–23): on it the error dies as e^(−λt).
+    #[default]
+    Linear,
+    /// `s = ė + 2λ e + λ² ∫e − (ė + 2λ e)(0)` (integral SMC, Utkin and Shi 1996): s = 0 from the first moment, so the
+    /// bound on the disturbance holds without a reaching phase; on it the error dies with a double pole at −λ, and a
+    /// constant disturbance leaves no error.
+    Integral,
+}
+
+/// Gains of one axis: surface, reaching gain K and reaching law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct AxisGains {
-    /// Slope λ of the surface, 1/s: on the surface the error decays as e^(−λt).
+    /// Slope λ of the surface, 1/s.
     pub lambda: f32,
-    /// Reaching gain K, in units of s a second.
+    /// Reaching gain K, in units of s a second; for super-twisting a second for each √s.
     pub gain: f32,
-    /// Shape of the switching term.
-    pub switching: Switching,
+    /// Reaching law.
+    pub reaching: ReachingLaw,
+    /// Form of the surface.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub surface: Surface,
+    /// On a linear surface, λ e is limited to this: the greatest rate at which a large error is taken back, in
+    /// units of s. With an authority of A, A/λ is the rate from which it can still brake along the surface.
+    #[cfg_attr(feature = "serde", serde(default = "unlimited"))]
+    pub approach_max: f32,
+}
+
+/// No error is taken back faster than this.
+const fn unlimited() -> f32 {
+    1e9
 }
 
 impl AxisGains {
+    /// Gains with a reaching law of one's own, on a linear surface without a limit.
+    pub const fn new(gain: f32, lambda: f32, reaching: ReachingLaw) -> Self {
+        Self { lambda, gain, reaching, surface: Surface::Linear, approach_max: unlimited() }
+    }
+
     /// Gains with the boundary layer `sat(s/ρ)`, in the order of the paper's Table 1.
     pub const fn sat(gain: f32, lambda: f32, rho: f32) -> Self {
-        Self { lambda, gain, switching: Switching::Sat { rho } }
-    }
-
-    /// The sliding variable `s = λ e + ė` (Eq. 18–23).
-    #[inline]
-    pub fn surface(&self, error: f32, error_rate: f32) -> f32 {
-        self.lambda * error + error_rate
-    }
-
-    /// The reaching rate `K sw(s)`.
-    #[inline]
-    pub fn reach(&self, s: f32) -> f32 {
-        match self.switching {
-            Switching::Sgn => self.gain * sgn(s),
-            // K sat(s/ρ), with the division off the path from s to the result.
-            Switching::Sat { rho } => math::clamp(s * (self.gain / rho), -self.gain, self.gain),
-            Switching::Tanh { rho } => self.gain * math::tanh(s / rho),
-            Switching::Power { alpha } => self.gain * sgn(s) * math::shape_power(math::abs(s), alpha),
-        }
-    }
-
-    /// Slope `K dsw/ds` where it is of use to a feedforward: the layer's gain inside it, 0 where the law is
-    /// flat or jumps.
-    #[inline]
-    pub fn reach_slope(&self, s: f32) -> f32 {
-        match self.switching {
-            Switching::Sat { rho } if math::abs(s) < rho => self.gain / rho,
-            Switching::Tanh { rho } => {
-                let shape = math::tanh(s / rho);
-                self.gain / rho * (1.0 - shape * shape)
-            }
-            _ => 0.0,
-        }
-    }
-
-    /// `λ ė + K sw(s)`, the part that every law of the paper adds to its equivalent control.
-    #[inline]
-    pub fn correction(&self, error: f32, error_rate: f32) -> Correction {
-        let s = self.surface(error, error_rate);
-        Correction { s, acceleration: self.lambda * error_rate + self.reach(s) }
+        Self::new(gain, lambda, ReachingLaw::Sat { rho })
     }
 
     /// Refuses gains with which the law is not defined.
     ///
     /// # Errors
-    /// `name` with what is wrong: λ, K, ρ or α not finite or not positive, or α not below 1.
+    /// `name` with what is wrong: a number that is not finite or not positive, or α not below 1.
     pub fn validate(&self, name: &'static str) -> Result<(), ConfigError> {
-        ConfigError::require_positive(name, self.lambda)?;
+        let positive = |value| ConfigError::require_positive(name, value);
+        positive(self.lambda)?;
+        positive(self.approach_max)?;
         ConfigError::require_not_negative(name, self.gain)?;
-        match self.switching {
-            Switching::Sgn => Ok(()),
-            Switching::Sat { rho } | Switching::Tanh { rho } => ConfigError::require_positive(name, rho),
-            Switching::Power { alpha } => {
-                ConfigError::require_positive(name, alpha)?;
+        match self.reaching {
+            ReachingLaw::Sgn => Ok(()),
+            ReachingLaw::Sat { rho } | ReachingLaw::Tanh { rho } => positive(rho),
+            ReachingLaw::Exponential { rate, rho } => positive(rate).and(positive(rho)),
+            ReachingLaw::ImplicitSgn { horizon_s } => positive(horizon_s),
+            ReachingLaw::SuperTwisting { twist } => positive(twist),
+            ReachingLaw::ImplicitSuperTwisting { twist, horizon_s } => positive(twist).and(positive(horizon_s)),
+            ReachingLaw::Power { alpha } => {
+                positive(alpha)?;
                 if alpha < 1.0 { Ok(()) } else { Err(ConfigError::OutOfRange(name)) }
             }
         }
+    }
+}
+
+/// A reaching law as the loop uses it: no division left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Reach {
+    Sgn,
+    /// `slope·s` limited to ±K: sat, and sgn by backward Euler.
+    Layer {
+        slope: f32,
+    },
+    Tanh {
+        per_rho: f32,
+    },
+    Power {
+        alpha: f32,
+    },
+    Exponential {
+        slope: f32,
+        rate: f32,
+    },
+    SuperTwisting {
+        twist_step: f32,
+    },
+    ImplicitSuperTwisting(Twist),
+}
+
+/// Backward Euler of super-twisting, with T the horizon and h the step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Twist {
+    /// T² k2: where |s| is below, s⁺ = 0.
+    inside: f32,
+    /// Its inverse.
+    per_inside: f32,
+    /// T k2 and h k2.
+    horizon_twist: f32,
+    step_twist: f32,
+    /// T K/2.
+    half_horizon_gain: f32,
+}
+
+impl Twist {
+    /// w and the change of v.
+    #[inline]
+    fn solve(&self, gain: f32, s: f32) -> (f32, f32) {
+        let sign = math::clamp(s * self.per_inside, -1.0, 1.0);
+        let beyond = math::abs(s) - self.inside;
+        let mut w = self.horizon_twist * sign;
+        if beyond > 0.0 {
+            // r = √|s⁺| solves r² + T K r = |s| − T² k2.
+            let half = self.half_horizon_gain;
+            let root = math::sqrt(half * half + beyond) - half;
+            w += gain * root * sign;
+        }
+        (w, self.step_twist * sign)
     }
 }
 
@@ -116,8 +204,147 @@ impl AxisGains {
 pub struct Correction {
     /// The sliding variable s.
     pub s: f32,
-    /// `λ ė + K sw(s)`.
+    /// `λ ė + u_r(s)`.
     pub acceleration: f32,
+}
+
+/// One axis in the loop: its gains in loop form, and its state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlidingAxis {
+    lambda: f32,
+    gain: f32,
+    approach_max: f32,
+    reach: Reach,
+    surface: Surface,
+    step_s: f32,
+    /// v of super-twisting.
+    twist: f32,
+    /// `λ² ∫e − (ė + 2λ e)(0)` of the integral surface; none before the first step.
+    integral: Option<f32>,
+}
+
+impl SlidingAxis {
+    /// An axis that is stepped every `step_s` seconds, with valid gains.
+    pub fn new(gains: &AxisGains, step_s: f32) -> Self {
+        let k = gains.gain;
+        let reach = match gains.reaching {
+            ReachingLaw::Sgn => Reach::Sgn,
+            ReachingLaw::Sat { rho } => Reach::Layer { slope: k / rho },
+            ReachingLaw::ImplicitSgn { horizon_s } => Reach::Layer { slope: 1.0 / horizon_s },
+            ReachingLaw::Tanh { rho } => Reach::Tanh { per_rho: 1.0 / rho },
+            ReachingLaw::Power { alpha } => Reach::Power { alpha },
+            ReachingLaw::Exponential { rate, rho } => Reach::Exponential { slope: k / rho, rate },
+            ReachingLaw::SuperTwisting { twist } => Reach::SuperTwisting { twist_step: twist * step_s },
+            ReachingLaw::ImplicitSuperTwisting { twist, horizon_s } => {
+                let inside = horizon_s * horizon_s * twist;
+                Reach::ImplicitSuperTwisting(Twist {
+                    inside,
+                    per_inside: 1.0 / inside,
+                    horizon_twist: horizon_s * twist,
+                    step_twist: step_s * twist,
+                    half_horizon_gain: 0.5 * horizon_s * k,
+                })
+            }
+        };
+        let AxisGains { lambda, gain, approach_max, surface, .. } = *gains;
+        Self { lambda, gain, approach_max, reach, surface, step_s, twist: 0.0, integral: None }
+    }
+
+    /// Forgets what has been integrated.
+    pub fn reset(&mut self) {
+        self.twist = 0.0;
+        self.integral = None;
+    }
+
+    /// `λ ė + u_r(s)`, the part that every law of the paper adds to its equivalent control, for e and ė.
+    ///
+    /// `hold` keeps the integrals as they are: the actuator is at its limit, and would not hear them.
+    #[inline]
+    pub fn correction(&mut self, error: f32, error_rate: f32, hold: bool) -> Correction {
+        self.correction_along(error, error_rate, error_rate, hold)
+    }
+
+    /// The same where the error's derivative and the velocity error differ, as they do on the rotation group: the
+    /// surface is `s = λ e + velocity_error`, its derivative takes `λ ė`.
+    #[inline]
+    pub fn correction_along(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> Correction {
+        let (s, equivalent) = match self.surface {
+            Surface::Linear => {
+                let approach = self.lambda * error;
+                let limited = math::clamp(approach, -self.approach_max, self.approach_max);
+                // Where the approach is limited it does not change.
+                let equivalent = if limited == approach { self.lambda * error_rate } else { 0.0 };
+                (limited + velocity_error, equivalent)
+            }
+            Surface::Integral => self.integral_surface(error, error_rate, velocity_error, hold),
+        };
+        Correction { s, acceleration: equivalent + self.reach(s, hold) }
+    }
+
+    fn integral_surface(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> (f32, f32) {
+        let proportional = velocity_error + 2.0 * self.lambda * error;
+        let integral = self.integral.unwrap_or(-proportional);
+        let change = self.lambda * self.lambda * error;
+        self.integral = Some(if hold { integral } else { integral + change * self.step_s });
+        (proportional + integral, 2.0 * self.lambda * error_rate + change)
+    }
+
+    /// u_r(s).
+    #[inline]
+    fn reach(&mut self, s: f32, hold: bool) -> f32 {
+        let k = self.gain;
+        let (rate, twist) = match self.reach {
+            Reach::Layer { slope } => return math::clamp(s * slope, -k, k),
+            Reach::Sgn => return k * sgn(s),
+            Reach::Tanh { per_rho } => return k * math::tanh(s * per_rho),
+            Reach::Power { alpha } => return k * sgn(s) * math::shape_power(math::abs(s), alpha),
+            Reach::Exponential { slope, rate } => return math::clamp(s * slope, -k, k) + rate * s,
+            Reach::SuperTwisting { twist_step } => (k * math::sqrt(math::abs(s)) * sgn(s), twist_step * sgn(s)),
+            Reach::ImplicitSuperTwisting(twist) => twist.solve(k, s),
+        };
+        let u = rate + self.twist;
+        if !hold {
+            self.twist += twist;
+        }
+        u
+    }
+
+    /// Slope `du_r/ds` where it is of use to a feedforward: the layer's gain inside it, 0 where the law is flat or
+    /// jumps.
+    #[inline]
+    fn reach_slope(&self, s: f32) -> f32 {
+        match self.reach {
+            Reach::Layer { slope } if math::abs(s * slope) < self.gain => slope,
+            Reach::Tanh { per_rho } => {
+                let shape = math::tanh(s * per_rho);
+                self.gain * per_rho * (1.0 - shape * shape)
+            }
+            Reach::Exponential { slope, rate } => rate + if math::abs(s * slope) < self.gain { slope } else { 0.0 },
+            Reach::ImplicitSuperTwisting(twist) if math::abs(s) < twist.inside => {
+                twist.horizon_twist * twist.per_inside
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Derivative of the [`correction`](Self::correction) that gave `s`, for e, ė and ë.
+    #[inline]
+    pub fn correction_rate(&self, s: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
+        let slope = self.reach_slope(s);
+        match self.surface {
+            Surface::Linear => {
+                let approach = self.lambda * error;
+                // Limited, the approach is constant.
+                let lambda = if math::abs(approach) <= self.approach_max { self.lambda } else { 0.0 };
+                lambda * error_acceleration + slope * (lambda * error_rate + error_acceleration)
+            }
+            Surface::Integral => {
+                let (twice, square) = (2.0 * self.lambda, self.lambda * self.lambda);
+                let equivalent_rate = twice * error_acceleration + square * error_rate;
+                equivalent_rate + slope * (error_acceleration + twice * error_rate + square * error)
+            }
+        }
+    }
 }
 
 /// Eq. 17: 1, 0 or −1.
@@ -129,57 +356,5 @@ pub fn sgn(s: f32) -> f32 {
         -1.0
     } else {
         0.0
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const SHAPES: [Switching; 4] =
-        [Switching::Sgn, Switching::Sat { rho: 0.5 }, Switching::Tanh { rho: 0.5 }, Switching::Power { alpha: 0.5 }];
-
-    #[test]
-    fn every_shape_drives_s_towards_zero_and_is_odd() {
-        for switching in SHAPES {
-            let gains = AxisGains { lambda: 1.0, gain: 3.0, switching };
-            for i in 1..2_000 {
-                let s = i as f32 * 0.01;
-                assert!(gains.reach(s) > 0.0, "{switching:?} at {s}");
-                assert_eq!(gains.reach(s), -gains.reach(-s), "{switching:?} at {s}");
-            }
-            assert_eq!(gains.reach(0.0), 0.0);
-        }
-    }
-
-    #[test]
-    fn power_law_reaches_zero_in_its_closed_form_time() {
-        // |s|^½ from s0 = 4 with K = 2: T = s0^½ / (½·2) = 2 s; micromath's 12 % allows as much.
-        let gains = AxisGains { lambda: 1.0, gain: 2.0, switching: Switching::Power { alpha: 0.5 } };
-        let (mut s, mut t) = (4.0_f32, 0.0_f32);
-        while s > 1e-4 {
-            s -= gains.reach(s) * 1e-4;
-            t += 1e-4;
-        }
-        assert!(crate::math::abs(t - 2.0) < 0.24, "{t}");
-    }
-
-    #[test]
-    fn slope_is_the_derivative_of_the_reaching_rate() {
-        for switching in [Switching::Sat { rho: 0.5 }, Switching::Tanh { rho: 0.5 }] {
-            let gains = AxisGains { lambda: 1.0, gain: 3.0, switching };
-            for s in [-1.2_f32, -0.3, 0.01, 0.2, 0.8] {
-                let numeric = (gains.reach(s + 1e-3) - gains.reach(s - 1e-3)) / 2e-3;
-                assert!(math::abs(gains.reach_slope(s) - numeric) < 0.02, "{switching:?} at {s}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_law_that_is_not_defined_is_refused() {
-        assert!(AxisGains::sat(1.0, 0.0, 0.1).validate("k").is_err());
-        assert!(AxisGains::sat(1.0, 1.0, f32::NAN).validate("k").is_err());
-        let power = AxisGains { lambda: 1.0, gain: 1.0, switching: Switching::Power { alpha: 1.0 } };
-        assert_eq!(power.validate("k"), Err(ConfigError::OutOfRange("k")));
     }
 }

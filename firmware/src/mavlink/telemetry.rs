@@ -12,7 +12,7 @@ use glissade_dialect::{
 
 use super::writer::{Writer, frame_len};
 use super::{GroundInput, LoopTiming};
-use crate::control::attitude::Euler;
+use crate::control::euler::Euler;
 use crate::frames::flip_vector;
 use crate::schedule::GROUND;
 use crate::signals::{TICK_US, Tick};

@@ -1,0 +1,104 @@
+//! The rotors as the controller believes them: a first-order lag, and the lead that takes most of it back.
+//!
+//! A rotor's speed follows its command as `ω̇ = (ω_cmd − ω)/τ`. Kept as a model, that gives what the rotors do now, for
+//! laws that compare it with what the vehicle does. Inverted as far as the limits and a wrong τ allow, it makes the
+//! speeds follow what control wants with a shorter time constant τ′: each step asks for so much more that the model
+//! comes as near as a rotor of τ′ would,
+//!
+//! ```text
+//! ω_cmd = ω̂ + (ω_wanted − ω̂)·(1 − e^(−h/τ′))/(1 − e^(−h/τ)),   0 ≤ ω_cmd ≤ ω_max
+//! ```
+//!
+//! The model is fed with the limited command, so nothing winds up.
+
+use crate::airframe::ROTORS;
+use crate::math;
+use crate::signals::TICK_S;
+
+/// Lag and lead of all rotors, and their speeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RotorModel {
+    /// Part of the way to its command that a rotor goes in a tick, 1 − e^(−h/τ); 1 without lag.
+    part: f32,
+    /// What is asked for beyond it: 1 or more.
+    lead: f32,
+    omega_max: f32,
+    omega: [f32; ROTORS],
+}
+
+impl RotorModel {
+    /// At rest; `lag_s` is τ and `lead_lag_s` τ′, in s. A τ′ of zero, or not below τ, asks for no lead.
+    pub fn new(lag_s: f32, lead_lag_s: f32, omega_max_rad_s: f32) -> Self {
+        let part = |time_s: f32| if time_s > 0.0 { 1.0 - math::exp(-TICK_S / time_s) } else { 1.0 };
+        let leads = lead_lag_s > 0.0 && lead_lag_s < lag_s;
+        Self {
+            part: part(lag_s),
+            lead: if leads { part(lead_lag_s) / part(lag_s) } else { 1.0 },
+            omega_max: omega_max_rad_s,
+            omega: [0.0; ROTORS],
+        }
+    }
+
+    /// Speeds at which the rotors are believed to turn, rad/s.
+    #[inline]
+    pub fn omega_rad_s(&self) -> &[f32; ROTORS] {
+        &self.omega
+    }
+
+    /// Starts from these speeds, rad/s.
+    pub fn set(&mut self, omega_rad_s: [f32; ROTORS]) {
+        self.omega = omega_rad_s;
+    }
+
+    /// The command (rad/s) by which the rotors come to the speeds wanted, which lie within their limits. A tick passes.
+    #[inline]
+    pub fn command(&mut self, wanted_rad_s: [f32; ROTORS]) -> [f32; ROTORS] {
+        let mut command = wanted_rad_s;
+        if self.lead > 1.0 {
+            for (command, omega) in command.iter_mut().zip(self.omega) {
+                *command = math::clamp(omega + self.lead * (*command - omega), 0.0, self.omega_max);
+            }
+        }
+        self.follow(&command);
+        command
+    }
+
+    /// A tick passes with these commands, rad/s.
+    #[inline]
+    pub fn follow(&mut self, command_rad_s: &[f32; ROTORS]) {
+        if self.part < 1.0 {
+            for (omega, command) in self.omega.iter_mut().zip(command_rad_s) {
+                *omega += self.part * (command - *omega);
+            }
+        } else {
+            self.omega = *command_rad_s;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rotor_with_lead_answers_like_a_faster_one_until_it_meets_its_limit() {
+        let mut model = RotorModel::new(0.02, 0.005, 1000.0);
+        model.set([400.0; ROTORS]);
+        for tick in 1..=50 {
+            let command = model.command([500.0; ROTORS]);
+            assert!(command.iter().all(|omega| (0.0..=1000.0).contains(omega)));
+            let exact = 500.0 - 100.0 * (-(tick as f32) * 1e-3 / 0.005).exp();
+            assert!((model.omega_rad_s()[0] - exact).abs() < 0.01, "{tick}");
+        }
+        // 400 rad/s above would ask for 1,600 at once: it gets 1,000, and goes there as a rotor without lead does.
+        model.set([500.0; ROTORS]);
+        assert_eq!(model.command([900.0; ROTORS]), [1000.0; ROTORS]);
+    }
+
+    #[test]
+    fn a_rotor_without_lag_is_where_it_is_told_to_be() {
+        let mut model = RotorModel::new(0.0, 0.005, 50.0);
+        assert_eq!(model.command([20.0, 30.0, 0.0, 50.0]), [20.0, 30.0, 0.0, 50.0]);
+        assert_eq!(*model.omega_rad_s(), [20.0, 30.0, 0.0, 50.0]);
+    }
+}
