@@ -2,10 +2,12 @@
 
 use anyhow::{Result, anyhow};
 use firmware::autopilot::Autopilot;
+use firmware::signals::TICK_S_EXACT;
 use nalgebra::Vector3;
 
 use crate::decoupled::Decoupled;
 use crate::noise::Noise;
+use crate::noise::dryden::Wind;
 use crate::plant::ground::Ground;
 use crate::plant::paper::PaperPlant;
 use crate::plant::rigid_body::RigidBody;
@@ -14,13 +16,13 @@ use crate::record::Recorder;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sil::{Flight, Outcome};
 
-/// The rigid-body plant of a scenario.
-pub fn rigid_body(scenario: &Scenario) -> RigidBody {
+/// The rigid-body plant of a scenario, in the motion with which a flight under `seed` begins.
+pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
     let constants = scenario.constants();
     let position = Vector3::from(scenario.file.start_position_m);
     let on = |c: &Constants| Ground::for_vehicle(position.z, c.mass, c.gravity, c.inertia.z);
     let ground = scenario.file.ground.then(|| on(&constants));
-    RigidBody::new(constants, ground, position)
+    RigidBody::new(constants, ground, position).with_motion(scenario.file.start_motion(seed))
 }
 
 /// A plant with the firmware of a scenario in its loop.
@@ -31,7 +33,12 @@ pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Fl
     let config = scenario.flight_config();
     let autopilot = Autopilot::new(&config).map_err(|error| anyhow!("scenario `{}`: {error}", scenario.name))?;
     let noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
-    Ok(Flight::new(autopilot, plant, noise, config.trajectory))
+    let flight = Flight::new(autopilot, plant, noise, config.trajectory);
+    let flight = flight.with_actuation_delay(scenario.actuation_delay_ticks());
+    Ok(match &scenario.file.wind {
+        Some(wind) => flight.with_wind(Wind::new(wind, seed, TICK_S_EXACT), &scenario.constants()),
+        None => flight,
+    })
 }
 
 /// Flies a scenario to its end, or until the vehicle is lost.
@@ -41,7 +48,7 @@ pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Fl
 pub fn fly(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Outcome> {
     let ticks = scenario.ticks();
     Ok(match scenario.file.plant {
-        PlantKind::RigidBody => lockstep(scenario, seed, rigid_body(scenario))?.run(ticks, recorder),
+        PlantKind::RigidBody => lockstep(scenario, seed, rigid_body(scenario, seed))?.run(ticks, recorder),
         PlantKind::Paper => {
             let plant = PaperPlant::new(scenario.constants(), Vector3::from(scenario.file.start_position_m));
             lockstep(scenario, seed, plant)?.run(ticks, recorder)
