@@ -43,6 +43,9 @@ pub struct AirframeFile {
     pub thrust_to_weight: f64,
     /// Time constant of the rotors' speed, s.
     pub rotor_lag_s: f64,
+    /// How much later than commanded the rotors are told, s; whole ticks.
+    #[serde(default)]
+    pub actuation_delay_s: f64,
     /// Whether spinning the rotors up turns the body.
     pub spin_up_reaction: bool,
     /// The rotors.

@@ -5,11 +5,13 @@ use firmware::autopilot::Autopilot;
 use firmware::control::attitude::SlidingAttitude;
 use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
+use firmware::signals::TICK_S_EXACT;
 use nalgebra::Vector3;
 
 use crate::controller::Controller;
 use crate::decoupled::Decoupled;
 use crate::noise::Noise;
+use crate::noise::dryden::Wind;
 use crate::plant::ground::Ground;
 use crate::plant::paper::PaperPlant;
 use crate::plant::rigid_body::RigidBody;
@@ -18,13 +20,13 @@ use crate::record::Recorder;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sil::{Flight, Outcome};
 
-/// The rigid-body plant of a scenario.
-pub fn rigid_body(scenario: &Scenario) -> RigidBody {
+/// The rigid-body plant of a scenario, in the motion with which a flight under `seed` begins.
+pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
     let constants = scenario.constants();
     let position = Vector3::from(scenario.file.start_position_m);
     let on = |c: &Constants| Ground::for_vehicle(position.z, c.mass, c.gravity, c.inertia.z);
     let ground = scenario.file.ground.then(|| on(&constants));
-    RigidBody::new(constants, ground, position)
+    RigidBody::new(constants, ground, position).with_motion(scenario.file.start_motion(seed))
 }
 
 /// A plant with the firmware of a scenario in its loop, flying by its own sliding mode laws.
@@ -53,7 +55,12 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
     let autopilot = Autopilot::with_laws(&config, attitude, position)
         .map_err(|error| anyhow!("scenario `{}`: {error}", scenario.name))?;
     let noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
-    Ok(Flight::new(autopilot, plant, noise, config.trajectory))
+    let flight = Flight::new(autopilot, plant, noise, config.trajectory);
+    let flight = flight.with_actuation_delay(scenario.actuation_delay_ticks());
+    Ok(match &scenario.file.wind {
+        Some(wind) => flight.with_wind(Wind::new(wind, seed, TICK_S_EXACT), &scenario.constants()),
+        None => flight,
+    })
 }
 
 /// Flies a scenario to its end, or until the vehicle is lost.
@@ -62,7 +69,7 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
 /// What of the scenario the firmware refuses.
 pub fn fly(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Outcome> {
     Ok(match scenario.file.plant {
-        PlantKind::RigidBody => on_plant(scenario, seed, rigid_body(scenario), recorder)?,
+        PlantKind::RigidBody => on_plant(scenario, seed, rigid_body(scenario, seed), recorder)?,
         PlantKind::Paper => {
             let plant = PaperPlant::new(scenario.constants(), Vector3::from(scenario.file.start_position_m));
             on_plant(scenario, seed, plant, recorder)?

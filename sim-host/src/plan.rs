@@ -119,12 +119,12 @@ fn decode(scenario: &Scenario, x: &DVector<f64>) -> JoinPlan {
     }
 }
 
-/// How a plan settles with a vehicle of `mass_kg`; none if it is refused or the vehicle is lost.
-fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass_kg: f64) -> Option<Approach> {
+/// How a plan settles with a vehicle of `mass` times its mass; none if it is refused or the vehicle is lost.
+fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass: f64) -> Option<Approach> {
     let mut scenario = scenario.clone();
     scenario.file.duration_s = f64::from(plan.duration_s) + AFTER_S;
     scenario.file.join = Some(plan.clone());
-    scenario.file.true_mass_kg = Some(mass_kg);
+    scenario.file.truth.mass_factor *= mass;
     let mut approach = Approach::default();
     let outcome = flight::fly(&scenario, 0, &mut approach).ok()?;
     outcome.survived.then_some(approach)
@@ -134,8 +134,7 @@ fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass_kg: f64) -> Option<Approa
 /// digit of its flight, and the next change of a control law undoes it.
 fn cost(scenario: &Scenario, plan: &JoinPlan) -> f64 {
     const REFUSED: f64 = 1e3;
-    let mass = scenario.constants().mass;
-    let of = |part: &f64| try_plan(scenario, plan, mass * part).map_or(REFUSED, |approach| approach.cost());
+    let of = |part: &f64| try_plan(scenario, plan, *part).map_or(REFUSED, |approach| approach.cost());
     MASSES.iter().map(of).fold(0.0, f64::max)
 }
 
@@ -177,7 +176,7 @@ pub fn plan(scenario: &Scenario, flights: usize, seed: u64, mut progress: impl F
     };
     let best = ended.overall_best.ok_or_else(|| anyhow!("no flight was flown: ask for more than {flights}"))?;
     let plan = decode(scenario, &best.point);
-    let approach = try_plan(scenario, &plan, scenario.constants().mass)
+    let approach = try_plan(scenario, &plan, 1.0)
         .with_context(|| format!("no path was found with {flights} flights: ask for more"))?;
     Ok(Planned { plan, settle_s: approach.settle_s(), flights: flown.load(Ordering::Relaxed) })
 }

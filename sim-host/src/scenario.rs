@@ -2,6 +2,7 @@
 
 mod control;
 mod validate;
+mod world;
 
 pub use control::Control;
 
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
+pub use world::{Truth, Tumble, Wind};
 
 macro_rules! built_in {
     ($folder:literal: $($name:literal),+ $(,)?) => {
@@ -101,8 +103,11 @@ pub struct ScenarioFile {
     pub thrust_to_weight: Option<f64>,
     /// In place of the airframe's, s.
     pub rotor_lag_s: Option<f64>,
-    /// In place of the airframe's, for the plant alone: the firmware keeps believing the airframe file. kg.
-    pub true_mass_kg: Option<f64>,
+    /// In place of the airframe's, s; whole ticks.
+    pub actuation_delay_s: Option<f64>,
+    /// How the plant differs from what the firmware believes.
+    #[serde(default)]
+    pub truth: Truth,
     /// The world.
     pub plant: PlantKind,
     /// Whether there is ground at the start's height.
@@ -116,6 +121,14 @@ pub struct ScenarioFile {
     /// Where the flight begins, m.
     #[serde(default)]
     pub start_position_m: [f64; 3],
+    /// In which velocity it begins, in the world, m/s; at rest without it.
+    pub start_velocity_m_s: Option<[f64; 3]>,
+    /// In which roll, pitch and yaw, °; level without it.
+    pub start_attitude_deg: Option<[f64; 3]>,
+    /// In which body rates, rad/s; none without it.
+    pub start_rates_rad_s: Option<[f64; 3]>,
+    /// A random start, in place of the three above.
+    pub tumble: Option<Tumble>,
     /// What to fly.
     pub trajectory: Trajectory,
     /// How to get there; without it, the trajectory is followed from the first tick.
@@ -126,6 +139,8 @@ pub struct ScenarioFile {
     pub tuning: Option<String>,
     /// Gaussian disturbances.
     pub disturbance: Option<Disturbance>,
+    /// Wind.
+    pub wind: Option<Wind>,
     /// What roll, pitch and yaw are to follow (decoupled plant only); level without it.
     pub attitude: Option<AttitudeWave>,
     /// The least time in which this airframe can match the trajectory from the start, where it is known, s.
@@ -193,6 +208,7 @@ impl Scenario {
             table.try_into().map_err(|error| one_line(&error)).with_context(context_airframe)?;
         airframe.thrust_to_weight = file.thrust_to_weight.unwrap_or(airframe.thrust_to_weight);
         airframe.rotor_lag_s = file.rotor_lag_s.unwrap_or(airframe.rotor_lag_s);
+        airframe.actuation_delay_s = file.actuation_delay_s.unwrap_or(airframe.actuation_delay_s);
 
         let controller = controller(&file).with_context(context)?;
         let scenario = Self { name: name.to_owned(), file, airframe, controller };
@@ -227,9 +243,12 @@ impl Scenario {
 
     /// What the plant is made of.
     pub fn constants(&self) -> crate::plant::Constants {
-        let mut constants = self.airframe.constants();
-        constants.mass = self.file.true_mass_kg.unwrap_or(constants.mass);
-        constants
+        self.file.truth.of(&self.airframe.constants())
+    }
+
+    /// How much later than commanded the rotors are told, ticks.
+    pub fn actuation_delay_ticks(&self) -> usize {
+        (self.airframe.actuation_delay_s * 1e3).round() as usize
     }
 
     /// Number of ticks to fly.
@@ -256,7 +275,8 @@ fn controller(file: &ScenarioFile) -> Result<Controller> {
 /// Whether a setting makes another problem of it than the one whose time-optimal bound is known.
 fn moves_the_bound(setting: &str) -> bool {
     let key = setting.split(['=', '.']).next().unwrap_or_default();
-    matches!(key, "airframe" | "thrust_to_weight" | "true_mass_kg" | "trajectory" | "start_position_m" | "plant")
+    let start = key.starts_with("start_") || key == "tumble";
+    start || matches!(key, "airframe" | "thrust_to_weight" | "truth" | "wind" | "trajectory" | "plant")
 }
 
 /// Text of a built-in file, or of the file at a path.
@@ -357,10 +377,36 @@ mod tests {
             ("paper-disturbed", "disturbance.hold_s=0.0014", "hold_s"),
             ("paper-disturbed", "disturbance.position_output_m=-0.1", "position_output_m"),
             ("paper-ideal", "ground=true", "ground"),
+            ("helix", "truth.mass_factor=0", "truth.mass_factor"),
+            ("helix", "truth.inertia_factor=nan", "truth.inertia_factor"),
+            ("helix", "truth.rotor_effectiveness=[1,1,1,-1]", "truth.rotor_effectiveness"),
+            ("helix", "truth.rotor_effectiveness=[0,0,0,0]", "truth.rotor_effectiveness"),
+            ("helix", "truth.rotor_lag_s=-1", "truth.rotor_lag_s"),
+            ("helix", "truth.colour=1", "colour"),
+            ("helix", "true_mass_kg=1", "true_mass_kg"),
+            ("helix", "actuation_delay_s=0.0005", "actuation_delay_s"),
+            ("helix", "actuation_delay_s=0.017", "actuation_delay_s"),
+            ("helix", "airframe.actuation_delay_s=-0.001", "actuation_delay_s"),
+            ("helix", "start_velocity_m_s=[1e3,0,0]", "start_velocity_m_s"),
+            ("helix", "start_rates_rad_s=[0,nan,0]", "start_rates_rad_s"),
+            ("helix", "tumble={rate_rad_s=-1.0,speed_m_s=0.0}", "tumble.rate_rad_s"),
+            ("helix", "wind.turbulence_20ft_m_s=-1", "wind.turbulence_20ft_m_s"),
+            ("helix", "wind.airspeed_m_s=0", "wind.airspeed_m_s"),
+            ("helix", "wind.mean_m_s=[0,0,inf]", "wind.mean_m_s"),
+            ("paper-ideal", "actuation_delay_s=0.001", "actuation_delay_s"),
+            ("paper-ideal", "start_attitude_deg=[10,0,0]", "start_attitude_deg"),
+            ("paper-ideal", "wind.mean_m_s=[1,0,0]", "wind"),
+            ("paper-ideal", "tumble={rate_rad_s=1.0,speed_m_s=0.0}", "tumble"),
             ("helix", "attitude={amplitude_rad=[1,0,0],rate_rad_s=[1,1,1],phase_rad=[0,0,0]}", "attitude"),
         ] {
             assert!(refusal(scenario, &[setting]).contains(culprit), "{setting}");
         }
+    }
+
+    #[test]
+    fn a_start_is_either_drawn_or_written_down() {
+        let settings = ["tumble={rate_rad_s=1.0,speed_m_s=0.0}", "start_rates_rad_s=[0,0,0]"];
+        assert!(refusal("helix", &settings).contains("start_rates_rad_s"));
     }
 
     #[test]
@@ -371,6 +417,8 @@ mod tests {
         };
         assert_eq!(bound(&["control.x.lambda=3"]), Some(1.31));
         assert_eq!(bound(&["thrust_to_weight=4"]), None);
+        assert_eq!(bound(&["truth.mass_factor=1.1"]), None);
+        assert_eq!(bound(&["start_velocity_m_s=[1,0,0]"]), None);
     }
 
     #[test]

@@ -14,8 +14,9 @@ use firmware::outer::OuterOutput;
 use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::noise::dryden::Wind;
 use crate::noise::{Disturbed, Noise};
-use crate::plant::{Motion, Plant};
+use crate::plant::{Constants, Motion, Plant};
 use crate::record::{Recorder, Row};
 use crate::reference;
 use crate::report::angles::roll_pitch_yaw;
@@ -31,8 +32,53 @@ pub struct Outcome {
     pub survived: bool,
 }
 
-/// A plant with the firmware in its loop, and the control laws that it flies by. On a cache line of its own: where a stack happens to begin would otherwise
-/// decide a fifth of the speed.
+/// The longest delay between a motor command and the rotors, ticks.
+pub const DELAY_TICKS_MAX: usize = 16;
+
+/// Motor commands on their way to the rotors: a ring of as many as the delay has ticks.
+#[derive(Clone, Debug)]
+struct Delay {
+    on_the_way: [[f64; ROTORS]; DELAY_TICKS_MAX],
+    ticks: usize,
+    /// Which of them arrives next.
+    next: usize,
+}
+
+impl Delay {
+    /// Of at most [`DELAY_TICKS_MAX`]; `omega` (rad/s) arrives until the first command does.
+    fn new(ticks: usize, omega: [f64; ROTORS]) -> Self {
+        Self { on_the_way: [omega; DELAY_TICKS_MAX], ticks: ticks.min(DELAY_TICKS_MAX), next: 0 }
+    }
+
+    /// What arrives at the tick in which `command` is given.
+    #[inline]
+    fn arriving(&self, command: [f64; ROTORS]) -> [f64; ROTORS] {
+        if self.ticks == 0 { command } else { self.on_the_way[self.next] }
+    }
+
+    /// Sends a command, and returns what arrives.
+    #[inline]
+    fn pass(&mut self, command: [f64; ROTORS]) -> [f64; ROTORS] {
+        let arriving = self.arriving(command);
+        if self.ticks > 0 {
+            self.on_the_way[self.next] = command;
+            self.next = (self.next + 1) % self.ticks;
+        }
+        arriving
+    }
+}
+
+/// Wind, and how it pushes the vehicle. Drag is linear in the velocity through the air, k∘(v − w)/m, so that a wind w
+/// is the same as an acceleration of k∘w/m.
+#[derive(Clone, Debug)]
+struct WindPush {
+    wind: Wind,
+    /// k1..k3 over m, 1/s.
+    drag: Vector3<f64>,
+}
+
+/// A plant with the firmware in its loop, and the control laws that it flies by. On a cache line of its own: where a
+/// stack happens to begin would otherwise decide a fifth of the speed.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Flight<P, A = SlidingAttitude, L = SlidingPosition> {
@@ -40,6 +86,8 @@ pub struct Flight<P, A = SlidingAttitude, L = SlidingPosition> {
     pub autopilot: Autopilot<A, L>,
     plant: P,
     noise: Noise,
+    wind: Option<WindPush>,
+    delay: Delay,
     trajectory: Trajectory,
     tick: u32,
     outcome: Outcome,
@@ -49,7 +97,23 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// Before the first tick.
     pub fn new(autopilot: Autopilot<A, L>, plant: P, noise: Noise, trajectory: Trajectory) -> Self {
         let outcome = Outcome { survived: true, ..Outcome::default() };
-        Self { autopilot, plant, noise, trajectory, tick: 0, outcome }
+        let delay = Delay::new(0, plant.omega());
+        Self { autopilot, plant, noise, wind: None, delay, trajectory, tick: 0, outcome }
+    }
+
+    /// With motor commands that act `ticks` later, at most [`DELAY_TICKS_MAX`]; until the first of them does, the
+    /// rotors keep their speeds.
+    #[must_use]
+    pub fn with_actuation_delay(mut self, ticks: usize) -> Self {
+        self.delay = Delay::new(ticks, self.plant.omega());
+        self
+    }
+
+    /// In a wind, which is asked for every tick; `constants` are the plant's.
+    #[must_use]
+    pub fn with_wind(mut self, wind: Wind, constants: &Constants) -> Self {
+        self.wind = Some(WindPush { wind, drag: constants.drag / constants.mass });
+        self
     }
 
     /// What the firmware's sensor sees now.
@@ -85,8 +149,12 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// The motor command acts on the plant until the next.
     #[inline]
     fn actuate(&mut self, motors: &MotorCommand, saturated: bool) {
-        let command = motors.omega_rad_s.map(f64::from);
-        self.plant.step(&command, &self.noise.at(self.tick).push, TICK_S_EXACT);
+        let command = self.delay.pass(motors.omega_rad_s.map(f64::from));
+        let mut push = self.noise.at(self.tick).push;
+        if let Some(WindPush { wind, drag }) = &mut self.wind {
+            push.acceleration += drag.component_mul(&wind.sample());
+        }
+        self.plant.step(&command, &push, TICK_S_EXACT);
         self.outcome.saturated_ticks += u32::from(saturated);
         self.tick += 1;
         self.outcome.ticks = self.tick;
@@ -107,7 +175,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// The record of this tick, with what the firmware has made of it.
     fn row(&self, inner: &InnerOutput, outer: &OuterOutput) -> Row {
         let t = time(self.tick);
-        let command: [f64; ROTORS] = inner.motors.omega_rad_s.map(f64::from);
+        let command = self.delay.arriving(inner.motors.omega_rad_s.map(f64::from));
         let omega = self.plant.omega_during(&command);
         let desired = outer.attitude.target.attitude.cast::<f64>();
         Row {

@@ -68,7 +68,7 @@ fn five_seconds_of_flight_allocate_nothing() {
         .map(str::to_owned)
         .collect::<Vec<_>>();
     let scenario = Scenario::load("helix", &settings).expect("valid");
-    let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario)).expect("can be flown");
+    let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("can be flown");
     assert!(ALLOCATIONS.load(Ordering::Relaxed) > before, "the counter counts");
     flight.autopilot.ground = Ground::default();
 

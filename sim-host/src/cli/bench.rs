@@ -32,7 +32,7 @@ pub(super) fn run(seconds: f64, runs: usize, as_json: bool) -> Result<()> {
 
 /// Simulated seconds a second of wall time.
 fn fly(scenario: &Scenario, ticks: u32) -> Result<f64> {
-    let mut flight = flight::lockstep(scenario, 1, flight::rigid_body(scenario))?;
+    let mut flight = flight::lockstep(scenario, 1, flight::rigid_body(scenario, 1))?;
     let start = Instant::now();
     let outcome = flight.run(ticks, &mut ());
     let wall_s = start.elapsed().as_secs_f64();

@@ -89,7 +89,7 @@ fn fly<W: std::io::Write>(
     truth: TruthWriter<W>,
     bar: Progress,
 ) -> Result<(Summary, f64)> {
-    let mut flight = flight::lockstep(scenario, seed, flight::rigid_body(scenario))?;
+    let mut flight = flight::lockstep(scenario, seed, flight::rigid_body(scenario, seed))?;
     let mut recorder = ((Metrics::new(), truth), bar);
     let start = Instant::now();
     for _ in 0..scenario.ticks() {

@@ -25,7 +25,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
     scenario.require_rigid_body()?;
     ensure!(args.speed.is_finite() && args.speed > 0.0, "--speed must be a number above zero, not {}", args.speed);
-    let mut vehicle = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario))?;
+    let mut vehicle = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;
     let mut link = UdpLink::bind(args.listen, &args.peers)?;
     let peers: Vec<String> = args.peers.iter().map(ToString::to_string).collect();
     eprintln!("flying `{}`; MAVLink on {}, to {}; stop with Ctrl-C", scenario.name, args.listen, peers.join(" and "));

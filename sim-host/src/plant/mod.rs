@@ -47,6 +47,11 @@ impl Constants {
         (share(0) + share(1)) + (share(2) + share(3))
     }
 
+    /// The speed at which four rotors alike carry the weight, rad/s.
+    pub fn hover_omega(&self) -> f64 {
+        (self.mass * self.gravity / self.geometry.row(0).sum()).sqrt()
+    }
+
     /// Ωr of rotor speeds, rad/s.
     #[inline]
     pub fn rotor_spin(&self, omega: &Vector4<f64>) -> f64 {
@@ -98,6 +103,9 @@ pub struct Push {
 pub trait Plant {
     /// The motion now.
     fn motion(&self) -> Motion;
+
+    /// Rotor speeds now, rad/s: those of the step before, or those at the start.
+    fn omega(&self) -> [f64; ROTORS];
 
     /// Rotor speeds (rad/s) that act from now on under a command: the command itself, or, with rotor lag, the
     /// speeds now.

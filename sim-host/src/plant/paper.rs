@@ -93,12 +93,14 @@ impl Constants {
 pub struct PaperPlant {
     constants: Constants,
     state: PaperState,
+    omega: Vector4<f64>,
 }
 
 impl PaperPlant {
-    /// At rest at `position`.
+    /// At rest at `position`, rotors turning so as to hover.
     pub fn new(constants: Constants, position: Vector3<f64>) -> Self {
-        Self { constants, state: PaperState::at_rest(position) }
+        let omega = Vector4::repeat(constants.hover_omega());
+        Self { constants, state: PaperState::at_rest(position), omega }
     }
 
     /// With another state.
@@ -149,6 +151,10 @@ impl Plant for PaperPlant {
         motion(&self.state)
     }
 
+    fn omega(&self) -> [f64; ROTORS] {
+        self.omega.into()
+    }
+
     fn omega_during(&self, command: &[f64; ROTORS]) -> [f64; ROTORS] {
         *command
     }
@@ -163,5 +169,6 @@ impl Plant for PaperPlant {
             spin: c.rotor_spin(&omega),
         };
         self.state = c.paper_step(&self.state, input, push, h);
+        self.omega = omega;
     }
 }

@@ -71,8 +71,7 @@ impl Divided {
 impl RigidBody {
     /// At rest at `position`, rotors turning so as to hover (in the air) or standing (on the ground).
     pub fn new(constants: Constants, ground: Option<Ground>, position: Vector3<f64>) -> Self {
-        let hover = (constants.mass * constants.gravity / constants.geometry.row(0).sum()).sqrt();
-        let omega = Vector4::repeat(if ground.is_some() { 0.0 } else { hover });
+        let omega = Vector4::repeat(if ground.is_some() { 0.0 } else { constants.hover_omega() });
         Self { divided: Divided::new(&constants), ground, state: pack(&Motion::at_rest(position)), omega, constants }
     }
 
@@ -81,6 +80,13 @@ impl RigidBody {
     pub fn with_state(mut self, motion: Motion, omega: Vector4<f64>) -> Self {
         self.state = pack(&motion);
         self.omega = omega;
+        self
+    }
+
+    /// With another motion.
+    #[must_use]
+    pub fn with_motion(mut self, motion: Motion) -> Self {
+        self.state = pack(&motion);
         self
     }
 
@@ -223,6 +229,10 @@ impl Plant for RigidBody {
     #[inline]
     fn motion(&self) -> Motion {
         unpack(&self.state)
+    }
+
+    fn omega(&self) -> [f64; ROTORS] {
+        self.omega.into()
     }
 
     #[inline]

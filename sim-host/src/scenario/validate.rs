@@ -3,10 +3,13 @@
 use anyhow::{Result, anyhow, ensure};
 use firmware::guidance::Trajectory;
 
-use super::{AttitudeWave, Disturbance, PlantKind, Scenario, ScenarioFile};
+use super::{AttitudeWave, Disturbance, PlantKind, Scenario, ScenarioFile, Truth, Wind};
+use crate::sil::DELAY_TICKS_MAX;
 
 /// Greatest length or height, m: beyond it an f32 no longer resolves a decimetre.
 const LENGTH_MAX_M: f64 = 1e6;
+/// Fastest start and strongest wind, m/s.
+const SPEED_MAX_M_S: f64 = 100.0;
 /// Fastest turn along a trajectory, rad/s.
 const RATE_MAX_RAD_S: f64 = 100.0;
 /// Longest flight, s: 11 days.
@@ -34,6 +37,8 @@ impl Scenario {
             within("start_position_m", value, -LENGTH_MAX_M, LENGTH_MAX_M)?;
         }
         optional(f)?;
+        delay(self.airframe.actuation_delay_s)?;
+        world(f)?;
         trajectory(&f.trajectory)?;
         if let Some(d) = &f.disturbance {
             disturbance(d, f.duration_s)?;
@@ -52,7 +57,6 @@ impl Scenario {
 
 fn optional(f: &ScenarioFile) -> Result<()> {
     for (key, value, low, high) in [
-        ("true_mass_kg", f.true_mass_kg, 1e-3, 1e4),
         ("time_optimal_s", f.time_optimal_s, 1e-3, 1e4),
         ("thrust_to_weight", f.thrust_to_weight, 1.01, 1e3),
         ("rotor_lag_s", f.rotor_lag_s, 0.0, 10.0),
@@ -62,7 +66,76 @@ fn optional(f: &ScenarioFile) -> Result<()> {
             within(key, value, low, high)?;
         }
     }
-    ensure!(!f.ground || f.plant == PlantKind::RigidBody, "`ground` is there on the plant `rigid-body` alone");
+    Ok(())
+}
+
+/// What is there on the plant `rigid-body` alone, and how far each may go.
+fn world(f: &ScenarioFile) -> Result<()> {
+    for (key, is_there) in [
+        ("ground", f.ground),
+        ("truth.rotor_effectiveness", f.truth.rotor_effectiveness != Truth::default().rotor_effectiveness),
+        ("truth.rotor_lag_s", f.truth.rotor_lag_s.is_some()),
+        ("actuation_delay_s", f.actuation_delay_s.is_some()),
+        ("start_velocity_m_s", f.start_velocity_m_s.is_some()),
+        ("start_attitude_deg", f.start_attitude_deg.is_some()),
+        ("start_rates_rad_s", f.start_rates_rad_s.is_some()),
+        ("tumble", f.tumble.is_some()),
+        ("wind", f.wind.is_some()),
+    ] {
+        let plant = f.plant == PlantKind::RigidBody;
+        ensure!(!is_there || plant, "`{key}` is there on the plant `rigid-body` alone: leave it out, or set `plant`");
+    }
+    truth(&f.truth)?;
+    start(f)?;
+    f.wind.as_ref().map_or(Ok(()), wind)
+}
+
+fn truth(truth: &Truth) -> Result<()> {
+    within("truth.mass_factor", truth.mass_factor, 0.01, 100.0)?;
+    within("truth.inertia_factor", truth.inertia_factor, 0.01, 100.0)?;
+    for part in truth.rotor_effectiveness {
+        within("truth.rotor_effectiveness", part, 0.0, 10.0)?;
+    }
+    ensure!(
+        truth.rotor_effectiveness.iter().any(|part| *part >= 0.01),
+        "`truth.rotor_effectiveness` must leave a rotor that lifts"
+    );
+    within("truth.rotor_lag_s", truth.rotor_lag_s.unwrap_or(0.0), 0.0, 10.0)
+}
+
+fn start(f: &ScenarioFile) -> Result<()> {
+    for (key, values, most) in [
+        ("start_velocity_m_s", f.start_velocity_m_s, SPEED_MAX_M_S),
+        ("start_attitude_deg", f.start_attitude_deg, 360.0),
+        ("start_rates_rad_s", f.start_rates_rad_s, RATE_MAX_RAD_S),
+    ] {
+        values.iter().flatten().try_for_each(|value| within(key, *value, -most, most))?;
+    }
+    let Some(tumble) = &f.tumble else { return Ok(()) };
+    ensure!(
+        !f.has_start_motion(),
+        "`tumble` draws the whole motion at the start: leave out either it, or `start_velocity_m_s`, \
+         `start_attitude_deg` and `start_rates_rad_s`"
+    );
+    within("tumble.rate_rad_s", tumble.rate_rad_s, 0.0, RATE_MAX_RAD_S)?;
+    within("tumble.speed_m_s", tumble.speed_m_s, 0.0, SPEED_MAX_M_S)
+}
+
+fn wind(wind: &Wind) -> Result<()> {
+    for value in wind.mean_m_s {
+        within("wind.mean_m_s", value, -SPEED_MAX_M_S, SPEED_MAX_M_S)?;
+    }
+    within("wind.turbulence_20ft_m_s", wind.turbulence_20ft_m_s, 0.0, SPEED_MAX_M_S)?;
+    within("wind.altitude_m", wind.altitude_m, 0.0, LENGTH_MAX_M)?;
+    within("wind.airspeed_m_s", wind.airspeed_m_s.unwrap_or(1.0), 0.01, SPEED_MAX_M_S)
+}
+
+fn delay(seconds: f64) -> Result<()> {
+    let ticks = seconds * 1e3;
+    ensure!(
+        (0.0..=DELAY_TICKS_MAX as f64).contains(&ticks.round()) && (ticks - ticks.round()).abs() < 1e-6,
+        "`actuation_delay_s` must be whole milliseconds up to {DELAY_TICKS_MAX}, not {seconds} s"
+    );
     Ok(())
 }
 
