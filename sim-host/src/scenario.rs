@@ -29,7 +29,7 @@ const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
 );
 
 /// Airframes that come with the binary.
-const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
+pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Which model of the world is flown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
