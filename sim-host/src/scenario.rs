@@ -31,7 +31,7 @@ const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
 );
 
 /// Airframes that come with the binary.
-const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
+pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Tunings that come with the binary.
 const TUNINGS: [(&str, &str); 1] = built_in!("tunings": "x500-smc");

@@ -9,6 +9,7 @@ use sim_host::flight;
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::plant::{Constants, Motion, Plant, Push};
 use sim_host::record::Row;
+use sim_host::reference;
 use sim_host::scenario::Scenario;
 use sim_host::sil::Flight;
 
@@ -186,6 +187,34 @@ fn turbulence_is_the_seeds_and_leaves_the_disturbance_alone() {
     // Before the firmware has reacted, what turns the vehicle is the disturbance alone.
     assert_eq!(fly(&[disturbance], 1)[1].rates, fly(&[disturbance, gusts], 1)[1].rates);
     assert_ne!(fly(&[disturbance], 1)[1].velocity, fly(&[disturbance, gusts], 1)[1].velocity);
+}
+
+#[test]
+fn the_eights_are_as_fast_as_they_say() {
+    for (name, acceleration_m_s2) in [("x500-eight", 12.0), ("x500-eight-tw4", 20.0)] {
+        let trajectory = load(name, &[]).file.trajectory;
+        let at = |t: f64| V::from_iterator(reference::at(&trajectory, t).into_iter().take(3));
+        let h = 1e-3;
+        let (mut fastest, mut hardest) = (0.0_f64, 0.0_f64);
+        for t in (0..7_000).map(|k| f64::from(k) * h) {
+            fastest = fastest.max((at(t + h) - at(t - h)).norm() / (2.0 * h));
+            hardest = hardest.max((at(t + h) - at(t) * 2.0 + at(t - h)).norm() / (h * h));
+        }
+        // Differences are off by (2 ω h)²/6 = 2e-6 of the value.
+        assert!((fastest - 8.0).abs() < 1e-3, "{name}: {fastest} m/s");
+        assert!((hardest - acceleration_m_s2).abs() < 1e-3, "{name}: {hardest} m/s²");
+    }
+}
+
+#[test]
+fn the_x500_survives_its_scenarios() {
+    for name in ["x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4"] {
+        let mut rows: Vec<Row> = Vec::new();
+        let outcome = flight::fly(&load(name, &[]), 1, &mut rows).expect("can be flown");
+        let last = rows.last().expect("rows");
+        let away = last.position.iter().zip(&last.reference).map(|(is, ought)| (is - ought).abs()).fold(0.0, f64::max);
+        assert!(outcome.survived && away < 0.5, "{name}: {away} m away in the end");
+    }
 }
 
 #[test]
