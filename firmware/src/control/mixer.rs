@@ -44,6 +44,8 @@ where
     roll: [f32; N],
     pitch: [f32; N],
     yaw: [f32; N],
+    /// Yaw for a unit of a rotor's speed: 1/`yaw`, or 0 for a rotor to which yaw is all one.
+    yaw_per_speed: [f32; N],
     /// Greatest ωi² of each rotor. Never −0: [`is_possible`] compares bits.
     limits: [f32; N],
     torque_facets: <Rotors<N> as Layout>::Torque,
@@ -114,12 +116,18 @@ where
         let inverse = b.transpose() * square_inverse;
         let [s1, s2, s3, s4] = scale;
         let column = |j: usize, scale: f32| core::array::from_fn(|i| inverse[(i, j)] * scale);
+        let yaw_per_speed = core::array::from_fn(|i| {
+            let row = inverse.row(i);
+            let size = math::sqrt(row.iter().map(|v| v * v).sum());
+            if math::abs(row[3]) > facets::PARALLEL * size { 1.0 / (row[3] * s4) } else { 0.0 }
+        });
         let scaled = core::array::from_fn(|i| core::array::from_fn(|j| b[(j, i)]));
         let mut mixer = Self {
             thrust: column(0, s1),
             roll: column(1, s2),
             pitch: column(2, s3),
             yaw: column(3, s4),
+            yaw_per_speed,
             limits: [0.0; N],
             torque_facets: facets::torque(&scaled, &scale),
             thrust_facets: facets::thrust(&scaled, &scale),
@@ -211,30 +219,39 @@ where
         if !math::all_finite(&demand.as_array()) {
             return Err(non_finite(demand));
         }
-        let (given, saturated) = self.nearest(demand);
-        let mut omega_sq = self.speeds(&given);
+        let asked = [demand.roll_n_m, demand.pitch_n_m];
+        let share = self.torque_facets.facets().iter().fold(1.0, |share, facet| facet.shorten(share, &asked));
+        let torque = asked.map(|v| v * share);
+        let thrust = nearest(self.thrust_facets.facets(), demand.thrust_n, torque);
+        let [roll, pitch] = torque;
+        let without_yaw =
+            core::array::from_fn(|i| self.roll[i] * roll + self.pitch[i] * pitch + self.thrust[i] * thrust);
+        let yaw = self.nearest_yaw(demand.yaw_n_m, [thrust, roll, pitch], &without_yaw);
+        let mut omega_sq = core::array::from_fn(|i| without_yaw[i] + self.yaw[i] * yaw);
         if N > 4 && !self.are_possible(&omega_sq) {
-            omega_sq = self.spare.share_out(&given, &omega_sq, &self.limits, &self.columns);
+            omega_sq = self.spare.share_out([thrust, roll, pitch, yaw], &omega_sq, &self.limits, &self.columns);
         }
         for (speed, limit) in omega_sq.iter_mut().zip(&self.limits) {
-            if !is_possible(*speed, *limit) {
-                *speed = math::clamp(*speed, 0.0, *limit);
-            }
+            *speed = possible(*speed, *limit);
         }
+        let saturated = differ(share, 1.0) || differ(thrust, demand.thrust_n) || differ(yaw, demand.yaw_n_m);
         Ok(Allocation { omega_sq, saturated })
     }
 
-    /// What of the demand the rotors can give, and whether that is less. A limit by one facet after the other ends at
-    /// the nearest value that all of them leave, because they leave some.
+    /// The yaw nearest to the wanted one that thrust and torque leave: with four rotors by their own limits.
     #[inline]
-    fn nearest(&self, demand: &ControlInput) -> (ControlInput, bool) {
-        let torque = [demand.roll_n_m, demand.pitch_n_m];
-        let share = self.torque_facets.facets().iter().fold(1.0, |share, facet| facet.shorten(share, &torque));
-        let [roll_n_m, pitch_n_m] = torque.map(|v| v * share);
-        let thrust_n = nearest(self.thrust_facets.facets(), demand.thrust_n, [roll_n_m, pitch_n_m]);
-        let yaw_n_m = nearest(self.yaw_facets.facets(), demand.yaw_n_m, [thrust_n, roll_n_m, pitch_n_m]);
-        let differs = share != 1.0 || thrust_n != demand.thrust_n || yaw_n_m != demand.yaw_n_m;
-        (ControlInput { thrust_n, roll_n_m, pitch_n_m, yaw_n_m }, differs)
+    fn nearest_yaw(&self, wanted: f32, known: [f32; 3], without_yaw: &[f32; N]) -> f32 {
+        if N > 4 {
+            return nearest(self.yaw_facets.facets(), wanted, known);
+        }
+        let mut yaw = wanted;
+        for i in 0..N {
+            let speed = without_yaw[i] + self.yaw[i] * yaw;
+            if !is_possible(speed, self.limits[i]) && self.yaw_per_speed[i] != 0.0 {
+                yaw = (possible(speed, self.limits[i]) - without_yaw[i]) * self.yaw_per_speed[i];
+            }
+        }
+        yaw
     }
 }
 
@@ -246,6 +263,19 @@ fn is_possible(speed: f32, limit: f32) -> bool {
     speed.to_bits() <= limit.to_bits()
 }
 
+/// The speed nearest to the given one that is from 0 to its limit, by the same order of bits; the limit for no number.
+#[inline]
+fn possible(speed: f32, limit: f32) -> f32 {
+    f32::from_bits(speed.to_bits().cast_signed().max(0).min(limit.to_bits().cast_signed()).cast_unsigned())
+}
+
+/// True if a number is no longer what it was.
+#[inline]
+fn differ(a: f32, b: f32) -> bool {
+    a.to_bits() != b.to_bits()
+}
+
+/// What is left for `x` by one facet after the other: the value of all of them that is nearest, because there is one.
 #[inline]
 fn nearest<const K: usize>(facets: &[Facet<K>], x: f32, known: [f32; K]) -> f32 {
     facets.iter().fold(x, |x, facet| facet.nearest(x, &known))
@@ -292,9 +322,9 @@ where
     /// Speeds within the limits for a U that they can give. Rotor after rotor takes the speed nearest to the
     /// `preferred` one that leaves the rest of U to those before it, down to four, which have no choice. So the
     /// speeds are continuous in U: each is limited by bounds that are.
-    fn share_out(&self, u: &ControlInput, preferred: &[f32; N], limits: &[f32; N], columns: &[Column; N]) -> [f32; N] {
+    fn share_out(&self, u: [f32; 4], preferred: &[f32; N], limits: &[f32; N], columns: &[Column; N]) -> [f32; N] {
         let mut omega_sq = *preferred;
-        let mut rest = u.as_array();
+        let mut rest = u;
         let mut facets = self.facets.facets();
         for (i, count) in self.order.iter().zip(self.counts).skip(4).rev() {
             let (others, bounding) = facets.split_at(facets.len() - count);

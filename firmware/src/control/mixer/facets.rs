@@ -17,7 +17,7 @@ pub(super) type Column = [f32; 4];
 
 /// Two directions closer than this (rad) are one, and a volume smaller than this part of its edges' product is flat:
 /// well above f32 rounding, well below the angles between the rotors of a vehicle.
-const PARALLEL: f32 = 1e-4;
+pub(super) const PARALLEL: f32 = 1e-4;
 /// Greatest difference between two normals that are one.
 const SAME: f32 = 1e-5;
 /// What of a sum's terms may be rounding.
@@ -40,7 +40,7 @@ impl<const K: usize> Facet<K> {
     /// The value nearest to `x` that the facet leaves.
     #[inline]
     pub(super) fn nearest(&self, x: f32, known: &[f32; K]) -> f32 {
-        let middle = self.middle - dot(&self.normal, known);
+        let middle = self.normal.iter().zip(known).fold(self.middle, |middle, (n, v)| middle - n * v);
         let beyond = x - middle;
         if math::abs(beyond) > self.half {
             return if beyond > 0.0 { middle + self.half } else { middle - self.half };
@@ -125,7 +125,7 @@ pub trait Layout {
     type Torque: Table<2>;
     /// Of (U1, U2, U3), by which U1 is bounded: one a pair of rotors.
     type Thrust: Table<2>;
-    /// Of U, by which U4 is bounded: one a triple.
+    /// Of U, by which U4 is bounded: one a triple. Four rotors need none: their own limits are these facets.
     type Yaw: Table<3>;
     /// Of U without the last rotors, one by one down to the fifth: one a triple of the rotors that are left.
     type Spare: Table<4>;
@@ -146,8 +146,8 @@ macro_rules! layout {
     };
 }
 
-// n, n over 2, n over 3, and the sum of k over 3 for 4 ≤ k < n.
-layout!(4, 6, 4, 0);
+// n, n over 2, n over 3 beyond four, and the sum of k over 3 for 4 ≤ k < n.
+layout!(4, 6, 0, 0);
 layout!(5, 10, 10, 4);
 layout!(6, 15, 20, 14);
 layout!(7, 21, 35, 34);
@@ -190,9 +190,13 @@ pub(super) fn thrust<const N: usize, T: Table<2>>(columns: &[Column; N], scale: 
     table
 }
 
-/// Facets of U that bound U4 when (U1, U2, U3) is known. The others are facets of (U1, U2, U3).
+/// Facets of U that bound U4 when (U1, U2, U3) is known, for more than four rotors. The others are facets of
+/// (U1, U2, U3).
 pub(super) fn yaw<const N: usize, T: Table<3>>(columns: &[Column; N], scale: &[f32; 4]) -> T {
     let mut table = T::default();
+    if N == 4 {
+        return table;
+    }
     for_each_triple(columns.iter(), |[thrust, roll, pitch, x]| {
         table.add(0, Facet::across(x, [thrust, roll, pitch]));
     });
