@@ -373,7 +373,7 @@ where
     let (most, from) = (most(rows), from.as_array());
     let to = std::array::from_fn(|k| f64::from(from[k]) + step[k] * most[k]);
     let [a, b] = [from.map(f64::from), to].map(|u| mixer.allocate(&input(u)).expect("finite").omega_sq);
-    let moved = a.iter().zip(&b).map(|(a, b)| f64::from((a - b).abs()) / LIMIT).fold(0.0, f64::max);
+    let moved = a.iter().zip(&b).map(|(a, b)| (f64::from(*a) - f64::from(*b)).abs() / LIMIT).fold(0.0, f64::max);
     let size = step.iter().fold(0.0_f64, |size, v| size.max(v.abs()));
     assert!(moved < FACTOR * size + ROUNDING, "{moved} for {step:?} from {from:?}: {a:?}, {b:?}");
 }

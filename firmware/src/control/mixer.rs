@@ -7,7 +7,7 @@
 
 pub mod facets;
 
-use nalgebra::{Matrix4, SMatrix};
+use nalgebra::{Matrix4, SMatrix, Vector4};
 
 use crate::math;
 use crate::signals::ControlInput;
@@ -222,14 +222,14 @@ where
         let asked = [demand.roll_n_m, demand.pitch_n_m];
         let share = self.torque_facets.facets().iter().fold(1.0, |share, facet| facet.shorten(share, &asked));
         let torque = asked.map(|v| v * share);
-        let thrust = nearest(self.thrust_facets.facets(), demand.thrust_n, torque);
+        let thrust = nearest(self.thrust_facets.facets().iter(), demand.thrust_n, torque);
         let [roll, pitch] = torque;
         let without_yaw =
             core::array::from_fn(|i| self.roll[i] * roll + self.pitch[i] * pitch + self.thrust[i] * thrust);
         let yaw = self.nearest_yaw(demand.yaw_n_m, [thrust, roll, pitch], &without_yaw);
         let mut omega_sq = core::array::from_fn(|i| without_yaw[i] + self.yaw[i] * yaw);
         if N > 4 && !self.are_possible(&omega_sq) {
-            omega_sq = self.spare.share_out([thrust, roll, pitch, yaw], &omega_sq, &self.limits, &self.columns);
+            self.spare.share_out([thrust, roll, pitch, yaw], &mut omega_sq, &self.limits, &self.columns);
         }
         for (speed, limit) in omega_sq.iter_mut().zip(&self.limits) {
             *speed = possible(*speed, *limit);
@@ -242,13 +242,14 @@ where
     #[inline]
     fn nearest_yaw(&self, wanted: f32, known: [f32; 3], without_yaw: &[f32; N]) -> f32 {
         if N > 4 {
-            return nearest(self.yaw_facets.facets(), wanted, known);
+            return nearest(self.yaw_facets.facets().iter(), wanted, known);
         }
         let mut yaw = wanted;
-        for i in 0..N {
-            let speed = without_yaw[i] + self.yaw[i] * yaw;
-            if !is_possible(speed, self.limits[i]) && self.yaw_per_speed[i] != 0.0 {
-                yaw = (possible(speed, self.limits[i]) - without_yaw[i]) * self.yaw_per_speed[i];
+        let rotors = self.yaw.iter().zip(&self.yaw_per_speed).zip(&self.limits);
+        for (without_yaw, ((per_yaw, yaw_per_speed), limit)) in without_yaw.iter().zip(rotors) {
+            let speed = without_yaw + per_yaw * yaw;
+            if !is_possible(speed, *limit) && *yaw_per_speed != 0.0 {
+                yaw = (possible(speed, *limit) - without_yaw) * yaw_per_speed;
             }
         }
         yaw
@@ -277,8 +278,8 @@ fn differ(a: f32, b: f32) -> bool {
 
 /// What is left for `x` by one facet after the other: the value of all of them that is nearest, because there is one.
 #[inline]
-fn nearest<const K: usize>(facets: &[Facet<K>], x: f32, known: [f32; K]) -> f32 {
-    facets.iter().fold(x, |x, facet| facet.nearest(x, &known))
+fn nearest<'a, const K: usize>(facets: impl Iterator<Item = &'a Facet<K>>, x: f32, known: [f32; K]) -> f32 {
+    facets.fold(x, |x, facet| facet.nearest(x, &known))
 }
 
 impl<const N: usize> Spare<N>
@@ -314,30 +315,30 @@ where
         for (position, count) in self.counts.iter().enumerate() {
             for facet in facets.by_ref().take(*count) {
                 let others = self.order.iter().take(position);
-                facet.reach(0.0, others.map(|i| (limits[*i], 0.0, columns[*i])));
+                facet.reach(0.0, others.filter_map(|i| Some((*limits.get(*i)?, 0.0, *columns.get(*i)?))));
             }
         }
     }
 
-    /// Speeds within the limits for a U that they can give. Rotor after rotor takes the speed nearest to the
-    /// `preferred` one that leaves the rest of U to those before it, down to four, which have no choice. So the
-    /// speeds are continuous in U: each is limited by bounds that are.
-    fn share_out(&self, u: [f32; 4], preferred: &[f32; N], limits: &[f32; N], columns: &[Column; N]) -> [f32; N] {
-        let mut omega_sq = *preferred;
+    /// Brings speeds within the limits that still give `u`, which the rotors can. Rotor after rotor takes the speed
+    /// nearest to the one it has that leaves the rest of U to those before it, down to four, which have no choice. So
+    /// the speeds are continuous in U: each is limited by bounds that are.
+    fn share_out(&self, u: [f32; 4], omega_sq: &mut [f32; N], limits: &[f32; N], columns: &[Column; N]) {
         let mut rest = u;
-        let mut facets = self.facets.facets();
+        let mut facets = self.facets.facets().iter();
         for (i, count) in self.order.iter().zip(self.counts).skip(4).rev() {
-            let (others, bounding) = facets.split_at(facets.len() - count);
-            facets = others;
-            omega_sq[*i] = math::clamp(nearest(bounding, preferred[*i], rest), 0.0, limits[*i]);
-            for (rest, v) in rest.iter_mut().zip(columns[*i]) {
-                *rest -= v * omega_sq[*i];
+            let rotor = omega_sq.get_mut(*i).zip(limits.get(*i)).zip(columns.get(*i));
+            let Some(((speed, limit), column)) = rotor else { continue };
+            *speed = possible(nearest(facets.by_ref().rev().take(count), *speed, rest), *limit);
+            for (rest, v) in rest.iter_mut().zip(column) {
+                *rest -= v * *speed;
             }
         }
-        let last = self.inverse * nalgebra::Vector4::from(rest);
+        let last = self.inverse * Vector4::from(rest);
         for (i, speed) in self.order.iter().zip(&last) {
-            omega_sq[*i] = *speed;
+            if let Some(to) = omega_sq.get_mut(*i) {
+                *to = *speed;
+            }
         }
-        omega_sq
     }
 }
