@@ -29,14 +29,13 @@ impl LowPass {
     }
 }
 
-/// Second order, Butterworth, by the bilinear transformation with the cutoff where it belongs.
+/// Second order, Butterworth, by the bilinear transformation with the cutoff where it belongs: two integrators in the
+/// form whose gain at rest is 1 exactly, whatever is rounded.
 #[derive(Clone, Debug)]
 pub(super) struct Butterworth {
-    /// b0 (= b2, and half of b1), a1 and a2.
-    b0: f32,
-    a1: f32,
-    a2: f32,
-    /// Two states of the transposed direct form II; none before the first input.
+    /// 1/(1 + √2 g + g²), that times g, and that times g², for g = tan(πfh).
+    a: [f32; 3],
+    /// The integrators; none before the first input.
     state: Option<[Vector3<f32>; 2]>,
 }
 
@@ -44,22 +43,18 @@ impl Butterworth {
     /// With the cutoff in Hz, stepped every `step_s` seconds.
     pub(super) fn new(cutoff_hz: f32, step_s: f32) -> Self {
         let (sin, cos) = math::sin_cos(core::f32::consts::PI * cutoff_hz * step_s);
-        let k = sin / cos;
-        let norm = 1.0 / (1.0 + core::f32::consts::SQRT_2 * k + k * k);
-        Self {
-            b0: k * k * norm,
-            a1: 2.0 * (k * k - 1.0) * norm,
-            a2: (1.0 - core::f32::consts::SQRT_2 * k + k * k) * norm,
-            state: None,
-        }
+        let g = sin / cos;
+        let a = 1.0 / (1.0 + g * (g + core::f32::consts::SQRT_2));
+        Self { a: [a, g * a, g * g * a], state: None }
     }
 
     /// The next output. The first input is taken as if it had been there for ever.
     pub(super) fn step(&mut self, input: &Vector3<f32>) -> Vector3<f32> {
-        let [s1, s2] = self.state.unwrap_or([input * (1.0 - self.b0), input * (self.b0 - self.a2)]);
-        let scaled = input * self.b0;
-        let output = scaled + s1;
-        self.state = Some([scaled * 2.0 - output * self.a1 + s2, scaled - output * self.a2]);
+        let [slope, value] = self.state.unwrap_or([Vector3::zeros(), *input]);
+        let (error, [a1, a2, a3]) = (input - value, self.a);
+        let new_slope = slope * a1 + error * a2;
+        let output = value + slope * a2 + error * a3;
+        self.state = Some([new_slope * 2.0 - slope, output * 2.0 - value]);
         output
     }
 
@@ -124,7 +119,7 @@ mod tests {
             (LowPass::new(5.0, 1e-3), Butterworth::new(5.0, 1e-3), Difference::new(1e-3));
         for _ in 0..100 {
             assert!((first.step(&x) - x).norm() < 1e-5);
-            assert!((second.step(&x) - x).norm() < 1e-5);
+            assert_eq!(second.step(&x), x);
             assert_eq!(slope.step(&x), Vector3::zeros());
         }
     }
