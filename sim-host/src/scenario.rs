@@ -34,7 +34,9 @@ const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
 pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Tunings that come with the binary.
-const TUNINGS: [(&str, &str); 3] = built_in!("tunings": "x500-smc", "racer250-smc", "crazyflie-smc");
+const TUNINGS: [(&str, &str); 6] = built_in!("tunings":
+    "x500-smc", "x500-pid", "x500-geometric", "x500-indi", "racer250-smc", "crazyflie-smc",
+);
 
 /// Which model of the world is flown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
