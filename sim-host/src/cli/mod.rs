@@ -18,10 +18,11 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::{Args, Parser, Subcommand};
 
 use crate::scenario::Scenario;
+use crate::seeds::Seeds;
 
 /// Glissade on the desktop: flies the firmware against a plant model, in lockstep.
 ///
@@ -113,7 +114,7 @@ struct RunArgs {
     #[arg(long, default_value_t = 1, conflicts_with = "seeds")]
     seed: u64,
     /// Seeds to fly, first and last.
-    #[arg(long, value_name = "A..B", value_parser = parse_seeds)]
+    #[arg(long, value_name = "A..B")]
     seeds: Option<Seeds>,
     /// Flights at once; as many as there are cores by default. The results do not depend on it.
     #[arg(long, value_name = "J")]
@@ -172,23 +173,6 @@ struct PilArgs {
     /// Print a JSON object.
     #[arg(long)]
     json: bool,
-}
-
-/// A range of seeds, both ends included.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Seeds {
-    first: u64,
-    last: u64,
-}
-
-fn parse_seeds(text: &str) -> Result<Seeds> {
-    let (first, last) = text.split_once("..").context("use A..B, as in 1..8")?;
-    let number = |text: &str| text.parse::<u64>().with_context(|| format!("`{text}` is not a seed"));
-    let seeds = Seeds { first: number(first)?, last: number(last.trim_start_matches('='))? };
-    if seeds.first > seeds.last || seeds.last - seeds.first >= 1_000_000 {
-        bail!("the first seed comes first, and a million are enough");
-    }
-    Ok(seeds)
 }
 
 /// Runs the program.
@@ -252,13 +236,5 @@ mod tests {
     #[test]
     fn the_arguments_are_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn seeds_are_two_numbers_in_order() {
-        assert_eq!(parse_seeds("1..8").expect("valid"), Seeds { first: 1, last: 8 });
-        for bad in ["", "1", "8..1", "a..b", "1..", "0..18446744073709551615"] {
-            assert!(parse_seeds(bad).is_err(), "{bad}");
-        }
     }
 }

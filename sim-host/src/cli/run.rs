@@ -29,9 +29,9 @@ pub(super) fn run(args: &RunArgs) -> Result<()> {
         let summary = fly(&scenario, args.seed, args.out.as_deref(), !args.json)?;
         return super::say(&if args.json { summary.to_json() } else { table::render(&summary) });
     };
-    let count = (seeds.last - seeds.first + 1) as usize;
+    let count = seeds.count() as usize;
     let threads = args.jobs.map_or(0, |jobs| jobs.min(count).min(MOST_THREADS));
-    let bar = progress::of_flights(seeds.last - seeds.first + 1, !args.json);
+    let bar = progress::of_flights(seeds.count(), !args.json);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

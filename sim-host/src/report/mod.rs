@@ -23,6 +23,7 @@
 //! ```
 
 pub mod angles;
+pub mod measures;
 pub mod metrics;
 pub mod plots;
 pub mod progress;
