@@ -25,3 +25,4 @@ pub mod seeds;
 pub mod serve;
 pub mod sil;
 pub mod sweep;
+pub mod tune;
