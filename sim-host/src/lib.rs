@@ -7,6 +7,7 @@
 
 pub mod airframe;
 pub mod cli;
+pub mod compare;
 pub mod controller;
 pub mod decoupled;
 pub mod flight;
@@ -24,5 +25,6 @@ pub mod score;
 pub mod seeds;
 pub mod serve;
 pub mod sil;
+pub mod statistics;
 pub mod sweep;
 pub mod tune;

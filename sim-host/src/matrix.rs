@@ -100,6 +100,23 @@ impl Matrix {
         Ok(Self { name: name.to_owned(), file, settings: settings.to_vec() })
     }
 
+    /// Leaves only the scenarios and the disturbances named; where none are, all stay.
+    ///
+    /// # Errors
+    /// One line with the first name that the matrix does not have.
+    pub fn select(&mut self, scenarios: Option<&[String]>, disturbances: Option<&[String]>) -> Result<()> {
+        if let Some(names) = scenarios {
+            known(names, self.file.scenarios.iter(), "scenario", &self.name)?;
+            self.file.scenarios.retain(|scenario| names.contains(scenario));
+        }
+        if let Some(names) = disturbances {
+            let all = self.file.disturbances.iter().map(|disturbance| &disturbance.name);
+            known(names, all, "disturbance", &self.name)?;
+            self.file.disturbances.retain(|disturbance| names.contains(&disturbance.name));
+        }
+        Ok(())
+    }
+
     /// Its cells: for each scenario in turn, the disturbances that apply to it.
     ///
     /// # Errors
@@ -150,4 +167,67 @@ fn distinct<'a>(key: &str, names: impl Iterator<Item = &'a String>) -> Result<()
     }
     ensure!(!seen.is_empty(), "`{key}` is empty");
     Ok(())
+}
+
+/// Refuses a name that is not among `all`.
+fn known<'a>(names: &[String], all: impl Iterator<Item = &'a String>, kind: &str, matrix: &str) -> Result<()> {
+    let all: Vec<&str> = all.map(String::as_str).collect();
+    for name in names {
+        let list = all.join(", ");
+        ensure!(all.contains(&name.as_str()), "matrix `{matrix}` has no {kind} `{name}`: use some of {list}");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_matrix_loads_with_all_its_scenarios() {
+        for (name, _) in MATRICES {
+            let matrix = Matrix::load(name, &[]).expect("valid");
+            let cases = matrix.cases().expect("valid");
+            assert_eq!(cases.len(), matrix.file.scenarios.len() * matrix.file.disturbances.len());
+        }
+    }
+
+    #[test]
+    fn disturbances_change_the_plant_and_not_what_the_firmware_believes() {
+        let cases = Matrix::load("x500", &[]).and_then(|matrix| matrix.cases()).expect("valid");
+        let case = |name: &str| cases.iter().find(|case| case.disturbance_name == name).expect("there");
+        let (calm, heavy) = (&case("none").scenario, &case("mass+30").scenario);
+        assert!((heavy.constants().mass / calm.constants().mass - 1.3).abs() < 1e-12);
+        assert_eq!(heavy.flight_config(), calm.flight_config());
+        assert_eq!(case("delay-4ms").scenario.actuation_delay_ticks(), 4);
+        assert_eq!(case("lag-50ms").scenario.constants().rotor_lag, 0.05);
+        let believed = f64::from(case("lag-50ms").scenario.flight_config().airframe.rotor_lag_s);
+        assert!((believed - 0.02).abs() < 1e-6, "{believed}");
+    }
+
+    #[test]
+    fn seeds_are_flown_where_they_make_a_difference() {
+        let matrix = Matrix::load("x500", &[]).expect("valid");
+        for case in matrix.cases().expect("valid") {
+            let random = case.scenario_name == "x500-recovery"
+                || case.disturbance_name.starts_with("dryden")
+                || case.disturbance_name == "gaussian";
+            assert_eq!(case.is_random(), random, "{} {}", case.scenario_name, case.disturbance_name);
+            let flown = if random { matrix.file.seeds.count() } else { 1 };
+            assert_eq!(case.seeds(matrix.file.seeds).count() as u64, flown);
+        }
+    }
+
+    #[test]
+    fn settings_and_filters_reach_the_cells() {
+        let mut matrix = Matrix::load("x500", &["duration_s=2".to_owned()]).expect("valid");
+        let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        matrix.select(Some(&names(&["x500-step", "x500-hover"])), Some(&names(&["mass-30"]))).expect("known");
+        matrix.file.disturbances[0].except = names(&["x500-step"]);
+        let cases = matrix.cases().expect("valid");
+        assert_eq!(cases.iter().map(|case| case.scenario_name.as_str()).collect::<Vec<_>>(), ["x500-hover"]);
+        assert_eq!(cases[0].scenario.file.duration_s, 2.0);
+        let error = matrix.select(Some(&names(&["x500-hovr"])), None).expect_err("unknown");
+        assert!(error.to_string().contains("x500-hovr"), "{error}");
+    }
 }

@@ -5,6 +5,7 @@
 //! overrun, is one line and exit code 1.
 
 mod bench;
+mod compare;
 mod demo;
 mod pil;
 mod plan;
@@ -76,6 +77,8 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Fly every controller in every scenario under every disturbance of a matrix, and compare them.
+    Compare(CompareArgs),
     /// Plan the path that joins a scenario's trajectory, and print it as that scenario's `[join]` table.
     Plan {
         #[command(flatten)]
@@ -132,6 +135,36 @@ struct RunArgs {
     /// Print a JSON object, or an array for several seeds.
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Args, Clone, Debug)]
+struct CompareArgs {
+    /// Name of a built-in matrix, or path of a file.
+    #[arg(default_value = "x500")]
+    matrix: String,
+    /// Tunings to compare, by name or path, in place of the matrix' own; the others are compared with the first.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    controllers: Option<Vec<String>>,
+    /// Only these of the matrix' scenarios.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    scenarios: Option<Vec<String>>,
+    /// Only these of the matrix' disturbances.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    disturbances: Option<Vec<String>>,
+    /// Seeds to fly, first and last, in place of the matrix' own.
+    #[arg(long, value_name = "A..B")]
+    seeds: Option<Seeds>,
+    /// Flights at once; as many as there are cores by default. The results do not depend on it.
+    #[arg(long, value_name = "J")]
+    jobs: Option<usize>,
+    /// Write compare.json, compare.csv, compare.md and figures there.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print a JSON object.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    settings: Settings,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -223,6 +256,7 @@ pub fn main() -> ExitCode {
         Some(Command::Pil(args)) => pil::run(&args),
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
         Some(Command::Sweep { which, seed, json }) => sweep::run(&which, seed, json),
+        Some(Command::Compare(args)) => compare::run(&args),
         Some(Command::Plan { which, seed, flights }) => plan::run(&which, seed, flights),
         Some(Command::Tune(args)) => tune::run(&args),
     };
