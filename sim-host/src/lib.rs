@@ -6,6 +6,7 @@
 )]
 
 pub mod airframe;
+pub mod baseline;
 pub mod cli;
 pub mod compare;
 pub mod controller;

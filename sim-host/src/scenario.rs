@@ -37,7 +37,8 @@ const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
 pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Tunings that come with the binary.
-pub(crate) const TUNINGS: [(&str, &str); 1] = built_in!("tunings": "x500-smc");
+pub(crate) const TUNINGS: [(&str, &str); 4] =
+    built_in!("tunings": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
 
 /// Which model of the world is flown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -32,7 +32,7 @@ use serde::{Deserialize, Serialize};
 use crate::scenario::{self, TUNINGS, built_in};
 
 /// Tunes that come with the binary.
-const TUNES: [(&str, &str); 1] = built_in!("tunes": "x500-smc");
+const TUNES: [(&str, &str); 4] = built_in!("tunes": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
 
 /// Courses that come with the binary.
 const COURSES: [(&str, &str); 1] = built_in!("courses": "x500");

@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::process::{Command, Output};
 
 use anyhow::ensure;
 use firmware::control::sliding::ReachingLaw;
@@ -53,7 +54,7 @@ fn space() -> Space {
 
 /// Distance from the gains that are best, in units in which each counts the same.
 fn distance(controller: &Controller) -> f64 {
-    let Controller::Smc(control) = controller;
+    let Controller::Smc(control) = controller else { panic!("another controller") };
     let ReachingLaw::ImplicitSgn { horizon_s } = control.roll.reaching else { panic!("another law") };
     let lambda = libm::log(f64::from(control.x.lambda) / 3.0) + libm::log(f64::from(control.y.lambda) / 3.0);
     let gain = (f64::from(control.z.gain) - 12.0) / 10.0;
@@ -167,4 +168,119 @@ fn an_observer_that_fails_ends_the_run() {
     });
     assert_eq!(error.expect_err("it fails").to_string(), "the disk is full");
     assert_eq!(seen, 2);
+}
+
+/// A tune that takes a second: one flight of hovering, from files of the user's own.
+struct Files(Folder);
+
+impl Files {
+    fn new(name: &str) -> Self {
+        let files = Self(Folder::new(name));
+        files.write("base.toml", include_str!("../tunings/x500-smc.toml"));
+        files.write(
+            "matrix.toml",
+            "summary = \"hover\"\ncontrollers = [\"base.toml\"]\nscenarios = [\"x500-hover\"]\nseeds = \"11..12\"\n\
+             disturbances = [{ name = \"none\", set = [\"duration_s=1\"] }, \
+             { name = \"wind\", set = [\"duration_s=1\", \"wind.turbulence_20ft_m_s=7.7\"] }]\n",
+        );
+        files.write(
+            "course.toml",
+            "summary = \"hover\"\nmatrix = \"matrix.toml\"\nseeds = \"1..2\"\n[cost]\nrms = 1.0\nfloor = 1e-3\n\
+             yaw = 0.1\nsettling = 0.5\nchattering = 0.1\nsaturation = 0.5\nlost = 10.0\n",
+        );
+        files.write(
+            "tune.toml",
+            "summary = \"hover\"\nbase = \"base.toml\"\ncourse = \"course.toml\"\n\
+             [[parameters]]\nkeys = [\"smc.z.lambda\"]\nlow = 0.5\nhigh = 8.0\n\
+             [[parameters]]\nkeys = [\"smc.x.lambda\", \"smc.y.lambda\"]\nlow = 0.5\nhigh = 8.0\nscale = \"linear\"\n",
+        );
+        files
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.0.0.join(name), text).expect("the temporary folder can be written");
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.0.0.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_sim-host"));
+        command.args(arguments).current_dir(&self.0.0).output().expect("the program starts")
+    }
+
+    fn tune(&self, iterations: &str, out: &str, more: &[&str]) -> Output {
+        let arguments = ["tune", "tune.toml", "--particles", "4", "--iterations", iterations, "--out", out];
+        self.run(&[&arguments, more].concat())
+    }
+
+    /// The files as they are, but for one in which `from` stands as `to`: one line that names `culprits`, exit code 2.
+    fn refuses(&self, file: &str, from: &str, to: &str, culprits: &[&str]) {
+        let sound = self.read(file);
+        assert!(sound.contains(from), "{file} has no {from}");
+        self.write(file, &sound.replacen(from, to, 1));
+        let output = self.tune("2", "refused", &[]);
+        self.write(file, &sound);
+        let complaint = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(2), "{to}: {complaint}");
+        assert_eq!(complaint.lines().count(), 1, "{to}: {complaint}");
+        assert!(culprits.iter().all(|culprit| complaint.contains(culprit)), "{to}: {complaint}");
+    }
+}
+
+#[test]
+fn a_run_leaves_a_tuning_that_a_scenario_loads() {
+    let files = Files::new("files");
+    let output = files.tune("3", "whole", &["--jobs", "2"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("12 evaluations of 3 flights"));
+    let tuning = files.read("whole/tuning.toml");
+    assert!(tuning.contains("sim-host tune tune.toml --method pso --particles 4 --iterations 3 --seed 1"), "{tuning}");
+    assert_eq!(files.read("whole/progress.csv").lines().count(), 1 + 3);
+    assert!(files.read("whole/convergence.svg").starts_with("<svg"));
+    let flown = files.run(&["run", "x500-hover", "--json", "--set", "tuning=whole/tuning.toml"]);
+    assert!(flown.status.success(), "{}", String::from_utf8_lossy(&flown.stderr));
+
+    // The same in two parts, on another number of threads.
+    assert!(files.tune("2", "parts", &["--jobs", "1"]).status.success());
+    assert!(files.tune("3", "parts", &["--jobs", "3", "--resume"]).status.success());
+    for file in ["tuning.toml", "progress.csv", "journal.csv", "convergence.svg"] {
+        assert_eq!(files.read(&format!("parts/{file}")), files.read(&format!("whole/{file}")), "{file}");
+    }
+    for refused in [files.tune("3", "whole", &[]), files.tune("3", "nowhere", &["--resume"])] {
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&refused.stderr).contains("journal.csv"));
+    }
+}
+
+#[test]
+fn spoilt_files_are_refused_by_file_and_key() {
+    let files = Files::new("spoilt");
+    for (file, from, to, culprits) in [
+        ("tune.toml", "base.toml", "bass.toml", ["tune.toml", "bass.toml"]),
+        ("tune.toml", "course.toml", "curse.toml", ["tune.toml", "curse.toml"]),
+        ("tune.toml", "smc.z.lambda", "smc.z.lamda", ["base.toml", "smc.z.lamda"]),
+        ("tune.toml", "low = 0.5", "low = 9.0", ["tune.toml", "low"]),
+        ("tune.toml", "low = 0.5", "lowest = 0.5", ["tune.toml", "lowest"]),
+        ("tune.toml", "linear", "cubic", ["tune.toml", "cubic"]),
+        ("base.toml", "tilt_max_rad = 1.2", "tilt_max_rad = -1.0", ["tune.toml", "tilt"]),
+        ("base.toml", "tilt_max_rad", "tilt_most_rad", ["base.toml", "tilt_most_rad"]),
+        ("course.toml", "matrix.toml", "matrices.toml", ["course.toml", "matrices.toml"]),
+        ("course.toml", "1..2", "1..11", ["course.toml", "seeds"]),
+        ("course.toml", "seeds = \"1..2\"", "", ["course.toml", "seeds"]),
+        ("course.toml", "seeds = ", "scenarios = [\"x500-hoover\"]\nseeds = ", ["course.toml", "x500-hoover"]),
+        ("course.toml", "seeds = ", "disturbances = [\"rain\"]\nseeds = ", ["course.toml", "rain"]),
+        ("course.toml", "seeds = ", "disturbances = []\nseeds = ", ["course.toml", "disturbances"]),
+        ("course.toml", "rms = 1.0", "rms = -1.0", ["course.toml", "cost.rms"]),
+        ("course.toml", "floor = 1e-3", "floor = 0.0", ["course.toml", "cost.floor"]),
+        ("course.toml", "saturation", "saturating", ["course.toml", "saturating"]),
+    ] {
+        files.refuses(file, from, to, &culprits);
+    }
+    for (option, value) in [("--particles", "3"), ("--iterations", "0"), ("--jobs", "0"), ("--method", "guess")] {
+        let output = files.run(&["tune", "tune.toml", "--out", "refused", option, value]);
+        assert_eq!(output.status.code(), Some(2), "{option}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains(option), "{option}");
+    }
 }

@@ -13,6 +13,7 @@ use crate::tune::{Iteration, Journal, Parameter, Run, Settings, State, Tune};
 
 pub(super) fn run(args: &TuneArgs) -> Result<()> {
     ensure!(args.jobs != Some(0), "--jobs must be at least 1");
+    settings(args).validate()?;
     let tune = Tune::load(&args.tune)?;
     let journal = journal(args, &tune)?;
     let bar = progress::of_search((args.particles * args.iterations) as u64, true);

@@ -1,6 +1,6 @@
 //! A run: a search, its journal, and what it has found so far.
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
 use super::journal::Journal;
@@ -68,10 +68,9 @@ impl<C: Fn(&[f64]) -> f64 + Sync> Run<C> {
     /// many there are. `observe` is shown each iteration.
     ///
     /// # Errors
-    /// A journal that cannot be written or is not this run's; what `observe` returns.
+    /// Settings that are no search; a journal that cannot be written or is not this run's; what `observe` returns.
     pub fn go(mut self, mut observe: impl FnMut(&State) -> Result<()>) -> Result<State> {
-        ensure!(self.settings.particles >= 4, "--particles must be at least 4");
-        ensure!(self.settings.iterations >= 1, "--iterations must be at least 1");
+        self.settings.validate()?;
         let (settings, dimensions) = (self.settings, self.dimensions);
         let mut state = State::default();
         let mut costs = |points: &[Vec<f64>]| {

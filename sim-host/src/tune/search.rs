@@ -4,7 +4,7 @@ use std::borrow::Borrow;
 use std::cell::RefCell;
 use std::f64::consts::LN_2;
 
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, ensure};
 use argmin::core::{CostFunction, PopulationState, Problem, Solver as _, State as _, SyncAlias};
 use argmin::solver::particleswarm::ParticleSwarm;
 use clap::ValueEnum;
@@ -51,6 +51,19 @@ pub struct Settings {
     pub iterations: usize,
     /// Seed of the search.
     pub seed: u64,
+}
+
+impl Settings {
+    /// Refuses what is no search.
+    ///
+    /// # Errors
+    /// The option that is out of its range.
+    pub fn validate(&self) -> Result<()> {
+        // CMA-ES learns from the better half: of fewer than four points there is hardly one.
+        ensure!((4..=10_000).contains(&self.particles), "--particles must be between 4 and 10000");
+        ensure!((1..=1_000_000).contains(&self.iterations), "--iterations must be between 1 and 1000000");
+        Ok(())
+    }
 }
 
 /// Tells the costs of points.

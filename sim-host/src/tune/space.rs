@@ -115,6 +115,8 @@ impl Space {
         }
         let space = Self { base, parameters };
         space.base_controller().with_context(|| format!("tuning `{name}`"))?;
+        // A key that counts, as ticks do, takes no fraction.
+        space.controller(&vec![0.5; space.dimensions()]).context("`parameters.keys` names what takes whole numbers")?;
         Ok(space)
     }
 
@@ -199,6 +201,7 @@ mod tests {
     fn smc(space: &Space, point: &[f64]) -> scenario::Control {
         match space.controller(point).expect("a controller") {
             Controller::Smc(control) => control,
+            other => panic!("{}", other.name()),
         }
     }
 
@@ -254,5 +257,12 @@ mod tests {
             let error = format!("{:#}", space(parameters).expect_err(culprit));
             assert!(error.contains(culprit) && !error.contains('\n'), "{error}");
         }
+    }
+    #[test]
+    fn what_counts_takes_no_fraction() {
+        let base = include_str!("../../tunings/x500-indi.toml").parse().expect("TOML");
+        let ticks = parameter(&["indi.rotor_delay_ticks"], 1.0, 4.0, Scale::Log);
+        let error = format!("{:#}", Space::new("x500-indi", base, vec![ticks]).expect_err("ticks are whole"));
+        assert!(error.contains("parameters.keys") && error.contains("rotor_delay_ticks"), "{error}");
     }
 }
