@@ -28,3 +28,4 @@ pub mod serve;
 pub mod sil;
 pub mod statistics;
 pub mod sweep;
+pub mod tune;

@@ -37,7 +37,7 @@ const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
 pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Tunings that come with the binary.
-const TUNINGS: [(&str, &str); 6] = built_in!("tunings":
+pub(crate) const TUNINGS: [(&str, &str); 6] = built_in!("tunings":
     "x500-smc", "x500-pid", "x500-geometric", "x500-indi", "racer250-smc", "crazyflie-smc",
 );
 
@@ -327,7 +327,7 @@ fn parse(text: &str) -> Result<toml::Table> {
 }
 
 /// A TOML error in one line, with the key it is about.
-fn one_line(error: &toml::de::Error) -> anyhow::Error {
+pub(crate) fn one_line(error: &toml::de::Error) -> anyhow::Error {
     anyhow!("{}", error.to_string().trim().replace('\n', ", "))
 }
 
