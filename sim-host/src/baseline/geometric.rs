@@ -248,7 +248,7 @@ mod tests {
         }
     }
 
-    /// Lee's error function ½ |eΩ|² + kR Ψ, Ψ = ½ tr(I − RdᵀR), for a kR alike about all axes.
+    /// Lee's error function ½ |eΩ|² + kR Ψ, Ψ = 1 − cos of the angle left, for a kR alike about all axes.
     fn lyapunov(kr: f64, at: (&UnitQuaternion<f64>, &Vector3<f64>), to: (&UnitQuaternion<f64>, &Vector3<f64>)) -> f64 {
         let relative = at.0.inverse() * to.0;
         let psi = 2.0 * relative.imag().norm_squared();
