@@ -95,7 +95,8 @@ pub struct Medians {
 }
 
 impl Medians {
-    fn of_flights(flights: &[FlightScore]) -> Self {
+    /// Of flights of one controller in one cell.
+    pub(crate) fn of_flights(flights: &[FlightScore]) -> Self {
         Self {
             flights: flights.len(),
             survived: flights.iter().filter(|flight| flight.score.survived).count(),
