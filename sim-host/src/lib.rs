@@ -6,6 +6,7 @@
 )]
 
 pub mod airframe;
+pub mod baseline;
 pub mod cli;
 pub mod compare;
 pub mod controller;
@@ -27,3 +28,4 @@ pub mod serve;
 pub mod sil;
 pub mod statistics;
 pub mod sweep;
+pub mod tune;

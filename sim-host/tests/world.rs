@@ -6,9 +6,11 @@ use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
 use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use sim_host::flight;
+use sim_host::noise::Noise;
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::plant::{Constants, Motion, Plant, Push};
 use sim_host::record::Row;
+use sim_host::reference;
 use sim_host::scenario::Scenario;
 use sim_host::sil::Flight;
 
@@ -189,6 +191,34 @@ fn turbulence_is_the_seeds_and_leaves_the_disturbance_alone() {
 }
 
 #[test]
+fn the_eights_are_as_fast_as_they_say() {
+    for (name, acceleration_m_s2) in [("x500-eight", 12.0), ("x500-eight-tw4", 20.0)] {
+        let trajectory = load(name, &[]).file.trajectory;
+        let at = |t: f64| V::from_iterator(reference::at(&trajectory, t).into_iter().take(3));
+        let h = 1e-3;
+        let (mut fastest, mut hardest) = (0.0_f64, 0.0_f64);
+        for t in (0..7_000).map(|k| f64::from(k) * h) {
+            fastest = fastest.max((at(t + h) - at(t - h)).norm() / (2.0 * h));
+            hardest = hardest.max((at(t + h) - at(t) * 2.0 + at(t - h)).norm() / (h * h));
+        }
+        // Differences are off by (2 ω h)²/6 = 2e-6 of the value.
+        assert!((fastest - 8.0).abs() < 1e-3, "{name}: {fastest} m/s");
+        assert!((hardest - acceleration_m_s2).abs() < 1e-3, "{name}: {hardest} m/s²");
+    }
+}
+
+#[test]
+fn the_x500_survives_its_scenarios() {
+    for name in ["x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4"] {
+        let mut rows: Vec<Row> = Vec::new();
+        let outcome = flight::fly(&load(name, &[]), 1, &mut rows).expect("can be flown");
+        let last = rows.last().expect("rows");
+        let away = last.position.iter().zip(&last.reference).map(|(is, ought)| (is - ought).abs()).fold(0.0, f64::max);
+        assert!(outcome.survived && away < 0.5, "{name}: {away} m away in the end");
+    }
+}
+
+#[test]
 fn a_flight_begins_in_the_motion_of_its_scenario() {
     let settings = ["start_velocity_m_s=[1,-2,3]", "start_attitude_deg=[90,0,180]", "start_rates_rad_s=[0.1,0.2,0.3]"];
     let motion = flight::rigid_body(&load("x500-hover", &settings), 1).motion();
@@ -207,4 +237,28 @@ fn a_tumbling_start_is_the_seeds() {
     assert_eq!(start(5), start(5));
     assert_ne!(start(5), start(6));
     assert!((start(5).rates.norm() - 10.0).abs() < 1e-12 && (start(5).velocity.norm() - 3.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_disturbance_is_drawn_once_a_tick_and_pushes_as_it_was_drawn() {
+    let scenario = load(
+        "x500-hover",
+        &[
+            "disturbance={from_s=0.1,to_s=0.9,hold_s=0.001,acceleration_m_s2=2.0,position_output_m=0.01}",
+            "duration_s=2",
+        ],
+    );
+    let constants = scenario.constants();
+    let hover = constants.hover_omega();
+    let rows = fly_open_loop(&scenario, 1_000, |_| [hover as f32; 4]);
+    // Level and hovering, v̇ = a − (k/m) v: exact for an acceleration that is held over the tick.
+    let decay = constants.drag.x / constants.mass;
+    let kept = (-decay * MS).exp();
+    let mut noise = Noise::new(scenario.file.disturbance.as_ref(), 1, 1000.0);
+    let mut velocity = 0.0;
+    for (tick, row) in rows.iter().enumerate() {
+        assert!((row.velocity[0] - velocity).abs() < 1e-12, "tick {tick}: {} {velocity}", row.velocity[0]);
+        let push = noise.at(tick as u32).push.acceleration.x;
+        velocity = velocity * kept + push * (1.0 - kept) / decay;
+    }
 }

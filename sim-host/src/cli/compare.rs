@@ -7,9 +7,6 @@ use crate::compare::{Comparison, Contest};
 use crate::matrix::Matrix;
 use crate::report::{OutFolder, comparison, progress};
 
-/// More threads than this do not make it faster.
-const MOST_THREADS: usize = 256;
-
 pub(super) fn run(args: &CompareArgs) -> Result<()> {
     ensure!(args.jobs != Some(0), "--jobs must be at least 1");
     let mut matrix = Matrix::load(&args.matrix, &args.settings.set)?;
@@ -29,7 +26,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
 
 fn fly(contest: &Contest, args: &CompareArgs) -> Result<Comparison> {
     let bar = progress::of_flights(contest.flights() as u64, !args.json);
-    let threads = args.jobs.map_or(0, |jobs| jobs.min(contest.flights()).min(MOST_THREADS));
+    let threads = args.jobs.map_or(0, |jobs| jobs.min(contest.flights()).min(super::MOST_THREADS));
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

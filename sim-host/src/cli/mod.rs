@@ -13,6 +13,7 @@ mod run;
 mod scenarios;
 mod serve;
 mod sweep;
+mod tune;
 
 use std::io::Write as _;
 use std::net::SocketAddr;
@@ -24,6 +25,10 @@ use clap::{Args, Parser, Subcommand};
 
 use crate::scenario::Scenario;
 use crate::seeds::Seeds;
+use crate::tune::Method;
+
+/// More threads than this do not make it faster.
+const MOST_THREADS: usize = 256;
 
 /// Glissade on the desktop: flies the firmware against a plant model, in lockstep.
 ///
@@ -85,6 +90,8 @@ enum Command {
         #[arg(long, default_value_t = 60_000)]
         flights: usize,
     },
+    /// Search for the gains of a controller, and write them as a tuning file.
+    Tune(TuneArgs),
 }
 
 #[derive(Args, Clone, Debug)]
@@ -208,6 +215,33 @@ struct PilArgs {
     json: bool,
 }
 
+#[derive(Args, Clone, Debug)]
+struct TuneArgs {
+    /// Name of a built-in tune, or path of a file.
+    tune: String,
+    /// How to search.
+    #[arg(long, value_enum, default_value_t = Method::Pso)]
+    method: Method,
+    /// Points an iteration.
+    #[arg(long, default_value_t = 40)]
+    particles: usize,
+    /// Iterations, the first random points among them.
+    #[arg(long, default_value_t = 60)]
+    iterations: usize,
+    /// Seed of the search.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Flights at once; as many as there are cores by default. The result does not depend on it.
+    #[arg(long, value_name = "J")]
+    jobs: Option<usize>,
+    /// Write tuning.toml, progress.csv, convergence.svg and the journal there.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Go on with the run in that folder.
+    #[arg(long)]
+    resume: bool,
+}
+
 /// Runs the program.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
@@ -224,6 +258,7 @@ pub fn main() -> ExitCode {
         Some(Command::Sweep { which, seed, json }) => sweep::run(&which, seed, json),
         Some(Command::Compare(args)) => compare::run(&args),
         Some(Command::Plan { which, seed, flights }) => plan::run(&which, seed, flights),
+        Some(Command::Tune(args)) => tune::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
