@@ -52,7 +52,7 @@ pub fn write(comparison: &Comparison, folder: &Path) -> Result<()> {
 /// A row a flight; what a flight does not have is empty.
 pub fn csv(flights: &[FlightScore]) -> String {
     let mut text = "scenario,disturbance,controller,seed,survived,flown_s".to_owned();
-    Figure::ALL.iter().for_each(|figure| text.extend([",", figure.key()]));
+    text.extend(Figure::ALL.map(|figure| format!(",{}", figure.key())));
     for flight in flights {
         let (FlightScore { scenario, disturbance, controller, seed, score }, survived) =
             (flight, flight.score.survived);
@@ -76,31 +76,31 @@ pub fn render(comparison: &Comparison) -> String {
     let mut text = heading(comparison);
     let indices: Vec<usize> = (0..comparison.controllers.len()).collect();
     for beside in indices.chunks(BESIDE) {
-        let names = beside.iter().map(|i| comparison.controllers[*i].clone()).collect();
-        line(&mut text, "", names);
+        let names: Vec<String> = beside.iter().map(|i| comparison.controllers[*i].clone()).collect();
+        line(&mut text, "", &names);
         let mut scenario = "";
         for cell in &comparison.cells {
             if cell.scenario != scenario {
                 scenario = &cell.scenario;
                 let _ = writeln!(text, "{scenario}");
             }
-            line(
-                &mut text,
-                &format!("  {}", cell.disturbance),
-                beside.iter().map(|i| entry(&cell.controllers[*i])).collect(),
-            );
+            let entries: Vec<String> = beside.iter().map(|i| entry(&cell.controllers[*i])).collect();
+            line(&mut text, &format!("  {}", cell.disturbance), &entries);
         }
         text.push('\n');
     }
     text.push_str(&overall_table(comparison));
     text.push('\n');
-    lost_cells(comparison).iter().for_each(|sentence| text.extend([sentence, "\n"]));
+    text.extend(lost_cells(comparison).iter().map(|sentence| format!("{sentence}\n")));
     text
 }
 
-fn line(text: &mut String, name: &str, entries: Vec<String>) {
-    let entries: String = entries.iter().map(|entry| format!("  {entry:<COLUMN$}")).collect();
-    text.extend([format!("{name:<NAME$}{entries}").trim_end(), "\n"]);
+fn line(text: &mut String, name: &str, entries: &[String]) {
+    let mut line = format!("{name:<NAME$}");
+    for entry in entries {
+        let _ = write!(line, "  {entry:<COLUMN$}");
+    }
+    text.extend([line.trim_end(), "\n"]);
 }
 
 fn heading(comparison: &Comparison) -> String {
@@ -165,10 +165,12 @@ fn overall_table(comparison: &Comparison) -> String {
     let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
     let mut text = "whole matrix; `ratio`: RMS over the first controller's under the same seed, median over seeds, then over cells\n".to_owned();
     for row in &rows {
-        let rest: String =
-            row[1..].iter().zip(&widths[1..]).map(|(entry, width)| format!("  {entry:>width$}")).collect();
         let (name, width) = (&row[0], widths[0]);
-        let _ = writeln!(text, "{name:<width$}{rest}");
+        let _ = write!(text, "{name:<width$}");
+        for (entry, width) in row[1..].iter().zip(&widths[1..]) {
+            let _ = write!(text, "  {entry:>width$}");
+        }
+        text.push('\n');
     }
     text + EXPLAINED
 }
@@ -220,7 +222,7 @@ pub fn markdown(comparison: &Comparison) -> String {
         EXPLAINED,
         "`ratio`: RMS over the first controller's under the same seed, median over seeds, then over cells.\n\n",
     ]);
-    lost_cells(comparison).iter().for_each(|sentence| text.extend(["- ", sentence, "\n"]));
+    text.extend(lost_cells(comparison).iter().map(|sentence| format!("- {sentence}\n")));
     text
 }
 

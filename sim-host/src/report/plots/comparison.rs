@@ -262,7 +262,9 @@ mod tests {
         for (name, words) in words {
             let svg = fs::read_to_string(folder.join(name)).expect("the file was written");
             assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && !svg.contains("NaN"), "{name}");
-            words.iter().for_each(|word| assert!(svg.contains(word), "{name} has no {word}"));
+            for word in words {
+                assert!(svg.contains(word), "{name} has no {word}");
+            }
         }
         fs::remove_dir_all(&folder).expect("the folder is there");
     }
