@@ -6,7 +6,7 @@ use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use crate::controller::Controller;
 use crate::matrix::{Case, Matrix};
-use crate::scenario;
+use crate::scenario::{self, Scenario};
 use crate::score::{self, Score};
 use crate::seeds::Seeds;
 use crate::statistics::Estimate;
@@ -264,25 +264,27 @@ impl<'a> Contest<'a> {
     /// # Errors
     /// What of a scenario the firmware refuses.
     pub fn fly(&self, flown: impl Fn() + Sync) -> Result<Comparison> {
-        let mut entries = Vec::new();
+        let mut entries: Vec<(&Case, &str, Scenario)> = Vec::new();
         for case in &self.cases {
             for (name, controller) in &self.controllers {
-                let scenario = case.scenario.clone().flown_by(controller.clone())?;
-                entries.extend(case.seeds(self.matrix.file.seeds).map(|seed| (case, name, seed, scenario.clone())));
+                entries.push((case, name, case.scenario.clone().flown_by(controller.clone())?));
             }
         }
-        let fly = |(case, name, seed, scenario): &(&Case, &String, u64, scenario::Scenario)| {
+        let seeds = self.matrix.file.seeds;
+        let sorties: Vec<_> =
+            entries.iter().flat_map(|entry| entry.0.seeds(seeds).map(move |seed| (entry, seed))).collect();
+        let fly = |((case, name, scenario), seed): &(&(&Case, &str, Scenario), u64)| {
             let score = score::fly(scenario, *seed)?;
             flown();
             Ok(FlightScore {
                 scenario: short_name(&case.scenario_name).to_owned(),
                 disturbance: case.disturbance_name.clone(),
-                controller: (*name).clone(),
+                controller: (*name).to_owned(),
                 seed: *seed,
                 score,
             })
         };
-        Ok(self.judge(entries.par_iter().map(fly).collect::<Result<_>>()?))
+        Ok(self.judge(sorties.par_iter().map(fly).collect::<Result<_>>()?))
     }
 
     /// The flights, in the order of [`fly`](Self::fly), as a comparison.
