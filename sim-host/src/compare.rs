@@ -11,6 +11,10 @@ use crate::score::{self, Score};
 use crate::seeds::Seeds;
 use crate::statistics::Estimate;
 
+/// Distances below this are the same, m: no vehicle's position is known to 10 µm, and what is left of a flight that
+/// nothing disturbs are digits of an f32.
+pub const RESOLUTION_M: f64 = 1e-5;
+
 /// A figure of merit. Less is better in each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Figure {
@@ -162,6 +166,9 @@ pub struct Cell {
     pub random: bool,
     /// One a controller, in the comparison's order.
     pub controllers: Vec<Medians>,
+    /// RMS error over the first controller's under the same seed, one a controller: the median over the seeds. What a
+    /// seed does to both is not in it, so that it tells more than two medians do.
+    pub rms_ratios: Vec<Estimate>,
 }
 
 /// A controller over the whole matrix.
@@ -171,9 +178,9 @@ pub struct Overall {
     pub controller: String,
     /// Medians of the cells' medians.
     pub medians: Medians,
-    /// Median over the cells of its RMS error over the first controller's; infinite (null) if most are lost.
+    /// Median over the cells of [`Cell::rms_ratios`]; infinite (null) if most are lost.
     pub rms_ratio: f64,
-    /// Cells in which its RMS error is less than the first controller's.
+    /// Cells in which that ratio is less than 1.
     pub better_cells: usize,
     /// Cells in which it is greater.
     pub worse_cells: usize,
@@ -188,9 +195,9 @@ pub struct LostCell {
     pub disturbance: String,
     /// The controller that is best there.
     pub to: String,
-    /// The first controller's RMS error over the best one's; infinite (null) if its flights are lost.
-    pub ratio: f64,
-    /// Whether seeds cannot explain it: the intervals are apart, or the cell is not random.
+    /// Its RMS error over the first controller's: below 1; 0 if the first controller's flights are lost.
+    pub rms_ratio: Estimate,
+    /// Whether seeds cannot explain it: the ratio's interval is below 1, or the cell is not random.
     pub clear: bool,
 }
 
@@ -281,16 +288,11 @@ impl<'a> Contest<'a> {
     fn judge(&self, flights: Vec<FlightScore>) -> Comparison {
         let file = &self.matrix.file;
         let mut rest = flights.as_slice();
-        let mut take = |count| {
-            let (taken, left) = rest.split_at(count);
+        let cell = |case: &Case| {
+            let seeds = case.seeds(file.seeds).count();
+            let (flown, left) = rest.split_at(seeds * self.controllers.len());
             rest = left;
-            Medians::of_flights(taken)
-        };
-        let cell = |case: &Case| Cell {
-            scenario: short_name(&case.scenario_name).to_owned(),
-            disturbance: case.disturbance_name.clone(),
-            random: case.is_random(),
-            controllers: self.controllers.iter().map(|_| take(case.seeds(file.seeds).count())).collect(),
+            Cell::of(case, &flown.chunks(seeds).collect::<Vec<_>>())
         };
         let cells: Vec<Cell> = self.cases.iter().map(cell).collect();
         let controllers: Vec<String> = self.controllers.iter().map(|(name, _)| name.clone()).collect();
@@ -300,7 +302,7 @@ impl<'a> Contest<'a> {
             seeds: file.seeds,
             seeds_are_trained_on: file.training_seeds.is_some_and(|training| training.overlaps(file.seeds)),
             overall: controllers.iter().enumerate().map(|(i, name)| overall(&cells, i, name)).collect(),
-            lost: cells.iter().filter_map(|cell| lost(cell, &controllers)).collect(),
+            lost: cells.iter().filter_map(|cell| cell.lost(&controllers)).collect(),
             controllers,
             cells,
             flights,
@@ -315,7 +317,7 @@ fn short_name(name: &str) -> &str {
 }
 
 fn overall(cells: &[Cell], index: usize, name: &str) -> Overall {
-    let ratios = || cells.iter().map(|cell| cell.rms_ratio(index));
+    let ratios = || cells.iter().map(|cell| cell.rms_ratios[index].median);
     Overall {
         controller: name.to_owned(),
         medians: Medians::of_cells(cells.iter().map(|cell| &cell.controllers[index])),
@@ -326,31 +328,122 @@ fn overall(cells: &[Cell], index: usize, name: &str) -> Overall {
 }
 
 impl Cell {
-    /// The median RMS error of a controller over the first one's.
-    pub fn rms_ratio(&self, index: usize) -> f64 {
-        ratio(self.controllers[index].rms().median, self.controllers[0].rms().median)
+    /// From the flights of each controller, all under the same seeds.
+    fn of(case: &Case, flown: &[&[FlightScore]]) -> Self {
+        let paired = |flights: &&[FlightScore]| {
+            let pairs = flights.iter().zip(flown[0]);
+            Estimate::of(pairs.map(|(flight, first)| Some(ratio(&flight.score, &first.score))))
+        };
+        Self {
+            scenario: short_name(&case.scenario_name).to_owned(),
+            disturbance: case.disturbance_name.clone(),
+            random: case.is_random(),
+            controllers: flown.iter().map(|flights| Medians::of_flights(flights)).collect(),
+            rms_ratios: flown.iter().map(paired).collect(),
+        }
+    }
+
+    /// The cell as one that the first controller loses, if it does.
+    fn lost(&self, names: &[String]) -> Option<LostCell> {
+        let others = self.rms_ratios.iter().zip(names).skip(1);
+        let (best, to) = others.min_by(|(a, _), (b, _)| a.median.total_cmp(&b.median))?;
+        (best.median < 1.0).then(|| LostCell {
+            scenario: self.scenario.clone(),
+            disturbance: self.disturbance.clone(),
+            to: to.clone(),
+            rms_ratio: *best,
+            clear: best.interval.map_or(!self.random, |(_, high)| high < 1.0),
+        })
     }
 }
 
-/// `a` over `b`; 1 where both are the same, also if both are infinite or 0.
-fn ratio(a: f64, b: f64) -> f64 {
+/// The RMS error of a flight over another's: 1 where both are below [`RESOLUTION_M`], or both lost.
+fn ratio(flight: &Score, other: &Score) -> f64 {
+    let rms = |score: &Score| score.rms_m.map_or(f64::INFINITY, |rms| rms.max(RESOLUTION_M));
+    let (a, b) = (rms(flight), rms(other));
     if a.total_cmp(&b).is_eq() { 1.0 } else { a / b }
 }
 
-/// The cell as one that the first controller loses, if it does.
-fn lost(cell: &Cell, names: &[String]) -> Option<LostCell> {
-    let first = cell.controllers[0].rms();
-    let others = cell.controllers.iter().zip(names).skip(1);
-    let (best, to) = others.min_by(|(a, _), (b, _)| a.rms().median.total_cmp(&b.rms().median))?;
-    let apart = match (first.interval, best.rms().interval) {
-        (Some((low, _)), Some((_, high))) => low > high,
-        _ => !cell.random,
-    };
-    (best.rms().median < first.median).then(|| LostCell {
-        scenario: cell.scenario.clone(),
-        disturbance: cell.disturbance.clone(),
-        to: to.clone(),
-        ratio: ratio(first.median, best.rms().median),
-        clear: apart,
-    })
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flight(controller: &str, rms_m: Option<f64>) -> FlightScore {
+        FlightScore {
+            scenario: "x500-hover".into(),
+            disturbance: "gaussian".into(),
+            controller: controller.into(),
+            seed: 1,
+            score: Score { survived: rms_m.is_some(), rms_m, ..Score::default() },
+        }
+    }
+
+    /// A random cell, from the RMS errors of each controller.
+    fn cell(errors: &[&[Option<f64>]]) -> Cell {
+        let cases = Matrix::load("x500", &[]).and_then(|matrix| matrix.cases()).expect("valid");
+        let case = cases.iter().find(|case| case.is_random()).expect("there is one");
+        let flown: Vec<Vec<FlightScore>> =
+            errors.iter().map(|errors| errors.iter().map(|rms| flight("any", *rms)).collect()).collect();
+        Cell::of(case, &flown.iter().map(Vec::as_slice).collect::<Vec<_>>())
+    }
+
+    fn names() -> Vec<String> {
+        ["first", "second", "third"].map(String::from).to_vec()
+    }
+
+    #[test]
+    fn ratios_are_those_of_the_same_seed() {
+        // The seeds differ a thousandfold; under each the second has 0.9 of the first's error.
+        let first: Vec<_> = (0..8).map(|k| Some(1e-3 * 10_f64.powf(0.4 * f64::from(k)))).collect();
+        let second: Vec<_> = first.iter().map(|rms| rms.map(|rms| 0.9 * rms)).collect();
+        let cell = cell(&[&first, &second]);
+        let close = |value: f64, expected: f64| assert!((value - expected).abs() < 1e-12, "{value}");
+        close(cell.rms_ratios[0].median, 1.0);
+        close(cell.rms_ratios[1].median, 0.9);
+        let lost = cell.lost(&names()).expect("lost");
+        assert!(lost.to == "second" && lost.clear);
+        let (low, high) = lost.rms_ratio.interval.expect("eight seeds");
+        close(low, 0.9);
+        close(high, 0.9);
+    }
+
+    #[test]
+    fn a_lost_flight_is_worse_than_any_that_survived() {
+        let far = [Some(40.0); 8];
+        let lost = [None; 8];
+        let cell = cell(&[&far, &lost, &far]);
+        assert_eq!((cell.controllers[1].survived, cell.controllers[1].flights), (0, 8));
+        assert_eq!(cell.rms_ratios[1].median, f64::INFINITY);
+        assert_eq!(cell.controllers[1].rms().median, f64::INFINITY);
+        assert_eq!(cell.lost(&names()), None, "not to one that is lost, nor to one that is the same");
+    }
+
+    #[test]
+    fn a_controller_whose_flights_are_lost_loses_the_cell() {
+        let found = cell(&[&[None; 8], &[None; 8], &[Some(40.0); 8]]).lost(&names()).expect("lost");
+        assert_eq!((found.to.as_str(), found.rms_ratio.median, found.clear), ("third", 0.0, true));
+        assert_eq!(cell(&[&[None; 8], &[None; 8]]).lost(&names()), None, "both are lost");
+    }
+
+    #[test]
+    fn what_seeds_may_explain_is_not_clear() {
+        let first = [Some(1.0); 8];
+        let second = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 2.0].map(Some);
+        let found = cell(&[&first, &second]).lost(&names()).expect("lost");
+        assert!(!found.clear, "the interval for 8 seeds is from the least to the greatest");
+        assert_eq!(found.rms_ratio.interval, Some((0.5, 2.0)));
+    }
+
+    #[test]
+    fn what_no_position_sensor_resolves_is_the_same() {
+        let cell = cell(&[&[Some(6e-8); 8], &[Some(9e-6); 8], &[Some(2e-5); 8]]);
+        assert_eq!(cell.rms_ratios[1].median, 1.0);
+        assert!((cell.rms_ratios[2].median - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn paths_are_called_by_their_files() {
+        assert_eq!(short_name("/tmp/here/softer.toml"), "softer");
+        assert_eq!(short_name("x500-smc"), "x500-smc");
+    }
 }

@@ -37,8 +37,9 @@ const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
 pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Tunings that come with the binary.
-pub(crate) const TUNINGS: [(&str, &str); 4] =
-    built_in!("tunings": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
+pub(crate) const TUNINGS: [(&str, &str); 6] = built_in!("tunings":
+    "x500-smc", "x500-pid", "x500-geometric", "x500-indi", "racer250-smc", "crazyflie-smc",
+);
 
 /// Which model of the world is flown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -140,7 +141,7 @@ pub struct ScenarioFile {
     pub join: Option<JoinPlan>,
     /// Gains of the sliding mode laws.
     pub control: Option<Control>,
-    /// In their place, name or path of a tuning file.
+    /// In their place, name or path of a tuning file. Without either, the airframe's own, `<airframe>-smc`.
     pub tuning: Option<String>,
     /// Gaussian disturbances.
     pub disturbance: Option<Disturbance>,
@@ -289,9 +290,11 @@ pub(crate) fn read<T: DeserializeOwned>(name: &str, kind: &str, built_in: &[(&st
 
 /// The controller that a scenario asks for.
 fn controller(file: &ScenarioFile) -> Result<Controller> {
+    let own = format!("{}-smc", file.airframe);
     match (&file.tuning, &file.control) {
         (Some(name), None) => Ok(tuning(name)?.controller),
         (None, Some(control)) => Ok(Controller::Smc(control.clone())),
+        (None, None) if TUNINGS.iter().any(|(name, _)| *name == own) => Ok(tuning(&own)?.controller),
         (Some(_), Some(_)) => bail!("`tuning` and `control` both say what flies: keep one"),
         (None, None) => bail!("`tuning` is missing: name a tuning file, or give gains under `[control]`"),
     }

@@ -127,7 +127,7 @@ impl PidPosition {
     fn velocity_wanted(&self, error: &Vector3<f32>, feedforward: &Vector3<f32>) -> Vector3<f32> {
         let most = self.gains.velocity_max_m_s;
         let by_error = self.gains.position_p_1_s.vector().component_mul(error);
-        let horizontal = within_circle(&by_error.xy(), &feedforward.xy(), most.xy);
+        let horizontal = within_circle(by_error.xy(), feedforward.xy(), most.xy);
         let vertical = math::clamp(by_error.z + feedforward.z, -most.z, most.z);
         Vector3::new(horizontal.x, horizontal.y, vertical)
     }
@@ -184,7 +184,7 @@ impl PositionLaw for PidPosition {
 }
 
 /// `first + second`, of which as much of `second` is left out as brings the sum within a circle.
-fn within_circle(first: &Vector2<f32>, second: &Vector2<f32>, radius: f32) -> Vector2<f32> {
+fn within_circle(first: Vector2<f32>, second: Vector2<f32>, radius: f32) -> Vector2<f32> {
     let sum = first + second;
     let size = math::sqrt(first.norm_squared());
     if sum.norm_squared() <= radius * radius {
@@ -194,7 +194,7 @@ fn within_circle(first: &Vector2<f32>, second: &Vector2<f32>, radius: f32) -> Ve
         return first * (radius / size);
     }
     // |first + s·second| = radius has one root s ≥ 0, since `first` lies inside.
-    let (a, half_b) = (second.norm_squared(), first.dot(second));
+    let (a, half_b) = (second.norm_squared(), first.dot(&second));
     let s = (math::sqrt(half_b * half_b + a * (radius * radius - size * size)) - half_b) / a;
     first + second * s
 }
@@ -290,4 +290,115 @@ fn tilt_before_yaw(relative: &UnitQuaternion<f32>, yaw_weight: f32) -> Vector3<f
         *q
     };
     rotation.imag() * if rotation.w < 0.0 { -2.0 } else { 2.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::baseline::tests::{airframe, attitudes, hover_speeds, input, level, tuning};
+    use crate::controller::Controller;
+    use firmware::signals::FlatReference;
+
+    fn gains() -> Pid {
+        let Controller::Pid(gains) = tuning("x500-pid") else { panic!("another controller") };
+        gains
+    }
+
+    /// The same law as its paper writes it, in f64, from the axes in the world.
+    fn by_world_axes(is: &UnitQuaternion<f64>, ought: &UnitQuaternion<f64>, yaw_weight: f64) -> Vector3<f64> {
+        let (axis, wanted) = (is * Vector3::z(), ought * Vector3::z());
+        let reduced = UnitQuaternion::rotation_between(&axis, &wanted).expect("not opposite") * is;
+        let turn = reduced.inverse() * ought;
+        let sign = if turn.w < 0.0 { -1.0 } else { 1.0 };
+        let (w, z) = ((sign * turn.w).clamp(-1.0, 1.0), (sign * turn.k).clamp(-1.0, 1.0));
+        let scaled = Quaternion::new((yaw_weight * w.acos()).cos(), 0.0, 0.0, (yaw_weight * z.asin()).sin());
+        let left = is.inverse().into_inner() * reduced.into_inner() * scaled;
+        left.imag() * (2.0 * left.w.signum())
+    }
+
+    #[test]
+    fn tilt_comes_before_yaw_as_in_the_paper() {
+        let mut compared = 0;
+        for (is, ought) in attitudes().zip(attitudes().skip(17)) {
+            let relative = is.inverse() * ought;
+            for yaw_weight in [0.0, 0.4, 1.0] {
+                let exact = by_world_axes(&is.cast(), &ought.cast(), yaw_weight);
+                let error = tilt_before_yaw(&relative, yaw_weight as f32).cast::<f64>() - exact;
+                // f32, magnified by 1/√N where the axis points nearly the wrong way.
+                assert!(error.norm() < 1e-4, "{relative}: {error}");
+                compared += 1;
+            }
+        }
+        assert!(compared > 500);
+    }
+
+    #[test]
+    fn a_constant_torque_is_integrated_away_and_nothing_while_saturated() {
+        let (airframe, gains) = (airframe(), gains());
+        let mut law = PidAttitude::new(&airframe, &gains);
+        let inertia = Vector3::from(airframe.inertia_kg_m2);
+        let (target, speeds) = (level(), hover_speeds(&airframe));
+        let (mut attitude, mut rates) = (UnitQuaternion::identity(), Vector3::zeros());
+        let push = Vector3::new(6.0_f32, -4.0, 1.0);
+        for _ in 0..30_000 {
+            let torque = law.step(&input(&attitude, &rates, &target, &speeds)).torque;
+            rates += (torque.component_div(&inertia) + push) * TICK_S;
+            attitude *= UnitQuaternion::new(rates * TICK_S);
+        }
+        // The slowest pole is I/P: 0.5 1/s about z, e^(−15) in 30 s; the rest is f32.
+        assert!((law.integral + push).norm() < 1e-2, "{}", law.integral);
+        assert!(attitude.angle() < 1e-3, "{}", attitude.angle());
+
+        let before = law.integral;
+        let tilted = UnitQuaternion::from_euler_angles(0.3, 0.0, 0.0);
+        law.step(&AttitudeInput { saturated: true, ..input(&tilted, &rates, &target, &speeds) });
+        assert_eq!(law.integral, before);
+    }
+
+    #[test]
+    fn large_rate_errors_slow_the_integral_down_and_stop_it() {
+        let mut law = PidAttitude::new(&airframe(), &Pid { rate_i_1_s2: AxisPair { xy: 1.0, z: 1.0 }, ..gains() });
+        // 200 °/s of 400: a quarter less.
+        law.integrate(&Vector3::new(0.5 * INTEGRAL_STOPS_AT_RAD_S, 2.0 * INTEGRAL_STOPS_AT_RAD_S, 0.0));
+        let full = 0.5 * INTEGRAL_STOPS_AT_RAD_S * TICK_S;
+        assert!((law.integral.x - 0.75 * full).abs() < 1e-6 * full, "{}", law.integral);
+        assert_eq!(law.integral.y, 0.0);
+    }
+
+    #[test]
+    fn what_the_error_asks_for_goes_before_the_references_velocity() {
+        let (first, second) = (Vector2::new(3.0_f32, 1.0), Vector2::new(-1.0_f32, 6.0));
+        assert_eq!(within_circle(first, second, 20.0), first + second);
+        let inside = within_circle(first, second, 5.0);
+        assert!((inside.norm() - 5.0).abs() < 1e-5);
+        assert!((inside - first).perp(&second).abs() < 1e-5 && (inside - first).dot(&second) > 0.0, "{inside}");
+        let only = within_circle(first, second, 2.0);
+        assert!((only.norm() - 2.0).abs() < 1e-5 && only.perp(&first).abs() < 1e-5, "{only}");
+    }
+
+    #[test]
+    fn a_force_beyond_the_limits_drives_the_integral_back() {
+        let (airframe, gains) = (airframe(), gains());
+        let mut law = PidPosition::new(&airframe, &gains);
+        let reference = FlatReference::standing(Vector3::new(100.0, 0.0, 0.0), 0.0);
+        let zero = Vector3::zeros();
+        let at_rest = PositionInput {
+            reference: &reference,
+            position: &zero,
+            velocity: &zero,
+            acceleration: &zero,
+            limited: false,
+        };
+        let mut force = zero;
+        for _ in 0..20_000 {
+            force = law.step(&at_rest).profile.force;
+        }
+        // It rests where the velocity's error e is what 2/P of the force taken gives: P e + I − f = P e/2.
+        let (p, e) = (gains.velocity_p_1_s.xy, gains.velocity_max_m_s.xy);
+        let most = airframe.thrust_max_n() / airframe.mass_kg;
+        let exact = (most * most - airframe.gravity_m_s2 * airframe.gravity_m_s2).sqrt();
+        assert!((force.x - exact).abs() < 1e-3 && (force.z - airframe.gravity_m_s2).abs() < 1e-3, "{force}");
+        assert!((law.integral.x - (exact - 0.5 * p * e)).abs() < 1e-2, "{}", law.integral);
+        assert_eq!(law.integral.z, 0.0);
+    }
 }

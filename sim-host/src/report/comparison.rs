@@ -6,12 +6,12 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 
-use crate::compare::{Cell, Comparison, Figure, FlightScore, Medians, Overall};
+use crate::compare::{Cell, Comparison, Figure, FlightScore, LostCell, Medians, Overall};
 use crate::statistics::Estimate;
 
 /// Letters of a column of a cell's controller, of a disturbance, and between columns: four controllers fit in 120.
-const COLUMN: usize = 24;
-const NAME: usize = 16;
+const COLUMN: usize = 23;
+const NAME: usize = 17;
 /// Controllers side by side.
 const BESIDE: usize = 4;
 
@@ -163,7 +163,7 @@ fn overall_table(comparison: &Comparison) -> String {
     let rows = overall_rows(comparison);
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
-    let mut text = "whole matrix; `ratio`: median over the cells of the RMS over the first controller's\n".to_owned();
+    let mut text = "whole matrix; `ratio`: RMS over the first controller's under the same seed, median over seeds, then over cells\n".to_owned();
     for row in &rows {
         let rest: String =
             row[1..].iter().zip(&widths[1..]).map(|(entry, width)| format!("  {entry:>width$}")).collect();
@@ -182,14 +182,17 @@ fn lost_cells(comparison: &Comparison) -> Vec<String> {
         format!("{name} against {controller}: less RMS in {worse_cells} of {cells} cells, more in {better_cells}")
     };
     let mut text: Vec<String> = others.iter().map(against).collect();
-    for cell in &comparison.lost {
-        let (ratio, clear) = (number(cell.ratio, "lost"), if cell.clear { "" } else { " (within the intervals)" });
-        text.push(format!(
-            "lost: {} under {} to {}, {ratio} times its RMS{clear}",
-            cell.scenario, cell.disturbance, cell.to
-        ));
-    }
+    text.extend(comparison.lost.iter().map(lost_cell));
     text
+}
+
+fn lost_cell(cell: &LostCell) -> String {
+    let LostCell { scenario, disturbance, to, rms_ratio, clear } = cell;
+    let ratio = |ratio: f64| format!("{ratio:.3}");
+    let interval =
+        rms_ratio.interval.map_or_else(String::new, |(low, high)| format!(" [{}, {}]", ratio(low), ratio(high)));
+    let chance = if *clear { "" } else { ", which may be chance" };
+    format!("lost: {scenario} under {disturbance} to {to}, {} of the RMS{interval}{chance}", ratio(rms_ratio.median))
 }
 
 /// The same as [`render`] for a document.
@@ -212,7 +215,11 @@ pub fn markdown(comparison: &Comparison) -> String {
             text += &rule(columns);
         }
     }
-    text.extend(["\n", EXPLAINED, "`ratio`: median over the cells of the RMS over the first controller's.\n\n"]);
+    text.extend([
+        "\n",
+        EXPLAINED,
+        "`ratio`: RMS over the first controller's under the same seed, median over seeds, then over cells.\n\n",
+    ]);
     lost_cells(comparison).iter().for_each(|sentence| text.extend(["- ", sentence, "\n"]));
     text
 }

@@ -6,8 +6,9 @@ use anyhow::Result;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::panel::{Area, Key, palette, px, save, text};
-use crate::compare::{Cell, Comparison, Medians};
+use super::panel::{Area, Chart, Key, palette, px, save, text};
+use super::series::extent;
+use crate::compare::{Cell, Comparison, Medians, RESOLUTION_M};
 
 /// Shown pixels of a chart of one scenario, of the names of its disturbances, and of a map's square.
 const CHART: (u32, u32) = (680, 330);
@@ -45,60 +46,72 @@ fn errors(comparison: &Comparison, path: &Path) -> Result<()> {
 }
 
 fn errors_of_scenario(area: &Area, scenario: &str, cells: &[&Cell]) -> Result<()> {
-    let (low, high) = decades(cells);
+    let (low, high) = range_mm(cells);
     let mut chart = ChartBuilder::on(area)
         .caption(scenario, text(15))
         .margin(px(8))
         .x_label_area_size(px(NAMES))
         .y_label_area_size(px(64))
-        .build_cartesian_2d(0.0..cells.len() as f64, (low..high).log_scale())?;
-    chart
-        .configure_mesh()
-        .disable_x_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(palette::GRID.stroke_width(1))
-        .axis_style(palette::INK.stroke_width(3))
-        .x_labels(0)
-        .y_label_formatter(&|metres| format!("{}", 1e3 * metres))
-        .label_style(text(12))
-        .axis_desc_style(text(13))
-        .y_desc("RMS distance, mm")
-        .draw()?;
+        .build_cartesian_2d(0.0..cells.len() as f64, libm::log10(low)..libm::log10(high))?;
+    // The axes' names and frame; ticks of a logarithm are drawn by hand.
+    let axes = palette::INK.stroke_width(3);
+    chart.configure_mesh().disable_mesh().axis_style(axes).x_labels(0).y_labels(0).draw()?;
+    let (left, top) = area.get_base_pixel();
+    let right = Pos::new(HPos::Right, VPos::Center);
+    for value in ticks(low, high) {
+        let line = vec![(0.0, libm::log10(value)), (cells.len() as f64, libm::log10(value))];
+        let (x, y) = chart.backend_coord(&line[0]);
+        area.draw(&Text::new(value.to_string(), (x - left - px(6).cast_signed(), y - top), text(12).pos(right)))?;
+        chart.draw_series([PathElement::new(line, palette::GRID.stroke_width(1))])?;
+    }
+    let (x, y) = chart.backend_coord(&(0.0, libm::log10(high)));
+    let unit = Text::new("RMS, mm", (x - left, y - top - px(8).cast_signed()), text(12).pos(right));
+    area.draw(&unit)?;
     for (i, cell) in cells.iter().enumerate() {
-        for (j, medians) in cell.controllers.iter().enumerate() {
-            let across = i as f64 + (j as f64 + 1.0) / (cell.controllers.len() as f64 + 1.0);
-            let clamp = |metres: f64| metres.clamp(low, high);
-            if let Some((from, to)) = medians.rms().interval {
-                let whisker = vec![(across, clamp(from)), (across, clamp(to))];
-                chart.draw_series([PathElement::new(whisker, color(j).stroke_width(6))])?;
-            }
-            let at = (across, clamp(medians.rms().median));
-            if medians.rms().median.is_finite() {
-                chart.draw_series([Circle::new(at, px(3), color(j).filled())])?;
-            } else {
-                chart.draw_series([Cross::new(at, px(4), color(j).stroke_width(6))])?;
-            }
-        }
-        let (x, y) = chart.backend_coord(&(i as f64 + 0.5, low));
-        let (left, top) = area.get_base_pixel();
+        let border = vec![(i as f64 + 1.0, libm::log10(low)), (i as f64 + 1.0, libm::log10(high))];
+        chart.draw_series([PathElement::new(border, palette::GRID.stroke_width(1))])?;
+        let (x, y) = chart.backend_coord(&(i as f64 + 0.5, libm::log10(low)));
         upright(area, &cell.disturbance, (x - left, y - top + px(6).cast_signed()))?;
+        draw_errors(&mut chart, i as f64, cell, (low, high))?;
     }
     Ok(())
 }
 
-/// Powers of ten between which all errors are that can be drawn, m.
-fn decades(cells: &[&Cell]) -> (f64, f64) {
-    let all = cells.iter().flat_map(|cell| &cell.controllers).flat_map(|medians| {
-        let (low, high) = medians.rms().interval.unwrap_or((f64::NAN, f64::NAN));
-        [medians.rms().median, low, high]
-    });
-    let drawn = || all.clone().filter(|value| value.is_finite() && *value > 0.0).map(libm::log10);
-    let (low, high) = (drawn().fold(f64::INFINITY, f64::min), drawn().fold(f64::NEG_INFINITY, f64::max));
-    if low > high {
-        return (1e-3, 1.0);
+/// The errors of each controller in the cell that begins at `from` on the horizontal axis, between `low` and `high`
+/// (mm): a dot with its interval, or a cross at the top for what is lost.
+fn draw_errors(chart: &mut Chart, from: f64, cell: &Cell, (low, high): (f64, f64)) -> Result<()> {
+    let height = |metres: f64| libm::log10((1e3 * metres).clamp(low, high));
+    for (i, medians) in cell.controllers.iter().enumerate() {
+        let across = from + (i as f64 + 1.0) / (cell.controllers.len() as f64 + 1.0);
+        if let Some((best, worst)) = medians.rms().interval {
+            let whisker = vec![(across, height(best)), (across, height(worst))];
+            chart.draw_series([PathElement::new(whisker, color(i).stroke_width(6))])?;
+        }
+        let median = medians.rms().median;
+        if median.is_finite() {
+            chart.draw_series([Circle::new((across, height(median)), px(3), color(i).filled())])?;
+        } else {
+            chart.draw_series([Cross::new((across, height(median)), px(4), color(i).stroke_width(6))])?;
+        }
     }
-    // Half a decade is a step fine enough; the head room is for what is lost.
-    (libm::exp10((2.0 * low - 0.1).floor() / 2.0), libm::exp10((2.0 * high + 0.2).ceil() / 2.0))
+    Ok(())
+}
+
+/// From where to where the errors are, mm, with room for what is lost; what cannot be told from none is at the bottom.
+fn range_mm(cells: &[&Cell]) -> (f64, f64) {
+    let medians = cells.iter().flat_map(|cell| &cell.controllers).map(Medians::rms);
+    let values = medians.flat_map(|rms| [Some(rms.median), rms.interval.map(|i| i.0), rms.interval.map(|i| i.1)]);
+    let shown = values.flatten().filter(|value| value.is_finite()).map(|value| 1e3 * value.max(RESOLUTION_M));
+    let (low, high) = extent(shown).unwrap_or((1.0, 1000.0));
+    (0.8 * low, 1.6 * high)
+}
+
+/// 1, 2 and 5 of each decade, or its 1 alone where there would be too many, mm.
+fn ticks(low: f64, high: f64) -> Vec<f64> {
+    let steps: &[f64] = if high / low < 300.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let decades = [0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0, 10_000.0, 100_000.0];
+    let all = decades.iter().flat_map(|decade| steps.iter().map(move |step| step * decade));
+    all.filter(|value| (low..=high).contains(value)).collect()
 }
 
 /// Each other controller's RMS error over the first one's, a map a controller.
@@ -107,23 +120,30 @@ fn ratios(comparison: &Comparison, path: &Path) -> Result<()> {
     let maps: Vec<(usize, String)> =
         comparison.controllers.iter().enumerate().skip(1).map(|(i, name)| (i, format!("{name} / {first}"))).collect();
     let keys = [Key::Series("first is better", palette::FLOWN), Key::Series("first is worse", palette::START)];
-    maps_of_cells(comparison, path, "RMS over the first controller's", &keys, &maps, |cell, index| {
-        let (ratio, lost) = (cell.rms_ratio(index), cell.controllers[0].rms().median.is_infinite());
-        let strength = (libm::log(ratio).abs() / libm::log(FULL_RATIO)).min(1.0);
-        let label = match ratio {
-            _ if ratio.is_infinite() => "lost".to_owned(),
-            _ if lost => {
-                if ratio == 0.0 {
-                    "first lost".to_owned()
-                } else {
-                    "both lost".to_owned()
+    maps_of_cells(
+        comparison,
+        path,
+        "RMS over the first controller's under the same seed: median",
+        &keys,
+        &maps,
+        |cell, index| {
+            let (ratio, lost) = (cell.rms_ratios[index].median, cell.controllers[0].rms().median.is_infinite());
+            let strength = (libm::log(ratio).abs() / libm::log(FULL_RATIO)).min(1.0);
+            let label = match ratio {
+                _ if ratio.is_infinite() => "lost".to_owned(),
+                _ if lost => {
+                    if ratio == 0.0 {
+                        "first lost".to_owned()
+                    } else {
+                        "both lost".to_owned()
+                    }
                 }
-            }
-            _ if ratio >= 10.0 => format!("{ratio:.0}"),
-            _ => format!("{ratio:.2}"),
-        };
-        (label, if ratio >= 1.0 { palette::FLOWN } else { palette::START }, strength)
-    })
+                _ if ratio >= 10.0 => format!("{ratio:.0}"),
+                _ => format!("{ratio:.2}"),
+            };
+            (label, if ratio >= 1.0 { palette::FLOWN } else { palette::START }, strength)
+        },
+    )
 }
 
 /// Which part of the flights survived, a map a controller.
@@ -150,7 +170,7 @@ fn maps_of_cells(
     let down = names(comparison, |cell| &cell.disturbance);
     let width = SQUARE.0 * across.len() as u32 + 24;
     let total = (NAMES + 20 + width * maps.len() as u32).max(560);
-    let size = (total, 44 + 30 + SQUARE.1 * down.len() as u32 + NAMES + 30);
+    let size = (total, 44 + 30 + SQUARE.1 * down.len() as u32 + NAMES);
     save(path, size, heading, keys, |area| {
         let right = Pos::new(HPos::Right, VPos::Center);
         for (row, name) in down.iter().enumerate() {

@@ -14,7 +14,8 @@ use super::series::{Points, extent};
 
 /// Where everything is drawn.
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+/// A chart of real numbers.
+pub(super) type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// The backend rounds to whole units; the page is drawn this many times larger than it is shown, for smooth curves.
 pub(super) const FINE: u32 = 3;
