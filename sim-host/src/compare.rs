@@ -95,7 +95,8 @@ pub struct Medians {
 }
 
 impl Medians {
-    fn of_flights(flights: &[FlightScore]) -> Self {
+    /// Of flights of one controller in one cell.
+    pub(crate) fn of_flights(flights: &[FlightScore]) -> Self {
         Self {
             flights: flights.len(),
             survived: flights.iter().filter(|flight| flight.score.survived).count(),
@@ -104,15 +105,15 @@ impl Medians {
     }
 
     /// Of the medians of cells, each of the same weight.
-    fn of_cells<'a>(cells: impl Iterator<Item = &'a Self> + Clone) -> Self {
+    fn of_cells(cells: &[&Self]) -> Self {
         // The cells are no sample of anything: their median has no interval.
         let estimate = |figure| Estimate {
             interval: None,
-            ..Estimate::of(cells.clone().map(|cell| Some(cell.estimate(figure).median)))
+            ..Estimate::of(cells.iter().map(|cell| Some(cell.estimate(figure).median)))
         };
         Self {
-            flights: cells.clone().map(|cell| cell.flights).sum(),
-            survived: cells.clone().map(|cell| cell.survived).sum(),
+            flights: cells.iter().map(|cell| cell.flights).sum(),
+            survived: cells.iter().map(|cell| cell.survived).sum(),
             estimates: Figure::ALL.map(estimate),
         }
     }
@@ -320,7 +321,7 @@ fn overall(cells: &[Cell], index: usize, name: &str) -> Overall {
     let ratios = || cells.iter().map(|cell| cell.rms_ratios[index].median);
     Overall {
         controller: name.to_owned(),
-        medians: Medians::of_cells(cells.iter().map(|cell| &cell.controllers[index])),
+        medians: Medians::of_cells(&cells.iter().map(|cell| &cell.controllers[index]).collect::<Vec<_>>()),
         rms_ratio: Estimate::of(ratios().map(Some)).median,
         better_cells: ratios().filter(|ratio| *ratio < 1.0).count(),
         worse_cells: ratios().filter(|ratio| *ratio > 1.0).count(),
