@@ -243,7 +243,10 @@ fn a_tumbling_start_is_the_seeds() {
 fn a_disturbance_is_drawn_once_a_tick_and_pushes_as_it_was_drawn() {
     let scenario = load(
         "x500-hover",
-        &["disturbance={from_s=0.1,to_s=0.9,hold_s=0.001,acceleration_m_s2=2.0,position_output_m=0.01}", "duration_s=2"],
+        &[
+            "disturbance={from_s=0.1,to_s=0.9,hold_s=0.001,acceleration_m_s2=2.0,position_output_m=0.01}",
+            "duration_s=2",
+        ],
     );
     let constants = scenario.constants();
     let hover = constants.hover_omega();
