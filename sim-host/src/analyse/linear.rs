@@ -85,20 +85,45 @@ pub(super) fn position<A: AttitudeLaw + Clone, P: PositionLaw + Clone>(
     axis: usize,
     omega_rad_s: f64,
 ) -> LoopAt {
-    let (weights, motion) = match axis {
-        // A force along x tilts it about y, one along y about −x, and so back.
-        0 | 1 => horizontal(attitude, vehicle, 1 - axis, omega_rad_s),
-        _ => vertical(vehicle, omega_rad_s),
-    };
-    let inputs = vehicle.predicted(axis, motion);
     let gains = law::position(law, axis, omega_rad_s);
-    let mut returned = Complex::new(0.0, 0.0);
-    for (part, weight) in weights.iter().enumerate() {
-        let asked: Complex<f64> = gains.iter().zip(&inputs).map(|(gain, input)| gain[part] * input).sum();
-        returned += weight * asked;
+    let returned = |weights: &[Complex<f64>; 3], motion: [Complex<f64>; 3]| {
+        let inputs = vehicle.predicted(axis, motion);
+        let asked = |part: usize| -> Complex<f64> { gains.iter().zip(&inputs).map(|(g, input)| g[part] * input).sum() };
+        weights.iter().enumerate().map(|(part, weight)| weight * asked(part)).sum::<Complex<f64>>()
+    };
+    let (weights, motion) = reach(attitude, vehicle, axis, omega_rad_s);
+    let mut value = -returned(&weights, motion);
+    if omega_rad_s > IMAGES_FROM_RAD_S {
+        for image in [-TURN_RAD_S, TURN_RAD_S, -2.0 * TURN_RAD_S] {
+            let (weights, motion) = reach(attitude, vehicle, axis, omega_rad_s + image);
+            value -= returned(&weights, motion);
+        }
     }
     let small = (POSITION_M / size(motion[0])).min(VELOCITY_M_S / size(motion[1]));
-    LoopAt { value: -returned, weights, small }
+    LoopAt { value, weights, small }
+}
+
+/// 2π over the outer partition's period.
+const TURN_RAD_S: f64 = core::f64::consts::TAU / OUTER_STEP_S;
+
+/// Below, the images of the hold are less than a millionth.
+const IMAGES_FROM_RAD_S: f64 = 50.0;
+
+/// Weights of the demand of a position loop, and position, velocity and specific thrust for a unit of what comes of it;
+/// at a frequency that may be negative.
+fn reach<A: AttitudeLaw + Clone>(
+    attitude: &A,
+    vehicle: &Vehicle,
+    axis: usize,
+    omega_rad_s: f64,
+) -> ([Complex<f64>; 3], [Complex<f64>; 3]) {
+    let positive = omega_rad_s.abs();
+    let (weights, motion) = match axis {
+        // A force along x tilts it about y, one along y about −x, and so back.
+        0 | 1 => horizontal(attitude, vehicle, 1 - axis, positive),
+        _ => vertical(vehicle, positive),
+    };
+    if omega_rad_s < 0.0 { (weights.map(|w| w.conj()), motion.map(|m| m.conj())) } else { (weights, motion) }
 }
 
 /// Weights of a horizontal force and its derivatives towards the torque about `about`, and position, velocity and

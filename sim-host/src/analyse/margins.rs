@@ -70,9 +70,16 @@ pub(super) fn angle(value: Complex<f64>) -> f64 {
 
 impl Margins {
     /// Of samples in ascending order of frequency, near enough to each other for lines between them.
-    pub fn of(samples: &[Sample]) -> Self {
+    ///
+    /// `nyquist_rad_s` is π/h of a sampled loop whose samples end short of it. There L is real, and its real part is flat:
+    /// a loop of a fast law and a double integrator has its gain margin there.
+    pub fn of(samples: &[Sample], nyquist_rad_s: Option<f64>) -> Self {
+        let end = nyquist_rad_s
+            .zip(samples.last())
+            .map(|(omega_rad_s, last)| Sample { omega_rad_s, value: Complex::new(last.value.re, 0.0) });
+        let samples: Vec<Sample> = samples.iter().copied().chain(end).collect();
         let mut margins = Self::default();
-        for sample in samples {
+        for sample in &samples {
             let peak = 1.0 / size(sample.value + 1.0);
             if peak > margins.sensitivity_peak {
                 (margins.sensitivity_peak, margins.sensitivity_omega_rad_s) = (peak, sample.omega_rad_s);
@@ -160,7 +167,7 @@ mod tests {
     #[test]
     fn margins_of_an_integrator_with_two_lags() {
         // L = 2/(s(s + 1)²): −180° at 1 rad/s, where |L| = 1; half the gain has a margin of 2.
-        let margins = Margins::of(&samples(|s| (s * (s + 1.0) * (s + 1.0)).inv()));
+        let margins = Margins::of(&samples(|s| (s * (s + 1.0) * (s + 1.0)).inv()), None);
         let gain = margins.gain_upper.expect("it has one");
         near(Some(gain.factor), 2.0);
         near(Some(gain.omega_rad_s), 1.0);
@@ -174,7 +181,7 @@ mod tests {
     #[test]
     fn a_conditionally_stable_loop_has_a_margin_below_one() {
         // 5 (s + 1)²/s³: −180° at 1 rad/s, |L| = 10 there.
-        let margins = Margins::of(&samples(|s| (s + 1.0) * (s + 1.0) * 5.0 / (s * s * s)));
+        let margins = Margins::of(&samples(|s| (s + 1.0) * (s + 1.0) * 5.0 / (s * s * s)), None);
         near(margins.gain_lower.map(|g| g.factor), 0.1);
         assert!(margins.gain_upper.is_none());
     }

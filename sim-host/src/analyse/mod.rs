@@ -19,8 +19,9 @@
 //! ```
 //!
 //! w weighs a demand (f, ḟ, f̈) by the torque that comes of it, so L is one number although the demand is three. A gain or
-//! a delay of the demand multiplies L. What is left out: the images of the 4 ms hold, from 785 rad/s on, which the
-//! vehicle's integrators all but stop, and what couples the axes, which about a level hover is of second order.
+//! a delay of the demand multiplies L. The 4 ms hold has images at ω ± 2π/4h and ω − 4π/4h; L is their sum, the trace of
+//! the 3 × 3 loop, of which one eigenvalue is all that counts. What couples the axes is left out: about a level hover it
+//! is of second order, unless the rotors are not alike.
 //!
 //! **The simulation** is the whole firmware on the nonlinear plant ([`simulated`]), with a [tap](tap) on the law: a
 //! sinusoid there measures L, a gain or a delay there shows where the loop really becomes unstable.
@@ -207,12 +208,12 @@ where
 {
     let nyquist = core::f64::consts::PI / which.step_s();
     let at = |omega: f64| which.at(rig.laws, rig.vehicle, omega);
-    let first = if which.step_s() > 2e-3 { 0.2 } else { 1.0 };
-    let response: Vec<Sample> = frequencies(first, 0.95 * nyquist, POINTS)
+    let first = if which.step_s() > 2e-3 { 0.5 } else { 1.0 };
+    let response: Vec<Sample> = frequencies(first, 0.99 * nyquist, POINTS)
         .par_iter()
         .map(|omega| Sample { omega_rad_s: *omega, value: at(*omega).value })
         .collect();
-    let margins = Margins::of(&response);
+    let margins = Margins::of(&response, Some(nyquist));
     let mut made = Loop { name: which.name(), stable: true, margins, checks: vec![], margin_checks: vec![], response };
     let Some(crossover) = margins.crossover_rad_s else { return Ok(made) };
     made.stable = rig.is_stable(which, &at(crossover), crossover, Change::NONE)?;

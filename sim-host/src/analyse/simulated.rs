@@ -88,9 +88,10 @@ impl<A: AttitudeLaw + Clone, P: PositionLaw + Clone> Rig<'_, A, P> {
         let steps = (WATCHED / (omega_rad_s * which.step_s())).ceil() as u32;
         let push = linear.small / size(linear.weights[0]);
         let asked = self.asked(which, change, Signal::Impulse(push), steps)?;
-        let early = deviation(&asked[..asked.len() / 20]);
-        let late = deviation(&asked[asked.len() * 3 / 4..]);
-        Ok(late < early)
+        let part = |from: usize, to: usize| deviation(&asked[asked.len() * from / 20..asked.len() * to / 20]);
+        let (early, middle, late) = (part(0, 1), part(5, 10), part(15, 20));
+        // Come to rest, or to the rounding; grown, perhaps to a limit cycle; near the margin it does either slowly.
+        Ok(late < 0.1 * early || (late < 10.0 * early && late < middle))
     }
 
     /// Angle about `axis` (rad) after a step of the target's of so many rad, a sample a tick, in units of the step.
