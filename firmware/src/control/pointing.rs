@@ -98,6 +98,7 @@ fn rotation(w: f32, x: f32, y: f32, z: f32) -> Matrix3<f32> {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 mod tests {
     use super::*;
     use nalgebra::UnitQuaternion as Q;

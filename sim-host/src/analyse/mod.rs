@@ -43,6 +43,9 @@ use nalgebra::Complex;
 use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
 use serde::Serialize;
 
+use crate::baseline::geometric::{GeometricAttitude, GeometricPosition};
+use crate::baseline::indi::{IndiAttitude, IndiPosition};
+use crate::baseline::pid::{PidAttitude, PidPosition};
 use crate::controller::Controller;
 use crate::scenario::Scenario;
 use linear::{AttitudeAt, LoopAt, Which};
@@ -101,7 +104,8 @@ pub struct Loop {
     pub margins: Margins,
     /// Around the crossover.
     pub checks: Vec<Check>,
-    /// 5 % on either side of each gain margin, and the whole steps on either side of the delay margin.
+    /// 5 % on either side of each gain margin, and the whole steps on either side of the delay margin, 3 % off at least:
+    /// nearer it would take too long to tell.
     pub margin_checks: Vec<MarginCheck>,
     /// L.
     pub response: Vec<Sample>,
@@ -160,12 +164,21 @@ pub struct Analysis {
 pub fn analyse(scenario: &Scenario, seed: u64) -> Result<Analysis> {
     scenario.require_rigid_body()?;
     let hover = vehicle::hovering(scenario);
-    let config = hover.flight_config();
+    let (config, airframe) = (hover.flight_config(), hover.airframe.flight());
     match &hover.controller {
         Controller::Smc(_) => {
-            let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
-            let position = SlidingPosition::new(&config.airframe, &config.position);
-            of_laws(&hover, seed, &attitude, &position)
+            let attitude = SlidingAttitude::new(&airframe, &config.attitude);
+            of_laws(&hover, seed, &attitude, &SlidingPosition::new(&airframe, &config.position))
+        }
+        Controller::Pid(gains) => {
+            of_laws(&hover, seed, &PidAttitude::new(&airframe, gains), &PidPosition::new(&airframe, gains))
+        }
+        Controller::Geometric(gains) => {
+            let attitude = GeometricAttitude::new(&airframe, gains);
+            of_laws(&hover, seed, &attitude, &GeometricPosition::new(&airframe, gains))
+        }
+        Controller::Indi(gains) => {
+            of_laws(&hover, seed, &IndiAttitude::new(&airframe, gains), &IndiPosition::new(&airframe, gains))
         }
     }
 }
@@ -254,9 +267,9 @@ fn near_margins(margins: &Margins, step_s: f64) -> Vec<(Change, f64, bool)> {
         changes.extend([(gain(1.05 * factor), omega_rad_s, true), (gain(0.95 * factor), omega_rad_s, false)]);
     }
     if let (Some(delay_s), Some(omega)) = (margins.delay_s, margins.delay_omega_rad_s) {
-        let below = (delay_s / step_s).floor() as usize;
-        let delay = |delay_steps: usize| Change { gain: 1.0, delay_steps };
-        changes.extend([(delay(below), omega, true), (delay(below + 1), omega, false)]);
+        let delay = |steps: f64| Change { gain: 1.0, delay_steps: steps as usize };
+        let (below, above) = ((0.97 * delay_s / step_s).floor(), (1.03 * delay_s / step_s).ceil());
+        changes.extend([(delay(below), omega, true), (delay(above), omega, false)]);
     }
     changes
 }

@@ -20,8 +20,12 @@ use crate::scenario::Scenario;
 /// How long a loop is left to settle before its answer to a sinusoid is looked at, in units of 1/ω of its crossover.
 const SETTLING: f64 = 30.0;
 
-/// How long a loop at its margin is watched, in units of 1/ω.
+/// How long a loop at its margin is watched: in units of 1/ω, and at least so many steps.
 const WATCHED: f64 = 400.0;
+const WATCHED_STEPS: u32 = 2_000;
+
+/// The push that starts it, in units of the swing of a sinusoid that is small for the laws: so that it has far to grow.
+const PUSH: f64 = 0.2;
 
 /// A hovering vehicle, and the laws that fly it.
 pub(super) struct Rig<'a, A, P> {
@@ -85,11 +89,15 @@ impl<A: AttitudeLaw + Clone, P: PositionLaw + Clone> Rig<'_, A, P> {
 
     /// Whether a loop comes to rest after a push, with a change made to it that would have it oscillate at about ω.
     pub(super) fn is_stable(&self, which: Which, linear: &LoopAt, omega_rad_s: f64, change: Change) -> Result<bool> {
-        let steps = (WATCHED / (omega_rad_s * which.step_s())).ceil() as u32;
-        let push = linear.small / size(linear.weights[0]);
+        let per_turn = 1.0 / (omega_rad_s * which.step_s());
+        let steps = ((WATCHED * per_turn).ceil() as u32).max(WATCHED_STEPS);
+        // In one step as much as the sinusoid in 1/ω.
+        let push = PUSH * per_turn * linear.small / size(linear.weights[0]);
         let asked = self.asked(which, change, Signal::Impulse(push), steps)?;
-        let part = |from: usize, to: usize| deviation(&asked[asked.len() * from / 20..asked.len() * to / 20]);
-        let (early, middle, late) = (part(0, 1), part(5, 10), part(15, 20));
+        let first = change.delay_steps + (WATCHED * per_turn / 20.0).ceil() as usize;
+        let (early, rest) = asked.split_at(first.min(asked.len()));
+        let part = |from: usize, to: usize| deviation(&rest[rest.len() * from / 4..rest.len() * to / 4]);
+        let (early, middle, late) = (deviation(early), part(1, 2), part(3, 4));
         // Come to rest, or to the rounding; grown, perhaps to a limit cycle; near the margin it does either slowly.
         Ok(late < 0.1 * early || (late < 10.0 * early && late < middle))
     }

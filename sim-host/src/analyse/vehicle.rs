@@ -76,8 +76,6 @@ pub(super) struct Vehicle {
     pub(super) mass_kg: f64,
     /// k over m as the firmware believes, 1/s.
     pub(super) specific_drag: [f64; 3],
-    /// I as the firmware believes, kg m².
-    pub(super) inertia_kg_m2: [f64; 3],
     /// About x, y, z, with what the tilt does to the place.
     pub(super) about: [Sampled; 3],
     /// Along z.
@@ -126,7 +124,6 @@ impl Vehicle {
             specific_thrust: thrust / believed.mass,
             mass_kg: believed.mass,
             specific_drag: (believed.drag / believed.mass).into(),
-            inertia_kg_m2: believed.inertia.into(),
             about: [0, 1, 2].map(|axis| about(axis).sampled(TICK_S_EXACT)),
             vertical: vertical.sampled(TICK_S_EXACT),
         })
