@@ -44,8 +44,7 @@ fn a_vehicle_with_delay_lead_and_observers_does() {
     holds(&analysed("x500-hover", &[]));
 }
 
-/// Without lag the attitude loop of a saturated layer is λ and K/ρ on a sampled double integrator; the closed form of its L is
-/// (a p + b φ) with the torque held for a tick.
+/// Without lag the attitude loop is λ and K/ρ on a double integrator whose torque is held for a tick.
 #[test]
 fn the_attitude_loop_is_the_sampled_double_integrators() {
     let analysis = analysed("hover", &[]);
@@ -59,9 +58,20 @@ fn the_attitude_loop_is_the_sampled_double_integrators() {
         let error = (sample.value - expected).norm_sqr().sqrt() / expected.norm_sqr().sqrt();
         assert!(error < 2e-3, "{sample:?} {expected}");
     }
-    // The pole on −1: L(−1) = −rate h/2 (1 − 0), so the gain margin is 2/(rate h).
-    let gain = roll.margins.gain_upper;
-    assert!(gain.is_none_or(|g| (g.factor - 2.0 / (rate * h)).abs() < 0.05 * g.factor), "{gain:?}");
+    // At z = −1 L is −rate h/2.
+    let gain = roll.margins.gain_upper.expect("it has one").factor;
+    assert!((gain - 2.0 / (rate * h)).abs() < 0.005 * gain, "{gain}");
+    // |L| = 1 of rate/(jω) + angle/(jω)²: ω⁴ = rate² ω² + angle²; half a tick of hold.
+    let square = 0.5 * (rate * rate + (rate * rate * rate * rate + 4.0 * angle * angle).sqrt());
+    let crossover = square.sqrt();
+    let phase = (rate * crossover / angle).atan() - 0.5 * crossover * h;
+    let margins = roll.margins;
+    assert!((margins.crossover_rad_s.expect("it has one") / crossover - 1.0).abs() < 0.01, "{margins:?}");
+    assert!((margins.phase_deg.expect("it has one") - phase.to_degrees()).abs() < 0.5, "{margins:?}");
+    // Without lag the noise goes straight to the rotors: command = torque per rotor for (λ + K/ρ) I, the loop closed.
+    let bandwidth = analysis.attitude[0].bandwidth_rad_s.expect("it has one");
+    // λ K/ρ/((s + λ)(s + K/ρ)), held and sampled: −3 dB near 29.3 rad/s.
+    assert!((bandwidth / 29.35 - 1.0).abs() < 0.01, "{bandwidth}");
 }
 
 fn loop_named<'a>(analysis: &'a Analysis, name: &str) -> &'a Loop {

@@ -1,7 +1,7 @@
 //! The loops, linear, at one frequency: equations in the parent module's text.
 
 use firmware::control::law::{AttitudeLaw, PositionLaw};
-use nalgebra::Complex;
+use nalgebra::{Complex, Matrix3, RowVector3, Vector3};
 
 use super::chain::Moved;
 use super::law::{self, ANGLE_RAD, AttitudeChannel, POSITION_M, RATE_RAD_S, VELOCITY_M_S};
@@ -86,18 +86,23 @@ pub(super) fn position<A: AttitudeLaw + Clone, P: PositionLaw + Clone>(
     omega_rad_s: f64,
 ) -> LoopAt {
     let gains = law::position(law, axis, omega_rad_s);
-    let returned = |weights: &[Complex<f64>; 3], motion: [Complex<f64>; 3]| {
+    // The demand that comes back for a demand.
+    let returned = |weights: [Complex<f64>; 3], motion: [Complex<f64>; 3]| {
         let inputs = vehicle.predicted(axis, motion);
         let asked = |part: usize| -> Complex<f64> { gains.iter().zip(&inputs).map(|(g, input)| g[part] * input).sum() };
-        weights.iter().enumerate().map(|(part, weight)| weight * asked(part)).sum::<Complex<f64>>()
+        Vector3::new(asked(0), asked(1), asked(2)) * RowVector3::from(weights)
     };
     let (weights, motion) = reach(attitude, vehicle, axis, omega_rad_s);
-    let mut value = -returned(&weights, motion);
+    let mut whole: Matrix3<Complex<f64>> = returned(weights, motion);
+    let mut value = -whole.trace();
     if omega_rad_s > IMAGES_FROM_RAD_S {
         for image in [-TURN_RAD_S, TURN_RAD_S, -2.0 * TURN_RAD_S] {
             let (weights, motion) = reach(attitude, vehicle, axis, omega_rad_s + image);
-            value -= returned(&weights, motion);
+            whole += returned(weights, motion);
         }
+        let (_, triangle) = whole.schur().unpack();
+        let first = triangle.diagonal().iter().copied().max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+        value = -first.unwrap_or_default();
     }
     let small = (POSITION_M / size(motion[0])).min(VELOCITY_M_S / size(motion[1]));
     LoopAt { value, weights, small }

@@ -19,9 +19,9 @@
 //! ```
 //!
 //! w weighs a demand (f, ḟ, f̈) by the torque that comes of it, so L is one number although the demand is three. A gain or
-//! a delay of the demand multiplies L. The 4 ms hold has images at ω ± 2π/4h and ω − 4π/4h; L is their sum, the trace of
-//! the 3 × 3 loop, of which one eigenvalue is all that counts. What couples the axes is left out: about a level hover it
-//! is of second order, unless the rotors are not alike.
+//! a delay of the demand multiplies L. The 4 ms hold has images at ω ± 2π/4h and ω − 4π/4h. With them the loop is a sum of
+//! such products, a 3 × 3 matrix, and L its largest eigenvalue: near the crossover the only one that is not zero. What
+//! couples the axes is left out: about a level hover it is of second order, unless the rotors are not alike.
 //!
 //! **The simulation** is the whole firmware on the nonlinear plant ([`simulated`]), with a [tap](tap) on the law: a
 //! sinusoid there measures L, a gain or a delay there shows where the loop really becomes unstable.
