@@ -57,11 +57,16 @@ fn extent(line: &Points) -> (f64, f64) {
     (line.first().map_or(0.0, |p| p.0), line.last().map_or(1.0, |p| p.0))
 }
 
-/// Phase in °, from −360 to 0: a loop that is conditionally stable passes −180 more than once.
+/// Phase in °, from −360 to 0 at first, and on without a jump.
 fn phases(samples: &[Sample]) -> Points {
     let phase = |s: &Sample| libm::atan2(s.value.im, s.value.re).to_degrees();
-    let below = |degrees: f64| if degrees > 0.0 { degrees - 360.0 } else { degrees };
-    samples.iter().map(|s| (libm::log10(s.omega_rad_s), below(phase(s)))).collect()
+    let turns = |degrees: f64| 360.0 * (degrees / 360.0).round();
+    let mut before = -180.0;
+    let next = |s: &Sample| {
+        before = phase(s) - turns(phase(s) - before);
+        (libm::log10(s.omega_rad_s), before)
+    };
+    samples.iter().map(next).collect()
 }
 
 /// About −1, where it matters.
