@@ -68,7 +68,6 @@ fn the_attitude_loop_is_the_sampled_double_integrators() {
     let margins = roll.margins;
     assert!((margins.crossover_rad_s.expect("it has one") / crossover - 1.0).abs() < 0.01, "{margins:?}");
     assert!((margins.phase_deg.expect("it has one") - phase.to_degrees()).abs() < 0.5, "{margins:?}");
-    // Without lag the noise goes straight to the rotors: command = torque per rotor for (λ + K/ρ) I, the loop closed.
     let bandwidth = analysis.attitude[0].bandwidth_rad_s.expect("it has one");
     // λ K/ρ/((s + λ)(s + K/ρ)), held and sampled: −3 dB near 29.3 rad/s.
     assert!((bandwidth / 29.35 - 1.0).abs() < 0.01, "{bandwidth}");
