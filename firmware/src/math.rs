@@ -10,10 +10,11 @@ use core::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[inline]
 pub fn sqrt(x: f32) -> f32 {
-    /// The argument comes, and the result goes, in s0 (AAPCS, hard float).
+    /// The argument comes, and the result goes, in s0 (AAPCS, hard float). The assembler is told of the floating-point
+    /// unit, because it does not know the target's where it collects the symbols of a crate to be linked as a whole.
     #[unsafe(naked)]
     extern "C" fn vsqrt(x: f32) -> f32 {
-        core::arch::naked_asm!("vsqrt.f32 s0, s0", "bx lr")
+        core::arch::naked_asm!(".fpu fpv4-sp-d16", "vsqrt.f32 s0, s0", "bx lr")
     }
     vsqrt(x)
 }
