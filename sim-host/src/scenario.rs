@@ -24,16 +24,17 @@ macro_rules! built_in {
 }
 
 /// Scenarios that come with the binary, in the order in which they are listed.
-const SCENARIOS: [(&str, &str); 12] = built_in!("scenarios":
+const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
     "helix", "helix-tw4", "helix-lag", "figure-eight", "step", "hover", "pad",
     "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
+    "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery",
 );
 
 /// Airframes that come with the binary.
-const AIRFRAMES: [(&str, &str); 1] = built_in!("airframes": "paper");
+pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Tunings that come with the binary.
-const TUNINGS: [(&str, &str); 0] = [];
+const TUNINGS: [(&str, &str); 1] = built_in!("tunings": "x500-smc");
 
 /// Which model of the world is flown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

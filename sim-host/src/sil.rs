@@ -16,7 +16,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::noise::dryden::Wind;
 use crate::noise::{Disturbed, Noise};
-use crate::plant::{Constants, Motion, Plant};
+use crate::plant::{Constants, Motion, Plant, Push};
 use crate::record::{Recorder, Row};
 use crate::reference;
 use crate::report::angles::roll_pitch_yaw;
@@ -45,26 +45,22 @@ struct Delay {
 }
 
 impl Delay {
-    /// Of at most [`DELAY_TICKS_MAX`]; `omega` (rad/s) arrives until the first command does.
+    /// Of one tick to [`DELAY_TICKS_MAX`]; `omega` (rad/s) arrives until the first command does.
     fn new(ticks: usize, omega: [f64; ROTORS]) -> Self {
-        Self { on_the_way: [omega; DELAY_TICKS_MAX], ticks: ticks.min(DELAY_TICKS_MAX), next: 0 }
+        Self { on_the_way: [omega; DELAY_TICKS_MAX], ticks: ticks.clamp(1, DELAY_TICKS_MAX), next: 0 }
     }
 
-    /// What arrives at the tick in which `command` is given.
-    #[inline]
-    fn arriving(&self, command: [f64; ROTORS]) -> [f64; ROTORS] {
-        if self.ticks == 0 { command } else { self.on_the_way[self.next] }
+    /// What arrives now.
+    fn arriving(&self) -> [f64; ROTORS] {
+        self.on_the_way[self.next]
     }
 
-    /// Sends a command, and returns what arrives.
-    #[inline]
+    /// Sends a command, and returns what arrives. Out of the way of the flights without a delay.
+    #[cold]
     fn pass(&mut self, command: [f64; ROTORS]) -> [f64; ROTORS] {
-        let arriving = self.arriving(command);
-        if self.ticks > 0 {
-            self.on_the_way[self.next] = command;
-            self.next = (self.next + 1) % self.ticks;
-        }
-        arriving
+        let place = self.next;
+        self.next = (place + 1) % self.ticks;
+        core::mem::replace(&mut self.on_the_way[place], command)
     }
 }
 
@@ -75,6 +71,18 @@ struct WindPush {
     wind: Wind,
     /// k1..k3 over m, 1/s.
     drag: Vector3<f64>,
+    /// The sum of this tick.
+    sum: Push,
+}
+
+impl WindPush {
+    /// A push with this tick's wind added. Out of the way of the flights without wind.
+    #[cold]
+    fn add(&mut self, push: &Push) -> &Push {
+        let acceleration = push.acceleration + self.drag.component_mul(&self.wind.sample());
+        self.sum = Push { acceleration, ..*push };
+        &self.sum
+    }
 }
 
 /// A plant with the firmware in its loop, and the control laws that it flies by. On a cache line of its own: where a
@@ -86,33 +94,34 @@ pub struct Flight<P, A = SlidingAttitude, L = SlidingPosition> {
     pub autopilot: Autopilot<A, L>,
     plant: P,
     noise: Noise,
-    wind: Option<WindPush>,
-    delay: Delay,
     trajectory: Trajectory,
     tick: u32,
     outcome: Outcome,
+    /// Large and rarely used: elsewhere, so that the rest stays together.
+    delay: Option<Box<Delay>>,
+    wind: Option<Box<WindPush>>,
 }
 
 impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// Before the first tick.
     pub fn new(autopilot: Autopilot<A, L>, plant: P, noise: Noise, trajectory: Trajectory) -> Self {
         let outcome = Outcome { survived: true, ..Outcome::default() };
-        let delay = Delay::new(0, plant.omega());
-        Self { autopilot, plant, noise, wind: None, delay, trajectory, tick: 0, outcome }
+        Self { autopilot, plant, noise, trajectory, tick: 0, outcome, delay: None, wind: None }
     }
 
     /// With motor commands that act `ticks` later, at most [`DELAY_TICKS_MAX`]; until the first of them does, the
     /// rotors keep their speeds.
     #[must_use]
     pub fn with_actuation_delay(mut self, ticks: usize) -> Self {
-        self.delay = Delay::new(ticks, self.plant.omega());
+        self.delay = (ticks > 0).then(|| Box::new(Delay::new(ticks, self.plant.omega())));
         self
     }
 
     /// In a wind, which is asked for every tick; `constants` are the plant's.
     #[must_use]
     pub fn with_wind(mut self, wind: Wind, constants: &Constants) -> Self {
-        self.wind = Some(WindPush { wind, drag: constants.drag / constants.mass });
+        let drag = constants.drag / constants.mass;
+        self.wind = Some(Box::new(WindPush { wind, drag, sum: Push::default() }));
         self
     }
 
@@ -149,12 +158,15 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// The motor command acts on the plant until the next.
     #[inline]
     fn actuate(&mut self, motors: &MotorCommand, saturated: bool) {
-        let command = self.delay.pass(motors.omega_rad_s.map(f64::from));
-        let mut push = self.noise.at(self.tick).push;
-        if let Some(WindPush { wind, drag }) = &mut self.wind {
-            push.acceleration += drag.component_mul(&wind.sample());
+        let mut command = motors.omega_rad_s.map(f64::from);
+        if let Some(delay) = &mut self.delay {
+            command = delay.pass(command);
         }
-        self.plant.step(&command, &push, TICK_S_EXACT);
+        let mut push = &self.noise.at(self.tick).push;
+        if let Some(wind) = &mut self.wind {
+            push = wind.add(push);
+        }
+        self.plant.step(&command, push, TICK_S_EXACT);
         self.outcome.saturated_ticks += u32::from(saturated);
         self.tick += 1;
         self.outcome.ticks = self.tick;
@@ -175,7 +187,8 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// The record of this tick, with what the firmware has made of it.
     fn row(&self, inner: &InnerOutput, outer: &OuterOutput) -> Row {
         let t = time(self.tick);
-        let command = self.delay.arriving(inner.motors.omega_rad_s.map(f64::from));
+        let given = || inner.motors.omega_rad_s.map(f64::from);
+        let command = self.delay.as_ref().map_or_else(given, |delay| delay.arriving());
         let omega = self.plant.omega_during(&command);
         let desired = outer.attitude.target.attitude.cast::<f64>();
         Row {

@@ -170,9 +170,9 @@ fn integrate(mut s: State, omega: impl Fn(f64) -> [f64; 4]) -> State {
     s
 }
 
-fn assert_obeys(scenario: &str, lag_s: f64) {
-    let folder = Folder::new(scenario);
-    run(&[scenario, "--set", "duration_s=6"], &folder.0);
+fn assert_obeys(scenario: &str, setting: &str, lag_s: f64) {
+    let folder = Folder::new(&format!("{scenario}-{setting}"));
+    run(&[scenario, "--set", "duration_s=6", "--set", setting], &folder.0);
     let rows = read(&folder.0);
     assert_eq!(rows.len(), 6000);
     for pair in rows.windows(2) {
@@ -195,10 +195,15 @@ fn assert_obeys(scenario: &str, lag_s: f64) {
 
 #[test]
 fn truth_csv_obeys_the_rigid_body_equations() {
-    assert_obeys("helix", 0.0);
+    assert_obeys("helix", "actuation_delay_s=0.0", 0.0);
 }
 
 #[test]
 fn truth_csv_obeys_them_with_rotors_that_lag() {
-    assert_obeys("helix-lag", 0.02);
+    assert_obeys("helix-lag", "actuation_delay_s=0.0", 0.02);
+}
+
+#[test]
+fn truth_csv_obeys_them_with_a_delay() {
+    assert_obeys("helix-lag", "actuation_delay_s=0.003", 0.02);
 }

@@ -65,6 +65,7 @@ fn five_seconds_of_flight_allocate_nothing() {
     let settings = ["disturbance.from_s=0", "disturbance.to_s=9", "disturbance.hold_s=0.001"]
         .into_iter()
         .chain(["disturbance.acceleration_m_s2=0.5", "disturbance.angle_output_rad=0.001"])
+        .chain(["actuation_delay_s=0.002", "wind.turbulence_20ft_m_s=7.7"])
         .map(str::to_owned)
         .collect::<Vec<_>>();
     let scenario = Scenario::load("helix", &settings).expect("valid");

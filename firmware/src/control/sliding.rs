@@ -61,9 +61,10 @@ pub enum ReachingLaw {
         twist: f32,
     },
     /// Super-twisting by backward Euler (after Brogliato, Polyakov and Efimov 2020), v taken as the estimate of the
-    /// disturbance: with `u = v + w`, w solves `s⁺ = s − T w, w ∈ K √|s⁺| sgn(s⁺) + T k2 sgn(s⁺)`, and
-    /// `v̇ ∈ k2 sgn(s⁺)`. No chattering; where it is not saturated it is `s/T + ∫s/T²`, so a constant disturbance
-    /// leaves no error. T as for [`ImplicitSgn`](Self::ImplicitSgn).
+    /// disturbance: with `u = v + w`, w solves `s⁺ = s − T w, w ∈ K √|s⁺| sgn(s⁺) + 4T k2 sgn(s⁺)`, and
+    /// `v̇ ∈ k2 sgn(s⁺)`. No chattering; where |s| ≤ 4T² k2 it is `s/T + ∫s/(4T²)`, two poles at −1/(2T), so a constant
+    /// disturbance leaves no error (weighed over T alone, the poles would lie on the unit circle for T = h). T as for
+    /// [`ImplicitSgn`](Self::ImplicitSgn).
     ImplicitSuperTwisting {
         /// k2, in units of s a second squared.
         twist: f32,
@@ -171,11 +172,11 @@ enum Reach {
 /// Backward Euler of super-twisting, with T the horizon and h the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Twist {
-    /// T² k2: where |s| is below, s⁺ = 0.
+    /// 4T² k2: where |s| is below, s⁺ = 0.
     inside: f32,
     /// Its inverse.
     per_inside: f32,
-    /// T k2 and h k2.
+    /// 4T k2 and h k2.
     horizon_twist: f32,
     step_twist: f32,
     /// T K/2.
@@ -190,7 +191,7 @@ impl Twist {
         let beyond = math::abs(s) - self.inside;
         let mut w = self.horizon_twist * sign;
         if beyond > 0.0 {
-            // r = √|s⁺| solves r² + T K r = |s| − T² k2.
+            // r = √|s⁺| solves r² + T K r = |s| − 4T² k2.
             let half = self.half_horizon_gain;
             let root = math::sqrt(half * half + beyond) - half;
             w += gain * root * sign;
@@ -236,11 +237,11 @@ impl SlidingAxis {
             ReachingLaw::Exponential { rate, rho } => Reach::Exponential { slope: k / rho, rate },
             ReachingLaw::SuperTwisting { twist } => Reach::SuperTwisting { twist_step: twist * step_s },
             ReachingLaw::ImplicitSuperTwisting { twist, horizon_s } => {
-                let inside = horizon_s * horizon_s * twist;
+                let inside = 4.0 * horizon_s * horizon_s * twist;
                 Reach::ImplicitSuperTwisting(Twist {
                     inside,
                     per_inside: 1.0 / inside,
-                    horizon_twist: horizon_s * twist,
+                    horizon_twist: 4.0 * horizon_s * twist,
                     step_twist: step_s * twist,
                     half_horizon_gain: 0.5 * horizon_s * k,
                 })

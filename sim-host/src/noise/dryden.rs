@@ -1,4 +1,4 @@
-//! Wind: a steady part and Dryden turbulence at low altitude (MIL-F-8785C, 3.7.2 and 3.7.5).
+//! Wind: a steady part and Dryden turbulence, in the low-altitude form of MIL-F-8785C.
 //!
 //! ```text
 //! along    Hu(s) = σu √(2T) / (1 + T s)                  R(τ) = σu² e^(−τ/T)                  T = Lu/V
@@ -30,7 +30,7 @@ pub struct Intensity {
 }
 
 /// Intensities of the components along the wind (across it they are the same) and upwards, at `altitude_m` for a wind
-/// of `w20_m_s` at 20 ft: MIL-F-8785C, Figures 10 and 11. Heights beyond 10 ft … 1000 ft count as these.
+/// of `w20_m_s` at 20 ft. Heights beyond 10 ft … 1000 ft count as these.
 pub fn low_altitude(altitude_m: f64, w20_m_s: f64) -> [Intensity; 2] {
     let height_ft = (altitude_m / FOOT_M).clamp(ALTITUDE_FT.0, ALTITUDE_FT.1);
     let shape = 0.177 + 0.000_823 * height_ft;

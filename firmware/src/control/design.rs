@@ -1,0 +1,151 @@
+//! Gains from physical numbers: what disturbs an axis, what can be done about it, and how soon.
+//!
+//! The time τ that the axis takes to answer (sampling, delay and actuator lag together) bounds how fast a loop around it
+//! may be. Inside its layer a sliding mode axis is the loop
+//!
+//! ```text
+//! L(p) = (p + λ)/(T p²) · e^(−τp)        T: layer's time, u_r = s/T
+//! ```
+//!
+//! With T = 2.5 τ and λ = 1/(4T) it crosses over at 1.03/T with a phase margin of 53°, a gain margin of 3.75 (11 dB)
+//! and a delay margin of 2.2 τ, for every τ. The other numbers follow:
+//!
+//! ```text
+//! K = A                 all of the authority: an implicit law does not chatter by it (needs K > D)
+//! ρ = K T               for the layers that are given by their width
+//! approach_max = (A − D)/λ    the rate from which the disturbed axis can still brake along the surface
+//! k2 = 1.1 L, K = 1.5 √L      super-twisting (Levant 1998), L a bound on the disturbance's rate
+//! ```
+
+use crate::control::sliding::{AxisGains, ReachingLaw, Surface};
+use crate::math;
+use crate::validate::ConfigError;
+
+/// Which reaching law to design.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+pub enum Design {
+    /// Constant rate, smoothed by a layer of width ρ = K T.
+    Sat,
+    /// The same with tanh.
+    Tanh,
+    /// Half of the layer's slope by an exponential term, which works beyond the layer too.
+    Exponential,
+    /// Backward Euler of sgn.
+    #[default]
+    ImplicitSgn,
+    /// Super-twisting, explicit: for an axis that answers within a step.
+    SuperTwisting,
+    /// Super-twisting by backward Euler.
+    ImplicitSuperTwisting,
+}
+
+/// What is known of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+pub struct AxisBounds {
+    /// τ, from a measurement to the effect of what is made of it, s.
+    pub answer_s: f32,
+    /// D, the greatest disturbance, in m/s² or rad/s².
+    pub disturbance: f32,
+    /// L, how fast it may change, in m/s³ or rad/s³.
+    pub disturbance_rate: f32,
+    /// A, the greatest acceleration that the actuators can give, in m/s² or rad/s².
+    pub authority: f32,
+    /// Which law.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub law: Design,
+    /// On which surface.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub surface: Surface,
+}
+
+/// Layer's time over the answer time.
+const LAYER_PER_ANSWER: f32 = 2.5;
+/// Layer's time over the surface's, 1/λ.
+const LAYER_PER_SURFACE: f32 = 0.25;
+
+impl AxisBounds {
+    /// The gains.
+    ///
+    /// # Errors
+    /// `name` if a number is not positive, or the disturbance not below the authority: no law can reject it then.
+    pub fn gains(&self, name: &'static str) -> Result<AxisGains, ConfigError> {
+        for value in [self.answer_s, self.disturbance, self.disturbance_rate, self.authority] {
+            ConfigError::require_positive(name, value)?;
+        }
+        if self.disturbance >= self.authority {
+            return Err(ConfigError::OutOfRange(name));
+        }
+        let horizon_s = LAYER_PER_ANSWER * self.answer_s;
+        let lambda = LAYER_PER_SURFACE / horizon_s;
+        let authority = self.authority;
+        let (twist, root_gain) = (1.1 * self.disturbance_rate, 1.5 * math::sqrt(self.disturbance_rate));
+        let rho = authority * horizon_s;
+        let (gain, reaching) = match self.law {
+            Design::Sat => (authority, ReachingLaw::Sat { rho }),
+            Design::Tanh => (authority, ReachingLaw::Tanh { rho }),
+            Design::Exponential => (authority, ReachingLaw::Exponential { rate: 0.5 / horizon_s, rho: 2.0 * rho }),
+            Design::ImplicitSgn => (authority, ReachingLaw::ImplicitSgn { horizon_s }),
+            Design::SuperTwisting => (root_gain, ReachingLaw::SuperTwisting { twist }),
+            Design::ImplicitSuperTwisting => (root_gain, ReachingLaw::ImplicitSuperTwisting { twist, horizon_s }),
+        };
+        let approach_max = (authority - self.disturbance) / lambda;
+        Ok(AxisGains { lambda, gain, reaching, surface: self.surface, approach_max })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOUNDS: AxisBounds = AxisBounds {
+        answer_s: 0.007,
+        disturbance: 20.0,
+        disturbance_rate: 200.0,
+        authority: 120.0,
+        law: Design::ImplicitSgn,
+        surface: Surface::Linear,
+    };
+
+    #[test]
+    fn the_margins_are_those_that_the_text_promises() {
+        let gains = BOUNDS.gains("roll").expect("valid");
+        let ReachingLaw::ImplicitSgn { horizon_s } = gains.reaching else { panic!("asked for another law") };
+        let (t, lambda) = (f64::from(horizon_s), f64::from(gains.lambda));
+        let tau = f64::from(BOUNDS.answer_s);
+        let size = |w: f64| (w * w + lambda * lambda).sqrt() / (t * w * w);
+        let phase = |w: f64| (w / lambda).atan() - core::f64::consts::PI - tau * w;
+        let crossing = |f: &dyn Fn(f64) -> f64| {
+            let (mut low, mut high) = (0.5 / t, 20.0 / t);
+            for _ in 0..100 {
+                let middle = 0.5 * (low + high);
+                if f(middle) > 0.0 { low = middle } else { high = middle }
+            }
+            low
+        };
+        let crossover = crossing(&|w| size(w) - 1.0);
+        let margin = phase(crossover) + core::f64::consts::PI;
+        assert!((crossover * t - 1.03).abs() < 0.01 && (margin.to_degrees() - 53.0).abs() < 0.5, "{margin}");
+        let turn = crossing(&|w| phase(w) + core::f64::consts::PI);
+        assert!((1.0 / size(turn) - 3.75).abs() < 0.02, "{}", 1.0 / size(turn));
+        assert!((margin / crossover / tau - 2.2).abs() < 0.05);
+    }
+
+    #[test]
+    fn every_design_is_valid_and_a_disturbance_beyond_the_authority_is_refused() {
+        for law in [
+            Design::Sat,
+            Design::Tanh,
+            Design::Exponential,
+            Design::ImplicitSgn,
+            Design::SuperTwisting,
+            Design::ImplicitSuperTwisting,
+        ] {
+            let gains = AxisBounds { law, ..BOUNDS }.gains("roll").expect("valid");
+            assert_eq!(gains.validate("roll"), Ok(()));
+        }
+        let weak = AxisBounds { authority: 20.0, ..BOUNDS };
+        assert_eq!(weak.gains("roll"), Err(ConfigError::OutOfRange("roll")));
+    }
+}
