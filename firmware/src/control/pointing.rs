@@ -23,9 +23,10 @@ pub struct PointingError {
     pub error: Vector3<f32>,
     /// R(qe), which takes the desired body's vectors to the body's frame.
     pub rotation: Matrix3<f32>,
-    /// wx − yz, wy + xz, 1/√N, sgn(w)·(w, x, y, z).
+    /// wx − yz, wy + xz, 1/√N, sgn(w)/√N, (w, x, y, z).
     tilt: (f32, f32),
     per_root: f32,
+    signed_per_root: f32,
     relative: [f32; 4],
 }
 
@@ -37,24 +38,24 @@ impl PointingError {
     #[inline]
     pub fn between(is: &UnitQuaternion<f32>, ought: &UnitQuaternion<f32>) -> Self {
         let (a, b) = (is.quaternion(), ought.quaternion());
-        // q⁻¹ ⊗ qd, with the sign for which w ≥ 0.
+        // q⁻¹ ⊗ qd.
         let w = a.w * b.w + a.i * b.i + a.j * b.j + a.k * b.k;
         let x = a.w * b.i - a.i * b.w - a.j * b.k + a.k * b.j;
         let y = a.w * b.j + a.i * b.k - a.j * b.w - a.k * b.i;
         let z = a.w * b.k - a.i * b.j + a.j * b.i - a.k * b.w;
-        let sign = if w < 0.0 { -1.0 } else { 1.0 };
-        let (w, x, y, z) = (sign * w, sign * x, sign * y, sign * z);
 
         let square = w * w + z * z;
         let per_root = 1.0 / math::sqrt(math::max(square, INVERTED));
+        // Products of two components do not know the sign of the quaternion; what turns it back does.
+        let signed_per_root = if w < 0.0 { -per_root } else { per_root };
         let tilt = (w * x - y * z, w * y + x * z);
         let twice = 2.0 * per_root;
         let error = if square > INVERTED {
-            Vector3::new(twice * tilt.0, twice * tilt.1, twice * z)
+            Vector3::new(twice * tilt.0, twice * tilt.1, 2.0 * signed_per_root * z)
         } else {
             Vector3::new(2.0, 0.0, 0.0)
         };
-        Self { error, rotation: rotation(w, x, y, z), tilt, per_root, relative: [w, x, y, z] }
+        Self { error, rotation: rotation(w, x, y, z), tilt, per_root, signed_per_root, relative: [w, x, y, z] }
     }
 
     /// ė, given the rate error R(qe) Ωd − Ω in the body's frame.
@@ -72,7 +73,7 @@ impl PointingError {
         Vector3::new(
             root * (a * axis - 2.0 * c * t2 + t1 * shrinking),
             root * (b * axis + 2.0 * c * t1 + t2 * shrinking),
-            root * (c * w + a * y - b * x + z * shrinking),
+            self.signed_per_root * (c * w + a * y - b * x + z * shrinking),
         )
     }
 }

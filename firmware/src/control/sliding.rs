@@ -187,7 +187,7 @@ impl Twist {
     /// w and the change of v.
     #[inline]
     fn solve(&self, gain: f32, s: f32) -> (f32, f32) {
-        let sign = math::clamp(s * self.per_inside, -1.0, 1.0);
+        let sign = math::limit(s * self.per_inside, 1.0);
         let beyond = math::abs(s) - self.inside;
         let mut w = self.horizon_twist * sign;
         if beyond > 0.0 {
@@ -272,16 +272,19 @@ impl SlidingAxis {
         let (s, equivalent) = match self.surface {
             Surface::Linear => {
                 let approach = self.lambda * error;
-                let limited = math::clamp(approach, -self.approach_max, self.approach_max);
-                // Where the approach is limited it does not change.
-                let equivalent = if limited == approach { self.lambda * error_rate } else { 0.0 };
-                (limited + velocity_error, equivalent)
+                if math::abs(approach) <= self.approach_max {
+                    (approach + velocity_error, self.lambda * error_rate)
+                } else {
+                    // Limited, it does not change.
+                    (math::limit(approach, self.approach_max) + velocity_error, 0.0)
+                }
             }
             Surface::Integral => self.integral_surface(error, error_rate, velocity_error, hold),
         };
         Correction { s, acceleration: equivalent + self.reach(s, hold) }
     }
 
+    #[inline(never)]
     fn integral_surface(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> (f32, f32) {
         let proportional = velocity_error + 2.0 * self.lambda * error;
         let integral = self.integral.unwrap_or(-proportional);
@@ -293,13 +296,22 @@ impl SlidingAxis {
     /// u_r(s).
     #[inline]
     fn reach(&mut self, s: f32, hold: bool) -> f32 {
+        match self.reach {
+            Reach::Layer { slope } => math::limit(s * slope, self.gain),
+            _ => self.reach_otherwise(s, hold),
+        }
+    }
+
+    /// u_r(s) of the laws that are more than a layer; apart, so that the layer's fits into the loop.
+    #[inline(never)]
+    fn reach_otherwise(&mut self, s: f32, hold: bool) -> f32 {
         let k = self.gain;
         let (rate, twist) = match self.reach {
-            Reach::Layer { slope } => return math::clamp(s * slope, -k, k),
+            Reach::Layer { slope } => return math::limit(s * slope, k),
             Reach::Sgn => return k * sgn(s),
             Reach::Tanh { per_rho } => return k * math::tanh(s * per_rho),
             Reach::Power { alpha } => return k * sgn(s) * math::shape_power(math::abs(s), alpha),
-            Reach::Exponential { slope, rate } => return math::clamp(s * slope, -k, k) + rate * s,
+            Reach::Exponential { slope, rate } => return math::limit(s * slope, k) + rate * s,
             Reach::SuperTwisting { twist_step } => (k * math::sqrt(math::abs(s)) * sgn(s), twist_step * sgn(s)),
             Reach::ImplicitSuperTwisting(twist) => twist.solve(k, s),
         };

@@ -175,6 +175,7 @@ impl Flight {
     }
 
     /// Guidance, position control and flatness.
+    #[inline(never)]
     fn outer_job(&mut self, tick: Tick) {
         let effective = tick + OUTER.offset;
         let input = OuterInput { nav: self.plant.nav, thrust_n: self.inner.thrust_n(), flight_start: Some(0) };
@@ -190,6 +191,7 @@ impl Flight {
     }
 
     /// Attitude control and mixer, then the mixer once more by itself.
+    #[inline(never)]
     fn inner_step(&mut self, tick: Tick) {
         let sample = SensorFrame { nav: self.plant.nav };
         self.inner.sense(Some(&sample));
