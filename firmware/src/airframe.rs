@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use crate::math;
 use crate::validate::ConfigError;
 
-/// Rotors of the vehicles this build flies. The mixer itself takes any number.
+/// Rotors of the vehicles this build flies. The mixer itself takes four to eight.
 pub const ROTORS: usize = 4;
 
 /// Physical constants of an airframe. Frames are NWU/FLU.
