@@ -34,7 +34,7 @@ const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
 pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Tunings that come with the binary.
-const TUNINGS: [(&str, &str); 1] = built_in!("tunings": "x500-smc");
+const TUNINGS: [(&str, &str); 3] = built_in!("tunings": "x500-smc", "racer250-smc", "crazyflie-smc");
 
 /// Which model of the world is flown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -136,7 +136,7 @@ pub struct ScenarioFile {
     pub join: Option<JoinPlan>,
     /// Gains of the sliding mode laws.
     pub control: Option<Control>,
-    /// In their place, name or path of a tuning file.
+    /// In their place, name or path of a tuning file. Without either, the airframe's own, `<airframe>-smc`.
     pub tuning: Option<String>,
     /// Gaussian disturbances.
     pub disturbance: Option<Disturbance>,
@@ -260,17 +260,25 @@ impl Scenario {
 
 /// The controller that a scenario asks for.
 fn controller(file: &ScenarioFile) -> Result<Controller> {
+    let own = format!("{}-smc", file.airframe);
     match (&file.tuning, &file.control) {
-        (Some(name), None) => {
-            let tuning = parse(&source(name, "tuning", &TUNINGS)?)
-                .and_then(|table| table.try_into::<TuningFile>().map_err(|error| one_line(&error)))
-                .with_context(|| format!("tuning `{name}`"))?;
-            Ok(tuning.controller)
-        }
+        (Some(name), None) => tuning(name),
         (None, Some(control)) => Ok(Controller::Smc(control.clone())),
+        (None, None) if TUNINGS.iter().any(|(name, _)| *name == own) => tuning(&own),
         (Some(_), Some(_)) => bail!("`tuning` and `control` both say what flies: keep one"),
         (None, None) => bail!("`tuning` is missing: name a tuning file, or give gains under `[control]`"),
     }
+}
+
+/// The controller of a built-in tuning file or of one at a path.
+///
+/// # Errors
+/// One line that names the file, and what is wrong with it.
+pub fn tuning(name: &str) -> Result<Controller> {
+    let file = parse(&source(name, "tuning", &TUNINGS)?)
+        .and_then(|table| table.try_into::<TuningFile>().map_err(|error| one_line(&error)))
+        .with_context(|| format!("tuning `{name}`"))?;
+    Ok(file.controller)
 }
 
 /// Whether a setting makes another problem of it than the one whose time-optimal bound is known.

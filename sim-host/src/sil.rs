@@ -125,7 +125,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         self
     }
 
-    /// What the firmware's sensor sees now.
+    /// What the firmware's sensor sees now. To be asked once a tick, before the plant moves.
     #[inline]
     pub fn sense(&mut self) -> SensorFrame {
         sense(&self.plant.motion(), self.noise.at(self.tick))
@@ -162,7 +162,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         if let Some(delay) = &mut self.delay {
             command = delay.pass(command);
         }
-        let mut push = &self.noise.at(self.tick).push;
+        let mut push = &self.noise.now().push;
         if let Some(wind) = &mut self.wind {
             push = wind.add(push);
         }

@@ -6,6 +6,7 @@ use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
 use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use sim_host::flight;
+use sim_host::noise::Noise;
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::plant::{Constants, Motion, Plant, Push};
 use sim_host::record::Row;
@@ -236,4 +237,28 @@ fn a_tumbling_start_is_the_seeds() {
     assert_eq!(start(5), start(5));
     assert_ne!(start(5), start(6));
     assert!((start(5).rates.norm() - 10.0).abs() < 1e-12 && (start(5).velocity.norm() - 3.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_disturbance_is_drawn_once_a_tick_and_pushes_as_it_was_drawn() {
+    let scenario = load(
+        "x500-hover",
+        &[
+            "disturbance={from_s=0.1,to_s=0.9,hold_s=0.001,acceleration_m_s2=2.0,position_output_m=0.01}",
+            "duration_s=2",
+        ],
+    );
+    let constants = scenario.constants();
+    let hover = constants.hover_omega();
+    let rows = fly_open_loop(&scenario, 1_000, |_| [hover as f32; 4]);
+    // Level and hovering, v̇ = a − (k/m) v: exact for an acceleration that is held over the tick.
+    let decay = constants.drag.x / constants.mass;
+    let kept = (-decay * MS).exp();
+    let mut noise = Noise::new(scenario.file.disturbance.as_ref(), 1, 1000.0);
+    let mut velocity = 0.0;
+    for (tick, row) in rows.iter().enumerate() {
+        assert!((row.velocity[0] - velocity).abs() < 1e-12, "tick {tick}: {} {velocity}", row.velocity[0]);
+        let push = noise.at(tick as u32).push.acceleration.x;
+        velocity = velocity * kept + push * (1.0 - kept) / decay;
+    }
 }

@@ -74,7 +74,7 @@ impl Noise {
         }
     }
 
-    /// What acts at `tick`. To be asked for each tick in turn.
+    /// What acts at `tick`. To be asked for each tick in turn, once; [`now`](Self::now) says it again.
     #[inline]
     pub fn at(&mut self, tick: u32) -> &Disturbed {
         if self.ticks.contains(&tick) {
@@ -84,6 +84,12 @@ impl Noise {
         } else if tick == self.ticks.end {
             self.now = Disturbed::default();
         }
+        &self.now
+    }
+
+    /// What acts at the tick last asked for.
+    #[inline]
+    pub fn now(&self) -> &Disturbed {
         &self.now
     }
 

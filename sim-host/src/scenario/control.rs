@@ -1,10 +1,13 @@
-//! Gains of the sliding mode laws, by axis, as they stand in a file.
+//! Gains of the sliding mode laws, by axis, as they stand in a file: each axis by its gains, or by what is known of it
+//! ([`AxisBounds`], told apart by `answer_s`), from which the gains follow.
 
 use firmware::control::attitude::{AttitudeForm, AttitudeGains};
+use firmware::control::design::AxisBounds;
 use firmware::control::observer::ObserverGains;
 use firmware::control::position::PositionGains;
 use firmware::control::sliding::AxisGains;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Gains, by axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,17 +28,33 @@ pub struct Control {
     #[serde(default)]
     pub position_observer: ObserverGains,
     /// Roll φ.
+    #[serde(deserialize_with = "axis")]
     pub roll: AxisGains,
     /// Pitch θ.
+    #[serde(deserialize_with = "axis")]
     pub pitch: AxisGains,
     /// Yaw ψ.
+    #[serde(deserialize_with = "axis")]
     pub yaw: AxisGains,
     /// x.
+    #[serde(deserialize_with = "axis")]
     pub x: AxisGains,
     /// y.
+    #[serde(deserialize_with = "axis")]
     pub y: AxisGains,
     /// z.
+    #[serde(deserialize_with = "axis")]
     pub z: AxisGains,
+}
+
+/// An axis by its gains or by its bounds.
+fn axis<'de, D: Deserializer<'de>>(deserializer: D) -> Result<AxisGains, D::Error> {
+    let table = toml::Table::deserialize(deserializer)?;
+    if !table.contains_key("answer_s") {
+        return AxisGains::deserialize(table).map_err(D::Error::custom);
+    }
+    let bounds = AxisBounds::deserialize(table).map_err(D::Error::custom)?;
+    bounds.gains("bounds").map_err(D::Error::custom)
 }
 
 impl Control {
