@@ -85,6 +85,13 @@ pub fn limit(x: f32, most: f32) -> f32 {
     }
 }
 
+/// `x` limited to `0.0 ..= most`; 0 where `x` is NaN. Numbers from 0 up are ordered as their bits are, and those of a
+/// negative number or of none are greater: one comparison tells that neither limit acts.
+#[inline]
+pub fn limit_positive(x: f32, most: f32) -> f32 {
+    if x.to_bits() <= most.to_bits() { x } else { clamp(x, 0.0, most) }
+}
+
 /// Magnitude.
 #[inline]
 pub fn abs(x: f32) -> f32 {

@@ -85,16 +85,15 @@ impl SlidingAttitude {
     #[inline]
     fn on_group(&mut self, input: &AttitudeInput) -> (Vector3<f32>, Vector3<f32>) {
         let pointing = PointingError::between(input.attitude, &input.target.attitude);
-        let desired = pointing.rotation * input.target.rates;
-        let rate_error = desired - input.rates;
+        let rate_error = pointing.to_body(&input.target.rates) - input.rates;
+        // d/dt [R(qe) Ωd] = R(qe) Ω̇d − Ω × R(qe) Ωd, and Ω × Ω = 0.
+        let feedforward = pointing.to_body(&input.target.accelerations) - input.rates.cross(&rate_error);
         let (e, rate) = (&pointing.error, pointing.rate(&rate_error));
         let hold = input.saturated;
         let [g1, g2, g3] = &mut self.axes;
         let roll = g1.correction_along(e.x, rate.x, rate_error.x, hold);
         let pitch = g2.correction_along(e.y, rate.y, rate_error.y, hold);
         let yaw = g3.correction_along(e.z, rate.z, rate_error.z, hold);
-        // d/dt [R(qe) Ωd] = R(qe) Ω̇d − Ω × R(qe) Ωd.
-        let feedforward = pointing.rotation * input.target.accelerations - input.rates.cross(&desired);
         let correction = Vector3::new(roll.acceleration, pitch.acceleration, yaw.acceleration);
         (Vector3::new(roll.s, pitch.s, yaw.s), feedforward + correction)
     }
@@ -128,14 +127,14 @@ impl SlidingAttitude {
 impl AttitudeLaw for SlidingAttitude {
     #[inline]
     fn step(&mut self, input: &AttitudeInput) -> AttitudeDemand {
-        let spins = self.rotor_senses.iter().zip(input.rotor_speeds).map(|(sense, omega)| sense * omega);
-        let holding = holding_torque(&self.airframe, input.rates, spins.reduce(|a, b| a + b).unwrap_or(0.0));
         let (s, acceleration) = match self.form {
             AttitudeForm::Group => self.on_group(input),
             AttitudeForm::Euler => {
                 self.on_euler_angles(*input.attitude, *input.rates, *input.target, input.saturated)
             }
         };
+        let spins = self.rotor_senses.iter().zip(input.rotor_speeds).map(|(sense, omega)| sense * omega);
+        let holding = holding_torque(&self.airframe, input.rates, spins.reduce(|a, b| a + b).unwrap_or(0.0));
         let acceleration = acceleration - self.disturbance(input, &holding);
         let inertia = Vector3::from(self.airframe.inertia_kg_m2);
         AttitudeDemand { s, torque: holding + inertia.component_mul(&acceleration) }

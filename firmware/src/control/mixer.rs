@@ -189,7 +189,7 @@ where
     ///
     /// # Errors
     /// [`MixerError::NonFinite`] with the demand's field; nothing is allocated then.
-    #[inline]
+    #[inline(always)]
     pub fn allocate(&self, demand: &ControlInput) -> Result<Allocation<N>, MixerError> {
         let omega_sq = self.speeds(demand);
         // A demand that is not finite has no speed that is.

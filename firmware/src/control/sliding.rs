@@ -217,6 +217,8 @@ pub struct SlidingAxis {
     approach_max: f32,
     reach: Reach,
     surface: Surface,
+    /// Slope of a layer on a linear surface: with [`ReachingLaw::ImplicitSgn`] or [`ReachingLaw::Sat`].
+    layer: Option<f32>,
     step_s: f32,
     /// v of super-twisting.
     twist: f32,
@@ -248,7 +250,11 @@ impl SlidingAxis {
             }
         };
         let AxisGains { lambda, gain, approach_max, surface, .. } = *gains;
-        Self { lambda, gain, approach_max, reach, surface, step_s, twist: 0.0, integral: None }
+        let layer = match (surface, reach) {
+            (Surface::Linear, Reach::Layer { slope }) => Some(slope),
+            _ => None,
+        };
+        Self { lambda, gain, approach_max, reach, surface, layer, step_s, twist: 0.0, integral: None }
     }
 
     /// Forgets what has been integrated.
@@ -269,22 +275,41 @@ impl SlidingAxis {
     /// surface is `s = λ e + velocity_error`, its derivative takes `λ ė`.
     #[inline]
     pub fn correction_along(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> Correction {
+        if let Some(slope) = self.layer {
+            let (s, equivalent) = self.linear_surface(error, error_rate, velocity_error);
+            return Correction { s, acceleration: equivalent + math::limit(slope * s, self.gain) };
+        }
+        self.correction_otherwise(error, error_rate, velocity_error, hold)
+    }
+
+    /// The same for every surface and reaching law; apart, so that what is flown most fits into the loop.
+    #[inline(never)]
+    fn correction_otherwise(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> Correction {
         let (s, equivalent) = match self.surface {
-            Surface::Linear => {
-                let approach = self.lambda * error;
-                if math::abs(approach) <= self.approach_max {
-                    (approach + velocity_error, self.lambda * error_rate)
-                } else {
-                    // Limited, it does not change.
-                    (math::limit(approach, self.approach_max) + velocity_error, 0.0)
-                }
-            }
+            Surface::Linear => self.linear_surface(error, error_rate, velocity_error),
             Surface::Integral => self.integral_surface(error, error_rate, velocity_error, hold),
         };
         Correction { s, acceleration: equivalent + self.reach(s, hold) }
     }
 
+    /// s, and the derivative of its part λ e.
+    #[inline]
+    fn linear_surface(&self, error: f32, error_rate: f32, velocity_error: f32) -> (f32, f32) {
+        let approach = self.lambda * error;
+        if math::abs(approach) <= self.approach_max {
+            (approach + velocity_error, self.lambda * error_rate)
+        } else {
+            self.limited_surface(approach, velocity_error)
+        }
+    }
+
+    /// The same where λ e is limited, and so does not change.
+    #[cold]
     #[inline(never)]
+    fn limited_surface(&self, approach: f32, velocity_error: f32) -> (f32, f32) {
+        (math::limit(approach, self.approach_max) + velocity_error, 0.0)
+    }
+
     fn integral_surface(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> (f32, f32) {
         let proportional = velocity_error + 2.0 * self.lambda * error;
         let integral = self.integral.unwrap_or(-proportional);
@@ -294,17 +319,7 @@ impl SlidingAxis {
     }
 
     /// u_r(s).
-    #[inline]
     fn reach(&mut self, s: f32, hold: bool) -> f32 {
-        match self.reach {
-            Reach::Layer { slope } => math::limit(s * slope, self.gain),
-            _ => self.reach_otherwise(s, hold),
-        }
-    }
-
-    /// u_r(s) of the laws that are more than a layer; apart, so that the layer's fits into the loop.
-    #[inline(never)]
-    fn reach_otherwise(&mut self, s: f32, hold: bool) -> f32 {
         let k = self.gain;
         let (rate, twist) = match self.reach {
             Reach::Layer { slope } => return math::limit(s * slope, k),
@@ -343,20 +358,32 @@ impl SlidingAxis {
     /// Derivative of the [`correction`](Self::correction) that gave `s`, for e, ė and ë.
     #[inline]
     pub fn correction_rate(&self, s: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
+        if let Some(slope) = self.layer {
+            let slope = if math::abs(s * slope) < self.gain { slope } else { 0.0 };
+            return self.linear_rate(slope, error, error_rate, error_acceleration);
+        }
+        self.correction_rate_otherwise(s, error, error_rate, error_acceleration)
+    }
+
+    /// The same for every surface and reaching law.
+    #[inline(never)]
+    fn correction_rate_otherwise(&self, s: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
         let slope = self.reach_slope(s);
         match self.surface {
-            Surface::Linear => {
-                let approach = self.lambda * error;
-                // Limited, the approach is constant.
-                let lambda = if math::abs(approach) <= self.approach_max { self.lambda } else { 0.0 };
-                lambda * error_acceleration + slope * (lambda * error_rate + error_acceleration)
-            }
+            Surface::Linear => self.linear_rate(slope, error, error_rate, error_acceleration),
             Surface::Integral => {
                 let (twice, square) = (2.0 * self.lambda, self.lambda * self.lambda);
                 let equivalent_rate = twice * error_acceleration + square * error_rate;
                 equivalent_rate + slope * (error_acceleration + twice * error_rate + square * error)
             }
         }
+    }
+
+    #[inline]
+    fn linear_rate(&self, slope: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
+        // Limited, the approach is constant.
+        let lambda = if math::abs(self.lambda * error) <= self.approach_max { self.lambda } else { 0.0 };
+        lambda * error_acceleration + slope * (lambda * error_rate + error_acceleration)
     }
 }
 

@@ -185,7 +185,7 @@ impl Flight {
         let (outer, input, reference) = black_box((&mut self.outer, &input, &reference));
         let (instructions, output) = self
             .counter
-            .count(counter::mark_begin_position, || black_box(outer.follow(black_box(effective), input, reference)));
+            .count(counter::mark_begin_position, || black_box(outer.follow(effective, input, reference)));
         self.counts.position.add(instructions);
         self.next = output.attitude;
     }
@@ -196,8 +196,9 @@ impl Flight {
         let sample = SensorFrame { nav: self.plant.nav };
         self.inner.sense(Some(&sample));
         let (inner, sample, reference) = black_box((&mut self.inner, &sample, &self.reference));
+        let armed = black_box(true);
         let (instructions, output) = self.counter.count(counter::mark_begin_attitude, || {
-            black_box(inner.step(black_box(tick), Some(sample), reference, black_box(true)))
+            inner.step(tick, Some(sample), reference, armed)
         });
         self.counts.attitude.add(instructions);
 
