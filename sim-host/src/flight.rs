@@ -8,6 +8,9 @@ use firmware::control::position::SlidingPosition;
 use firmware::signals::TICK_S_EXACT;
 use nalgebra::Vector3;
 
+use crate::baseline::geometric::{GeometricAttitude, GeometricPosition};
+use crate::baseline::indi::{IndiAttitude, IndiPosition};
+use crate::baseline::pid::{PidAttitude, PidPosition};
 use crate::controller::Controller;
 use crate::decoupled::Decoupled;
 use crate::noise::Noise;
@@ -32,8 +35,9 @@ pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
 /// A plant with the firmware of a scenario in its loop, flying by its own sliding mode laws.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// What of the scenario the firmware refuses, or that it asks for another controller.
 pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Flight<P>> {
+    scenario.controller.require_smc("this command")?;
     let config = scenario.flight_config();
     let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
     let position = SlidingPosition::new(&config.airframe, &config.position);
@@ -80,8 +84,20 @@ pub fn fly(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Resu
 
 /// Flies a scenario on a plant by the control laws that it asks for.
 fn on_plant<P: Plant>(scenario: &Scenario, seed: u64, plant: P, recorder: &mut impl Recorder) -> Result<Outcome> {
-    let ticks = scenario.ticks();
+    let (ticks, airframe) = (scenario.ticks(), scenario.airframe.flight());
     Ok(match &scenario.controller {
         Controller::Smc(_) => lockstep(scenario, seed, plant)?.run(ticks, recorder),
+        Controller::Pid(gains) => {
+            let (inner, outer) = (PidAttitude::new(&airframe, gains), PidPosition::new(&airframe, gains));
+            with_laws(scenario, seed, plant, inner, outer)?.run(ticks, recorder)
+        }
+        Controller::Geometric(gains) => {
+            let (inner, outer) = (GeometricAttitude::new(&airframe, gains), GeometricPosition::new(&airframe, gains));
+            with_laws(scenario, seed, plant, inner, outer)?.run(ticks, recorder)
+        }
+        Controller::Indi(gains) => {
+            let (inner, outer) = (IndiAttitude::new(&airframe, gains), IndiPosition::new(&airframe, gains));
+            with_laws(scenario, seed, plant, inner, outer)?.run(ticks, recorder)
+        }
     })
 }

@@ -6,11 +6,14 @@
 )]
 
 pub mod airframe;
+pub mod baseline;
 pub mod cli;
+pub mod compare;
 pub mod controller;
 pub mod decoupled;
 pub mod flight;
 pub mod link;
+pub mod matrix;
 pub mod noise;
 pub mod pil;
 pub mod plan;
@@ -19,6 +22,10 @@ pub mod record;
 pub mod reference;
 pub mod report;
 pub mod scenario;
+pub mod score;
+pub mod seeds;
 pub mod serve;
 pub mod sil;
+pub mod statistics;
 pub mod sweep;
+pub mod tune;

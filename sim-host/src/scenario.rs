@@ -11,17 +11,20 @@ use std::path::Path;
 use anyhow::{Context, Result, anyhow, bail};
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::{JoinPlan, Trajectory};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
 pub use world::{Truth, Tumble, Wind};
 
+/// Files of a folder that are built in, by name.
 macro_rules! built_in {
     ($folder:literal: $($name:literal),+ $(,)?) => {
         [$(($name, include_str!(concat!("../", $folder, "/", $name, ".toml")))),+]
     };
 }
+pub(crate) use built_in;
 
 /// Scenarios that come with the binary, in the order in which they are listed.
 const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
@@ -34,7 +37,9 @@ const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
 pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Tunings that come with the binary.
-const TUNINGS: [(&str, &str); 3] = built_in!("tunings": "x500-smc", "racer250-smc", "crazyflie-smc");
+pub(crate) const TUNINGS: [(&str, &str); 6] = built_in!("tunings":
+    "x500-smc", "x500-pid", "x500-geometric", "x500-indi", "racer250-smc", "crazyflie-smc",
+);
 
 /// Which model of the world is flown in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -217,6 +222,16 @@ impl Scenario {
         Ok(scenario)
     }
 
+    /// The same scenario with another controller.
+    ///
+    /// # Errors
+    /// What of the controller the firmware refuses for this scenario.
+    pub fn flown_by(mut self, controller: Controller) -> Result<Self> {
+        self.controller = controller;
+        self.validate().with_context(|| format!("scenario `{}`", self.name))?;
+        Ok(self)
+    }
+
     /// Refuses a scenario that is not flown on the rigid-body plant.
     ///
     /// # Errors
@@ -258,27 +273,31 @@ impl Scenario {
     }
 }
 
+/// Loads a built-in tuning by name or a file by path.
+///
+/// # Errors
+/// One line that names the tuning or file, and what is wrong with it.
+pub fn tuning(name: &str) -> Result<TuningFile> {
+    read(name, "tuning", &TUNINGS)
+}
+
+/// A built-in file, or the file at a path, as what it describes.
+pub(crate) fn read<T: DeserializeOwned>(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<T> {
+    let context = || format!("{kind} `{name}`");
+    let table = parse(&source(name, kind, built_in)?).with_context(context)?;
+    table.try_into().map_err(|error| one_line(&error)).with_context(context)
+}
+
 /// The controller that a scenario asks for.
 fn controller(file: &ScenarioFile) -> Result<Controller> {
     let own = format!("{}-smc", file.airframe);
     match (&file.tuning, &file.control) {
-        (Some(name), None) => tuning(name),
+        (Some(name), None) => Ok(tuning(name)?.controller),
         (None, Some(control)) => Ok(Controller::Smc(control.clone())),
-        (None, None) if TUNINGS.iter().any(|(name, _)| *name == own) => tuning(&own),
+        (None, None) if TUNINGS.iter().any(|(name, _)| *name == own) => Ok(tuning(&own)?.controller),
         (Some(_), Some(_)) => bail!("`tuning` and `control` both say what flies: keep one"),
         (None, None) => bail!("`tuning` is missing: name a tuning file, or give gains under `[control]`"),
     }
-}
-
-/// The controller of a built-in tuning file or of one at a path.
-///
-/// # Errors
-/// One line that names the file, and what is wrong with it.
-pub fn tuning(name: &str) -> Result<Controller> {
-    let file = parse(&source(name, "tuning", &TUNINGS)?)
-        .and_then(|table| table.try_into::<TuningFile>().map_err(|error| one_line(&error)))
-        .with_context(|| format!("tuning `{name}`"))?;
-    Ok(file.controller)
 }
 
 /// Whether a setting makes another problem of it than the one whose time-optimal bound is known.
@@ -308,7 +327,7 @@ fn parse(text: &str) -> Result<toml::Table> {
 }
 
 /// A TOML error in one line, with the key it is about.
-fn one_line(error: &toml::de::Error) -> anyhow::Error {
+pub(crate) fn one_line(error: &toml::de::Error) -> anyhow::Error {
     anyhow!("{}", error.to_string().trim().replace('\n', ", "))
 }
 

@@ -111,7 +111,7 @@ fn spoilt_scenario_files_are_refused() {
         ("plant", spoilt("plant = \"rigid-body\"", "plant = \"rubber-body\""), "rubber-body"),
         ("missing", spoilt("duration_s = 20.0", ""), "duration_s"),
         ("gain", spoilt("lambda = 30.0", "lambda = -30.0"), "roll"),
-        ("rho", spoilt("rho = 1.0", "rho = 0.0"), "roll"),
+        ("horizon", spoilt("horizon_s = 0.005", "horizon_s = 0.0"), "roll"),
         ("tilt", spoilt("tilt_max_rad = 1.3", "tilt_max_rad = 3.0"), "tilt_max_rad"),
         ("join", spoilt("duration_s = 1.", "duration_s = -1."), "join"),
         ("start", spoilt("plant =", "start_position_m = [0.0, nan, 0.0]\nplant ="), "start_position_m"),

@@ -1,8 +1,6 @@
 //! What the project promises of a flight, on the x500 (2 kg, thrust-to-weight 2, 20 ms of rotor lag, 1 ms of delay) unless
 //! said: judged by the truth.
 
-#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
-
 use sim_host::flight;
 use sim_host::record::{Recorder, Row};
 use sim_host::report::Metrics;

@@ -32,6 +32,8 @@ macro_rules! marks {
 marks! {
     /// An empty section.
     mark_begin_nothing
+    /// A known number of instructions.
+    mark_begin_known
     /// Attitude step and mixer.
     mark_begin_attitude
     /// Position step and flatness.
@@ -55,12 +57,15 @@ pub struct Counter {
 }
 
 impl Counter {
-    /// Finds out what counting itself takes. None if this machine's clock does not go by instructions.
-    pub fn calibrated(clock: FreeRunning) -> Option<Self> {
-        let mut counter = Self { clock, empty: 0 };
-        counter.empty = counter.timed(mark_begin_nothing, || ()).0;
-        let (instructions, ()) = counter.count(mark_begin_nothing, || known_number());
-        (instructions == KNOWN).then_some(counter)
+    /// Finds out what counting itself takes.
+    pub fn new(clock: FreeRunning) -> Self {
+        let counter = Self { clock, empty: 0 };
+        Self { empty: counter.timed(mark_begin_nothing, || ()).0, ..counter }
+    }
+
+    /// False if the emulator's clock does not go by instructions as it ought to.
+    pub fn is_exact(&self) -> bool {
+        self.count(mark_begin_known, || known_number()).0 == KNOWN
     }
 
     /// Instructions that `section` takes, and its result.
@@ -72,7 +77,7 @@ impl Counter {
     }
 
     /// Counts of the timer from before the one mark until after the other.
-    #[inline(always)]
+    #[inline]
     fn timed<R>(&self, begin: Mark, section: impl FnOnce() -> R) -> (u32, R) {
         let start = self.clock.now();
         begin();

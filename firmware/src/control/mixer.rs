@@ -189,6 +189,8 @@ where
     ///
     /// # Errors
     /// [`MixerError::NonFinite`] with the demand's field; nothing is allocated then.
+    // A call would put the demand and the speeds into memory.
+    #[allow(clippy::inline_always)]
     #[inline(always)]
     pub fn allocate(&self, demand: &ControlInput) -> Result<Allocation<N>, MixerError> {
         let omega_sq = self.speeds(demand);

@@ -96,6 +96,7 @@ impl PointingError {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 mod tests {
     use super::*;
     use nalgebra::UnitQuaternion as Q;

@@ -2,14 +2,14 @@
 //!
 //! With the error `e = desired − actual` a surface is `s = λ e + ė` (Eq. 18–23); a reaching law makes
 //! `ṡ = −u_r(s)` (Eq. 16), and a disturbance d of the axis' acceleration turns that into `ṡ = −u_r(s) − d`.
-//! [`ReachingLaw`] is the family of u_r, each with what it guarantees; [`AxisGains`] is an axis as configured,
+//! [`ReachingLaw`] is the family of `u_r`, each with what it guarantees; [`AxisGains`] is an axis as configured,
 //! [`SlidingAxis`] the same built into the form the loop uses, with its state. `K` is [`AxisGains::gain`], D a bound
 //! on |d|, L one on |ḋ|, V = s²/2.
 
 use crate::math;
 use crate::validate::ConfigError;
 
-/// A reaching law u_r(s), selectable an axis at run time.
+/// A reaching law `u_r(s)`, selectable an axis at run time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -177,8 +177,8 @@ struct Twist {
     /// Its inverse.
     per_inside: f32,
     /// 4T k2 and h k2.
-    horizon_twist: f32,
-    step_twist: f32,
+    over_horizon: f32,
+    over_step: f32,
     /// T K/2.
     half_horizon_gain: f32,
 }
@@ -189,14 +189,14 @@ impl Twist {
     fn solve(&self, gain: f32, s: f32) -> (f32, f32) {
         let sign = math::limit(s * self.per_inside, 1.0);
         let beyond = math::abs(s) - self.inside;
-        let mut w = self.horizon_twist * sign;
+        let mut w = self.over_horizon * sign;
         if beyond > 0.0 {
             // r = √|s⁺| solves r² + T K r = |s| − 4T² k2.
             let half = self.half_horizon_gain;
             let root = math::sqrt(half * half + beyond) - half;
             w += gain * root * sign;
         }
-        (w, self.step_twist * sign)
+        (w, self.over_step * sign)
     }
 }
 
@@ -243,8 +243,8 @@ impl SlidingAxis {
                 Reach::ImplicitSuperTwisting(Twist {
                     inside,
                     per_inside: 1.0 / inside,
-                    horizon_twist: 4.0 * horizon_s * twist,
-                    step_twist: step_s * twist,
+                    over_horizon: 4.0 * horizon_s * twist,
+                    over_step: step_s * twist,
                     half_horizon_gain: 0.5 * horizon_s * k,
                 })
             }
@@ -318,7 +318,7 @@ impl SlidingAxis {
         (proportional + integral, 2.0 * self.lambda * error_rate + change)
     }
 
-    /// u_r(s).
+    /// `u_r(s)`.
     fn reach(&mut self, s: f32, hold: bool) -> f32 {
         let k = self.gain;
         let (rate, twist) = match self.reach {
@@ -348,9 +348,7 @@ impl SlidingAxis {
                 self.gain * per_rho * (1.0 - shape * shape)
             }
             Reach::Exponential { slope, rate } => rate + if math::abs(s * slope) < self.gain { slope } else { 0.0 },
-            Reach::ImplicitSuperTwisting(twist) if math::abs(s) < twist.inside => {
-                twist.horizon_twist * twist.per_inside
-            }
+            Reach::ImplicitSuperTwisting(twist) if math::abs(s) < twist.inside => twist.over_horizon * twist.per_inside,
             _ => 0.0,
         }
     }

@@ -5,6 +5,7 @@
 //! overrun, is one line and exit code 1.
 
 mod bench;
+mod compare;
 mod demo;
 mod pil;
 mod plan;
@@ -12,16 +13,22 @@ mod run;
 mod scenarios;
 mod serve;
 mod sweep;
+mod tune;
 
 use std::io::Write as _;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::{Args, Parser, Subcommand};
 
 use crate::scenario::Scenario;
+use crate::seeds::Seeds;
+use crate::tune::Method;
+
+/// More threads than this do not make it faster.
+const MOST_THREADS: usize = 256;
 
 /// Glissade on the desktop: flies the firmware against a plant model, in lockstep.
 ///
@@ -70,6 +77,8 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Fly every controller in every scenario under every disturbance of a matrix, and compare them.
+    Compare(CompareArgs),
     /// Plan the path that joins a scenario's trajectory, and print it as that scenario's `[join]` table.
     Plan {
         #[command(flatten)]
@@ -81,6 +90,8 @@ enum Command {
         #[arg(long, default_value_t = 60_000)]
         flights: usize,
     },
+    /// Search for the gains of a controller, and write them as a tuning file.
+    Tune(TuneArgs),
 }
 
 #[derive(Args, Clone, Debug)]
@@ -113,7 +124,7 @@ struct RunArgs {
     #[arg(long, default_value_t = 1, conflicts_with = "seeds")]
     seed: u64,
     /// Seeds to fly, first and last.
-    #[arg(long, value_name = "A..B", value_parser = parse_seeds)]
+    #[arg(long, value_name = "A..B")]
     seeds: Option<Seeds>,
     /// Flights at once; as many as there are cores by default. The results do not depend on it.
     #[arg(long, value_name = "J")]
@@ -124,6 +135,36 @@ struct RunArgs {
     /// Print a JSON object, or an array for several seeds.
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Args, Clone, Debug)]
+struct CompareArgs {
+    /// Name of a built-in matrix, or path of a file.
+    #[arg(default_value = "x500")]
+    matrix: String,
+    /// Tunings to compare, by name or path, in place of the matrix' own; the others are compared with the first.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    controllers: Option<Vec<String>>,
+    /// Only these of the matrix' scenarios.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    scenarios: Option<Vec<String>>,
+    /// Only these of the matrix' disturbances.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    disturbances: Option<Vec<String>>,
+    /// Seeds to fly, first and last, in place of the matrix' own.
+    #[arg(long, value_name = "A..B")]
+    seeds: Option<Seeds>,
+    /// Flights at once; as many as there are cores by default. The results do not depend on it.
+    #[arg(long, value_name = "J")]
+    jobs: Option<usize>,
+    /// Write compare.json, compare.csv, compare.md and figures there.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print a JSON object.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    settings: Settings,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -174,21 +215,31 @@ struct PilArgs {
     json: bool,
 }
 
-/// A range of seeds, both ends included.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Seeds {
-    first: u64,
-    last: u64,
-}
-
-fn parse_seeds(text: &str) -> Result<Seeds> {
-    let (first, last) = text.split_once("..").context("use A..B, as in 1..8")?;
-    let number = |text: &str| text.parse::<u64>().with_context(|| format!("`{text}` is not a seed"));
-    let seeds = Seeds { first: number(first)?, last: number(last.trim_start_matches('='))? };
-    if seeds.first > seeds.last || seeds.last - seeds.first >= 1_000_000 {
-        bail!("the first seed comes first, and a million are enough");
-    }
-    Ok(seeds)
+#[derive(Args, Clone, Debug)]
+struct TuneArgs {
+    /// Name of a built-in tune, or path of a file.
+    tune: String,
+    /// How to search.
+    #[arg(long, value_enum, default_value_t = Method::Pso)]
+    method: Method,
+    /// Points an iteration.
+    #[arg(long, default_value_t = 40)]
+    particles: usize,
+    /// Iterations, the first random points among them.
+    #[arg(long, default_value_t = 60)]
+    iterations: usize,
+    /// Seed of the search.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Flights at once; as many as there are cores by default. The result does not depend on it.
+    #[arg(long, value_name = "J")]
+    jobs: Option<usize>,
+    /// Write tuning.toml, progress.csv, convergence.svg and the journal there.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Go on with the run in that folder.
+    #[arg(long)]
+    resume: bool,
 }
 
 /// Runs the program.
@@ -205,7 +256,9 @@ pub fn main() -> ExitCode {
         Some(Command::Pil(args)) => pil::run(&args),
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
         Some(Command::Sweep { which, seed, json }) => sweep::run(&which, seed, json),
+        Some(Command::Compare(args)) => compare::run(&args),
         Some(Command::Plan { which, seed, flights }) => plan::run(&which, seed, flights),
+        Some(Command::Tune(args)) => tune::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -252,13 +305,5 @@ mod tests {
     #[test]
     fn the_arguments_are_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn seeds_are_two_numbers_in_order() {
-        assert_eq!(parse_seeds("1..8").expect("valid"), Seeds { first: 1, last: 8 });
-        for bad in ["", "1", "8..1", "a..b", "1..", "0..18446744073709551615"] {
-            assert!(parse_seeds(bad).is_err(), "{bad}");
-        }
     }
 }

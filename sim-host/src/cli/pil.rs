@@ -20,6 +20,7 @@ use crate::sil::Flight;
 pub(super) fn run(args: &PilArgs) -> Result<()> {
     let scenario = args.which.load()?;
     scenario.require_rigid_body()?;
+    scenario.controller.require_smc("`pil`")?;
     let config = scenario.flight_config();
     let busy =
         BusyWait { outer_us: args.busy_outer_us, commander_us: args.busy_commander_us, ground_us: args.busy_ground_us };

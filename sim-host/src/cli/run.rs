@@ -16,9 +16,6 @@ use crate::report::{progress, summary, table};
 use crate::scenario::Scenario;
 use crate::sil::Outcome;
 
-/// More threads than this do not make it faster.
-const MOST_THREADS: usize = 256;
-
 /// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
 const FIGURES_UP_TO_S: f64 = 600.0;
 
@@ -29,9 +26,9 @@ pub(super) fn run(args: &RunArgs) -> Result<()> {
         let summary = fly(&scenario, args.seed, args.out.as_deref(), !args.json)?;
         return super::say(&if args.json { summary.to_json() } else { table::render(&summary) });
     };
-    let count = (seeds.last - seeds.first + 1) as usize;
-    let threads = args.jobs.map_or(0, |jobs| jobs.min(count).min(MOST_THREADS));
-    let bar = progress::of_flights(seeds.last - seeds.first + 1, !args.json);
+    let count = seeds.count() as usize;
+    let threads = args.jobs.map_or(0, |jobs| jobs.min(count).min(super::MOST_THREADS));
+    let bar = progress::of_flights(seeds.count(), !args.json);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

@@ -23,6 +23,8 @@
 //! ```
 
 pub mod angles;
+pub mod comparison;
+pub mod measures;
 pub mod metrics;
 pub mod plots;
 pub mod progress;
@@ -35,6 +37,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
+use crate::compare::Comparison;
 pub use metrics::{Metrics, Settling};
 pub use plots::{Disturbance, Figures};
 pub use progress::Progress;
@@ -71,6 +74,15 @@ impl OutFolder {
     /// When the file cannot be written; the message names it.
     pub fn summary(&self, summary: &Summary) -> Result<PathBuf> {
         summary.write(&self.0)
+    }
+
+    /// Writes compare.json, compare.csv, compare.md and the figures of a comparison.
+    ///
+    /// # Errors
+    /// When a file cannot be written; the message names it.
+    pub fn comparison(&self, comparison: &Comparison) -> Result<()> {
+        comparison::write(comparison, &self.0)?;
+        plots::comparison::draw(comparison, &self.0)
     }
 
     /// Draws every figure that applies.

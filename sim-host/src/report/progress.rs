@@ -46,6 +46,13 @@ pub fn of_flights(count: u64, visible: bool) -> ProgressBar {
     bar
 }
 
+/// A bar for a search of `count` evaluations; its message is the best cost so far.
+pub fn of_search(count: u64, visible: bool) -> ProgressBar {
+    let bar = bar(count, visible);
+    bar.set_style(style("tuning {bar:40} {pos}/{len}, best {msg}, {eta} left"));
+    bar
+}
+
 fn bar(length: u64, visible: bool) -> ProgressBar {
     // `stderr()` hides itself where standard error is not a terminal.
     let target = if visible { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
@@ -85,5 +92,6 @@ mod tests {
         flights.inc(3);
         assert!(flights.is_hidden());
         assert_eq!((flights.position(), flights.length()), (3, Some(8)));
+        assert!(of_search(8, false).is_hidden());
     }
 }

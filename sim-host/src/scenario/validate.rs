@@ -50,6 +50,10 @@ impl Scenario {
             );
             attitude(wave)?;
         }
+        self.controller.validate()?;
+        if f.plant == PlantKind::PaperDecoupled {
+            self.controller.require_smc("the plant `paper-decoupled`")?;
+        }
         firmware::autopilot::Autopilot::new(&self.flight_config()).map_err(|error| anyhow!("{error}"))?;
         Ok(())
     }

@@ -48,6 +48,7 @@ impl Tally {
 #[derive(Default)]
 pub(crate) struct Counts {
     pub(crate) attitude: Tally,
+    pub(crate) attitude_within_limits: Tally,
     pub(crate) position: Tally,
     pub(crate) guidance: Tally,
     pub(crate) mixer: Tally,
@@ -84,20 +85,21 @@ fn axis(lambda: f32, gain: f32, horizon_s: f32, approach_max: f32) -> AxisGains 
 
 /// Implicit sgn on every axis, both observers, and lead of the rotors.
 fn config() -> FlightConfig {
-    let (tilt, yaw) = (axis(12.0, 60.0, 0.03, 6.0), axis(6.0, 30.0, 0.05, 3.0));
+    let (tilt, yaw) = (axis(12.0, 120.0, 0.02, 9.0), axis(3.0, 8.0, 0.05, 2.5));
+    let (horizontal, vertical) = (axis(2.5, 12.0, 0.15, 6.0), axis(2.5, 8.0, 0.15, 6.0));
     FlightConfig {
         airframe: airframe(),
         attitude: AttitudeGains {
             axes: [tilt, tilt, yaw],
             form: AttitudeForm::Group,
-            observer: ObserverGains { bandwidth_rad_s: 20.0, disturbance_max: 30.0 },
+            observer: ObserverGains { bandwidth_rad_s: 25.0, disturbance_max: 40.0 },
         },
         position: PositionGains {
-            axes: [axis(2.0, 8.0, 0.3, 4.0); 3],
-            observer: ObserverGains { bandwidth_rad_s: 4.0, disturbance_max: 5.0 },
+            axes: [horizontal, horizontal, vertical],
+            observer: ObserverGains { bandwidth_rad_s: 6.0, disturbance_max: 6.0 },
         },
-        tilt_max_rad: 1.1,
-        rotor_time_constant_s: 0.01,
+        tilt_max_rad: 1.2,
+        rotor_time_constant_s: 0.005,
         trajectory: Trajectory::FigureEight {
             center_m: [0.0, 0.0, 2.0],
             amplitude_m: [5.666_667, 2.833_333],
@@ -201,6 +203,9 @@ impl Flight {
             inner.step(tick, Some(sample), reference, armed)
         });
         self.counts.attitude.add(instructions);
+        if !output.saturated {
+            self.counts.attitude_within_limits.add(instructions);
+        }
 
         let (begin, tally) = if output.saturated {
             (counter::mark_begin_mixer_saturated as Mark, &mut self.counts.mixer_saturated)

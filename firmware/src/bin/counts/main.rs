@@ -17,20 +17,27 @@ mod image {
 
     use crate::flight::{Counts, Flight, Tally};
 
-    /// Instructions that a call may take at the most.
-    const ATTITUDE_BUDGET: u32 = 600;
-    const POSITION_BUDGET: u32 = 1_000;
+    /// Instructions of a call that may not be exceeded, by the mean and by any call.
+    struct Budget {
+        mean: u32,
+        max: u32,
+    }
+
+    const ATTITUDE: Budget = Budget { mean: 600, max: 900 };
+    /// While no rotor is at its limit; at one, the mixer has its facets to go through.
+    const ATTITUDE_WITHIN_LIMITS: Budget = Budget { mean: 600, max: 600 };
+    const POSITION: Budget = Budget { mean: 1_000, max: 1_000 };
 
     /// A vehicle that ends farther than this from its reference, m, has not flown what is to be counted.
     const TRACKED_WITHIN_M: f32 = 0.3;
 
     #[cortex_m_rt::entry]
     fn main() -> ! {
-        let Some(counter) = Peripherals::take().and_then(|board| Counter::calibrated(board.clock)) else {
-            println!("instructions cannot be counted: QEMU needs -icount shift=10");
-            fault::end()
-        };
+        let Some(board) = Peripherals::take() else { fault::end() };
+        let counter = Counter::new(board.clock);
         match Flight::new(counter).map(Flight::fly) {
+            // Flown all the same, for those who count by the marks.
+            Ok(_) if !counter.is_exact() => println!("not counted: QEMU's clock needs -icount shift=10"),
             Ok(counts) if report(&counts) => semihosting::process::exit(0),
             Ok(_) => {}
             Err(error) => println!("no flight to count: {error}"),
@@ -40,10 +47,11 @@ mod image {
 
     /// Prints what a flight has taken. True if it was a flight with everything in it, and within its budgets.
     fn report(counts: &Counts) -> bool {
-        println!("instructions a call     calls      mean   max  budget");
+        println!("instructions a call         calls    mean   max  budgets");
         let rows = [
-            ("attitude and mixer", &counts.attitude, Some(ATTITUDE_BUDGET)),
-            ("position and flatness", &counts.position, Some(POSITION_BUDGET)),
+            ("attitude and mixer", &counts.attitude, Some(ATTITUDE)),
+            ("the same, no limit acting", &counts.attitude_within_limits, Some(ATTITUDE_WITHIN_LIMITS)),
+            ("position and flatness", &counts.position, Some(POSITION)),
             ("guidance", &counts.guidance, None),
             ("mixer", &counts.mixer, None),
             ("mixer at a limit", &counts.mixer_saturated, None),
@@ -56,15 +64,16 @@ mod image {
         good && counts.final_error_m < TRACKED_WITHIN_M
     }
 
-    fn row(name: &str, tally: &Tally, budget: Option<u32>) -> bool {
+    fn row(name: &str, tally: &Tally, budget: Option<Budget>) -> bool {
         let (calls, mean, max) = (tally.calls, tally.mean(), tally.max);
         let Some(budget) = budget else {
-            println!("{name:22} {calls:6} {mean:9.1} {max:5}");
+            println!("{name:26} {calls:6} {mean:7.1} {max:5}");
             return calls > 0;
         };
-        let verdict = if max <= budget { "" } else { "  EXCEEDED" };
-        println!("{name:22} {calls:6} {mean:9.1} {max:5} {budget:7}{verdict}");
-        calls > 0 && max <= budget
+        let within = mean <= budget.mean as f32 && max <= budget.max;
+        let verdict = if within { "" } else { "  EXCEEDED" };
+        println!("{name:26} {calls:6} {mean:7.1} {max:5}  {} {}{verdict}", budget.mean, budget.max);
+        calls > 0 && within
     }
 
     #[panic_handler]

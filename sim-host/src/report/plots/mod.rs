@@ -4,6 +4,8 @@
 //! degrees. The reference is a wide light line below a thin dark one, so that both show where they agree. Long
 //! series are thinned without losing their peaks, so that a file stays below 300 kB.
 
+pub mod comparison;
+mod convergence;
 mod helix;
 mod panel;
 mod series;
@@ -12,6 +14,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 
+pub use self::convergence::convergence;
 use self::panel::{Key, Panel, Role, grid, save};
 use self::series::{Points, angles_deg, over_time, phase, thin_path, thin_series};
 use super::metrics::errors;

@@ -14,7 +14,8 @@ use super::series::{Points, extent};
 
 /// Where everything is drawn.
 pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+/// A chart of real numbers.
+pub(super) type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// The backend rounds to whole units; the page is drawn this many times larger than it is shown, for smooth curves.
 pub(super) const FINE: u32 = 3;
@@ -31,6 +32,15 @@ pub(super) mod palette {
     pub(in super::super) const START: RGBColor = RGBColor(213, 94, 0);
     /// While a disturbance acts.
     pub(in super::super) const DISTURBED: RGBColor = RGBColor(222, 226, 230);
+    /// Things of a kind that stand side by side.
+    pub(in super::super) const SERIES: [RGBColor; 6] = [
+        RGBColor(0, 114, 178),
+        RGBColor(230, 159, 0),
+        RGBColor(0, 158, 115),
+        RGBColor(213, 94, 0),
+        RGBColor(204, 121, 167),
+        RGBColor(86, 180, 233),
+    ];
     /// Text and axes.
     pub(in super::super) const INK: RGBColor = RGBColor(40, 40, 40);
     /// Grid.
@@ -56,20 +66,23 @@ impl Role {
 
 /// An entry of a figure's legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Key {
+pub(super) enum Key<'a> {
     Reference,
     Flown,
     Start,
     Disturbed,
+    /// One of several, by name and colour.
+    Series(&'a str, RGBColor),
 }
 
-impl Key {
-    fn name(self) -> &'static str {
+impl<'a> Key<'a> {
+    fn name(self) -> &'a str {
         match self {
             Self::Reference => "reference",
             Self::Flown => "flown",
             Self::Start => "start",
             Self::Disturbed => "disturbed",
+            Self::Series(name, _) => name,
         }
     }
 }
@@ -232,6 +245,9 @@ fn draw_sample(area: &Area, key: Key, x: i32, middle: i32) -> Result<()> {
         Key::Start => area.draw(&Circle::new((x + at(20), middle), px(4), palette::START.filled()))?,
         Key::Disturbed => {
             area.draw(&Rectangle::new([(x, middle - half), (end, middle + half)], palette::DISTURBED.filled()))?;
+        }
+        Key::Series(_, color) => {
+            area.draw(&Rectangle::new([(x, middle - half), (end, middle + half)], color.filled()))?;
         }
     }
     Ok(())

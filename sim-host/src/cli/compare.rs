@@ -1,0 +1,37 @@
+//! `compare`: every controller in every cell of a matrix.
+
+use anyhow::{Context, Result, ensure};
+
+use super::CompareArgs;
+use crate::compare::{Comparison, Contest};
+use crate::matrix::Matrix;
+use crate::report::{OutFolder, comparison, progress};
+
+pub(super) fn run(args: &CompareArgs) -> Result<()> {
+    ensure!(args.jobs != Some(0), "--jobs must be at least 1");
+    let mut matrix = Matrix::load(&args.matrix, &args.settings.set)?;
+    if let Some(controllers) = &args.controllers {
+        matrix.file.controllers.clone_from(controllers);
+    }
+    matrix.select(args.scenarios.as_deref(), args.disturbances.as_deref())?;
+    matrix.file.seeds = args.seeds.unwrap_or(matrix.file.seeds);
+    // Before the flights, which take a while: a folder that cannot be written is better known now.
+    let folder = args.out.as_deref().map(OutFolder::create).transpose()?;
+    let found = fly(&Contest::new(&matrix)?, args)?;
+    if let Some(folder) = folder {
+        folder.comparison(&found)?;
+    }
+    super::say(&if args.json { serde_json::to_string(&found)? } else { comparison::render(&found) })
+}
+
+fn fly(contest: &Contest, args: &CompareArgs) -> Result<Comparison> {
+    let bar = progress::of_flights(contest.flights() as u64, !args.json);
+    let threads = args.jobs.map_or(0, |jobs| jobs.min(contest.flights()).min(super::MOST_THREADS));
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .context("cannot start the threads that --jobs asks for")?;
+    let found = pool.install(|| contest.fly(|| bar.inc(1)))?;
+    bar.finish_and_clear();
+    Ok(found)
+}

@@ -1,0 +1,449 @@
+//! Controllers compared: each in every cell of a matrix, under the same seeds.
+
+use anyhow::{Result, ensure};
+use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
+use serde::ser::{Serialize, SerializeMap as _, Serializer};
+
+use crate::controller::Controller;
+use crate::matrix::{Case, Matrix};
+use crate::scenario;
+use crate::score::{self, Score};
+use crate::seeds::Seeds;
+use crate::statistics::Estimate;
+
+/// Distances below this are the same, m: no vehicle's position is known to 10 µm, and what is left of a flight that
+/// nothing disturbs are digits of an f32.
+pub const RESOLUTION_M: f64 = 1e-5;
+
+/// A figure of merit. Less is better in each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Figure {
+    /// RMS of the distance from the trajectory, m.
+    Rms,
+    /// Greatest distance, m.
+    Max,
+    /// Time until it stays below 5 cm, s.
+    Settle,
+    /// Greatest error of the attitude, rad.
+    Attitude,
+    /// Altitude lost, m.
+    Altitude,
+    /// RMS torque demanded, N m.
+    Torque,
+    /// Mean ω², (rad/s)².
+    Omega,
+    /// Total variation of the commanded ω² a second, (rad/s)²/s.
+    Chattering,
+    /// Fraction of the ticks in which the mixer could not give the whole demand.
+    Saturated,
+}
+
+impl Figure {
+    /// All of them, in the order of their columns.
+    pub const ALL: [Self; 9] = [
+        Self::Rms,
+        Self::Max,
+        Self::Settle,
+        Self::Attitude,
+        Self::Altitude,
+        Self::Torque,
+        Self::Omega,
+        Self::Chattering,
+        Self::Saturated,
+    ];
+
+    /// Its key in JSON and its column in CSV.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Rms => "rms_m",
+            Self::Max => "max_m",
+            Self::Settle => "settle_s",
+            Self::Attitude => "attitude_max_rad",
+            Self::Altitude => "altitude_lost_m",
+            Self::Torque => "torque_rms_n_m",
+            Self::Omega => "omega_squared_mean_rad2_s2",
+            Self::Chattering => "chattering_rad2_s3",
+            Self::Saturated => "saturated_fraction",
+        }
+    }
+
+    /// Of a flight; `None` if it has none, as a lost one has not.
+    pub fn of(self, score: &Score) -> Option<f64> {
+        match self {
+            Self::Rms => score.rms_m,
+            Self::Max => score.max_m,
+            Self::Settle => score.settle_s,
+            Self::Attitude => score.attitude_max_rad,
+            Self::Altitude => score.altitude_lost_m,
+            Self::Torque => score.torque_rms_n_m,
+            Self::Omega => score.omega_squared_mean_rad2_s2,
+            Self::Chattering => score.chattering_rad2_s3,
+            Self::Saturated => score.survived.then_some(score.saturated_fraction),
+        }
+    }
+}
+
+/// A median a figure, with how many flights survived.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Medians {
+    /// Flights.
+    pub flights: usize,
+    /// Those whose vehicle was not lost.
+    pub survived: usize,
+    /// In the order of [`Figure::ALL`].
+    estimates: [Estimate; Figure::ALL.len()],
+}
+
+impl Medians {
+    fn of_flights(flights: &[FlightScore]) -> Self {
+        Self {
+            flights: flights.len(),
+            survived: flights.iter().filter(|flight| flight.score.survived).count(),
+            estimates: Figure::ALL.map(|figure| Estimate::of(flights.iter().map(|flight| figure.of(&flight.score)))),
+        }
+    }
+
+    /// Of the medians of cells, each of the same weight.
+    fn of_cells<'a>(cells: impl Iterator<Item = &'a Self> + Clone) -> Self {
+        // The cells are no sample of anything: their median has no interval.
+        let estimate = |figure| Estimate {
+            interval: None,
+            ..Estimate::of(cells.clone().map(|cell| Some(cell.estimate(figure).median)))
+        };
+        Self {
+            flights: cells.clone().map(|cell| cell.flights).sum(),
+            survived: cells.clone().map(|cell| cell.survived).sum(),
+            estimates: Figure::ALL.map(estimate),
+        }
+    }
+
+    /// The median of a figure.
+    pub fn estimate(&self, figure: Figure) -> &Estimate {
+        &self.estimates[figure as usize]
+    }
+
+    /// The median of the RMS error, m.
+    pub fn rms(&self) -> &Estimate {
+        self.estimate(Figure::Rms)
+    }
+}
+
+impl Serialize for Medians {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(2 + Figure::ALL.len()))?;
+        map.serialize_entry("flights", &self.flights)?;
+        map.serialize_entry("survived", &self.survived)?;
+        for figure in Figure::ALL {
+            map.serialize_entry(figure.key(), self.estimate(figure))?;
+        }
+        map.end()
+    }
+}
+
+/// One flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlightScore {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Name of the disturbance.
+    pub disturbance: String,
+    /// Name of the controller.
+    pub controller: String,
+    /// Seed of its random numbers.
+    pub seed: u64,
+    /// How it went.
+    pub score: Score,
+}
+
+/// How the controllers did in one scenario under one disturbance.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Cell {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Name of the disturbance.
+    pub disturbance: String,
+    /// Whether flights under different seeds differ; where they do not, one was flown.
+    pub random: bool,
+    /// One a controller, in the comparison's order.
+    pub controllers: Vec<Medians>,
+    /// RMS error over the first controller's under the same seed, one a controller: the median over the seeds. What a
+    /// seed does to both is not in it, so that it tells more than two medians do.
+    pub rms_ratios: Vec<Estimate>,
+}
+
+/// A controller over the whole matrix.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Overall {
+    /// Its name.
+    pub controller: String,
+    /// Medians of the cells' medians.
+    pub medians: Medians,
+    /// Median over the cells of [`Cell::rms_ratios`]; infinite (null) if most are lost.
+    pub rms_ratio: f64,
+    /// Cells in which that ratio is less than 1.
+    pub better_cells: usize,
+    /// Cells in which it is greater.
+    pub worse_cells: usize,
+}
+
+/// A cell that the first controller loses.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct LostCell {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Name of the disturbance.
+    pub disturbance: String,
+    /// The controller that is best there.
+    pub to: String,
+    /// Its RMS error over the first controller's: below 1; 0 if the first controller's flights are lost.
+    pub rms_ratio: Estimate,
+    /// Whether seeds cannot explain it: the ratio's interval is below 1, or the cell is not random.
+    pub clear: bool,
+}
+
+/// What a comparison finds.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Comparison {
+    /// Name of the matrix.
+    pub matrix: String,
+    /// What it compares.
+    pub summary: String,
+    /// Seeds flown in random cells.
+    pub seeds: Seeds,
+    /// Whether some of them are seeds that controllers are tuned on.
+    pub seeds_are_trained_on: bool,
+    /// Names of the controllers; the others are compared with the first.
+    pub controllers: Vec<String>,
+    /// In the matrix' order.
+    pub cells: Vec<Cell>,
+    /// One a controller.
+    pub overall: Vec<Overall>,
+    /// Where another controller has the least RMS error.
+    pub lost: Vec<LostCell>,
+    /// Every flight, by cell, controller and seed.
+    #[serde(skip)]
+    pub flights: Vec<FlightScore>,
+}
+
+/// A comparison to be flown.
+#[derive(Clone, Debug)]
+pub struct Contest<'a> {
+    matrix: &'a Matrix,
+    cases: Vec<Case>,
+    controllers: Vec<(String, Controller)>,
+}
+
+impl<'a> Contest<'a> {
+    /// Loads every scenario and every controller of a matrix.
+    ///
+    /// # Errors
+    /// One line that names the scenario or tuning, the key, and what is wrong with it; or that no cell is left.
+    pub fn new(matrix: &'a Matrix) -> Result<Self> {
+        let mut controllers: Vec<(String, Controller)> = Vec::new();
+        for name in &matrix.file.controllers {
+            let controller = scenario::tuning(name)?.controller;
+            let short = short_name(name);
+            ensure!(!controllers.iter().any(|(known, _)| known == short), "two controllers are called `{short}`");
+            controllers.push((short.to_owned(), controller));
+        }
+        let cases = matrix.cases()?;
+        ensure!(!cases.is_empty(), "no disturbance applies to any scenario: nothing to fly");
+        Ok(Self { matrix, cases, controllers })
+    }
+
+    /// How many flights it takes.
+    pub fn flights(&self) -> usize {
+        let seeds = |case: &Case| case.seeds(self.matrix.file.seeds).count();
+        self.cases.iter().map(seeds).sum::<usize>() * self.controllers.len()
+    }
+
+    /// Flies it on the threads of the current pool; `flown` is called after each flight. The result does not depend on
+    /// the number of threads.
+    ///
+    /// # Errors
+    /// What of a scenario the firmware refuses.
+    pub fn fly(&self, flown: impl Fn() + Sync) -> Result<Comparison> {
+        let mut entries = Vec::new();
+        for case in &self.cases {
+            for (name, controller) in &self.controllers {
+                let scenario = case.scenario.clone().flown_by(controller.clone())?;
+                entries.extend(case.seeds(self.matrix.file.seeds).map(|seed| (case, name, seed, scenario.clone())));
+            }
+        }
+        let fly = |(case, name, seed, scenario): &(&Case, &String, u64, scenario::Scenario)| {
+            let score = score::fly(scenario, *seed)?;
+            flown();
+            Ok(FlightScore {
+                scenario: short_name(&case.scenario_name).to_owned(),
+                disturbance: case.disturbance_name.clone(),
+                controller: (*name).clone(),
+                seed: *seed,
+                score,
+            })
+        };
+        Ok(self.judge(entries.par_iter().map(fly).collect::<Result<_>>()?))
+    }
+
+    /// The flights, in the order of [`fly`](Self::fly), as a comparison.
+    fn judge(&self, flights: Vec<FlightScore>) -> Comparison {
+        let file = &self.matrix.file;
+        let mut rest = flights.as_slice();
+        let cell = |case: &Case| {
+            let seeds = case.seeds(file.seeds).count();
+            let (flown, left) = rest.split_at(seeds * self.controllers.len());
+            rest = left;
+            Cell::of(case, &flown.chunks(seeds).collect::<Vec<_>>())
+        };
+        let cells: Vec<Cell> = self.cases.iter().map(cell).collect();
+        let controllers: Vec<String> = self.controllers.iter().map(|(name, _)| name.clone()).collect();
+        Comparison {
+            matrix: self.matrix.name.clone(),
+            summary: file.summary.clone(),
+            seeds: file.seeds,
+            seeds_are_trained_on: file.training_seeds.is_some_and(|training| training.overlaps(file.seeds)),
+            overall: controllers.iter().enumerate().map(|(i, name)| overall(&cells, i, name)).collect(),
+            lost: cells.iter().filter_map(|cell| cell.lost(&controllers)).collect(),
+            controllers,
+            cells,
+            flights,
+        }
+    }
+}
+
+/// A built-in name as it is, a path by its file's name.
+fn short_name(name: &str) -> &str {
+    let file = name.rsplit('/').next().unwrap_or(name);
+    file.strip_suffix(".toml").unwrap_or(file)
+}
+
+fn overall(cells: &[Cell], index: usize, name: &str) -> Overall {
+    let ratios = || cells.iter().map(|cell| cell.rms_ratios[index].median);
+    Overall {
+        controller: name.to_owned(),
+        medians: Medians::of_cells(cells.iter().map(|cell| &cell.controllers[index])),
+        rms_ratio: Estimate::of(ratios().map(Some)).median,
+        better_cells: ratios().filter(|ratio| *ratio < 1.0).count(),
+        worse_cells: ratios().filter(|ratio| *ratio > 1.0).count(),
+    }
+}
+
+impl Cell {
+    /// From the flights of each controller, all under the same seeds.
+    fn of(case: &Case, flown: &[&[FlightScore]]) -> Self {
+        let paired = |flights: &&[FlightScore]| {
+            let pairs = flights.iter().zip(flown[0]);
+            Estimate::of(pairs.map(|(flight, first)| Some(ratio(&flight.score, &first.score))))
+        };
+        Self {
+            scenario: short_name(&case.scenario_name).to_owned(),
+            disturbance: case.disturbance_name.clone(),
+            random: case.is_random(),
+            controllers: flown.iter().map(|flights| Medians::of_flights(flights)).collect(),
+            rms_ratios: flown.iter().map(paired).collect(),
+        }
+    }
+
+    /// The cell as one that the first controller loses, if it does.
+    fn lost(&self, names: &[String]) -> Option<LostCell> {
+        let others = self.rms_ratios.iter().zip(names).skip(1);
+        let (best, to) = others.min_by(|(a, _), (b, _)| a.median.total_cmp(&b.median))?;
+        (best.median < 1.0).then(|| LostCell {
+            scenario: self.scenario.clone(),
+            disturbance: self.disturbance.clone(),
+            to: to.clone(),
+            rms_ratio: *best,
+            clear: best.interval.map_or(!self.random, |(_, high)| high < 1.0),
+        })
+    }
+}
+
+/// The RMS error of a flight over another's: 1 where both are below [`RESOLUTION_M`], or both lost.
+fn ratio(flight: &Score, other: &Score) -> f64 {
+    let rms = |score: &Score| score.rms_m.map_or(f64::INFINITY, |rms| rms.max(RESOLUTION_M));
+    let (a, b) = (rms(flight), rms(other));
+    if a.total_cmp(&b).is_eq() { 1.0 } else { a / b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flight(controller: &str, rms_m: Option<f64>) -> FlightScore {
+        FlightScore {
+            scenario: "x500-hover".into(),
+            disturbance: "gaussian".into(),
+            controller: controller.into(),
+            seed: 1,
+            score: Score { survived: rms_m.is_some(), rms_m, ..Score::default() },
+        }
+    }
+
+    /// A random cell, from the RMS errors of each controller.
+    fn cell(errors: &[&[Option<f64>]]) -> Cell {
+        let cases = Matrix::load("x500", &[]).and_then(|matrix| matrix.cases()).expect("valid");
+        let case = cases.iter().find(|case| case.is_random()).expect("there is one");
+        let flown: Vec<Vec<FlightScore>> =
+            errors.iter().map(|errors| errors.iter().map(|rms| flight("any", *rms)).collect()).collect();
+        Cell::of(case, &flown.iter().map(Vec::as_slice).collect::<Vec<_>>())
+    }
+
+    fn names() -> Vec<String> {
+        ["first", "second", "third"].map(String::from).to_vec()
+    }
+
+    #[test]
+    fn ratios_are_those_of_the_same_seed() {
+        // The seeds differ a thousandfold; under each the second has 0.9 of the first's error.
+        let first: Vec<_> = (0..8).map(|k| Some(1e-3 * 10_f64.powf(0.4 * f64::from(k)))).collect();
+        let second: Vec<_> = first.iter().map(|rms| rms.map(|rms| 0.9 * rms)).collect();
+        let cell = cell(&[&first, &second]);
+        let close = |value: f64, expected: f64| assert!((value - expected).abs() < 1e-12, "{value}");
+        close(cell.rms_ratios[0].median, 1.0);
+        close(cell.rms_ratios[1].median, 0.9);
+        let lost = cell.lost(&names()).expect("lost");
+        assert!(lost.to == "second" && lost.clear);
+        let (low, high) = lost.rms_ratio.interval.expect("eight seeds");
+        close(low, 0.9);
+        close(high, 0.9);
+    }
+
+    #[test]
+    fn a_lost_flight_is_worse_than_any_that_survived() {
+        let far = [Some(40.0); 8];
+        let lost = [None; 8];
+        let cell = cell(&[&far, &lost, &far]);
+        assert_eq!((cell.controllers[1].survived, cell.controllers[1].flights), (0, 8));
+        assert_eq!(cell.rms_ratios[1].median, f64::INFINITY);
+        assert_eq!(cell.controllers[1].rms().median, f64::INFINITY);
+        assert_eq!(cell.lost(&names()), None, "not to one that is lost, nor to one that is the same");
+    }
+
+    #[test]
+    fn a_controller_whose_flights_are_lost_loses_the_cell() {
+        let found = cell(&[&[None; 8], &[None; 8], &[Some(40.0); 8]]).lost(&names()).expect("lost");
+        assert_eq!((found.to.as_str(), found.rms_ratio.median, found.clear), ("third", 0.0, true));
+        assert_eq!(cell(&[&[None; 8], &[None; 8]]).lost(&names()), None, "both are lost");
+    }
+
+    #[test]
+    fn what_seeds_may_explain_is_not_clear() {
+        let first = [Some(1.0); 8];
+        let second = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 2.0].map(Some);
+        let found = cell(&[&first, &second]).lost(&names()).expect("lost");
+        assert!(!found.clear, "the interval for 8 seeds is from the least to the greatest");
+        assert_eq!(found.rms_ratio.interval, Some((0.5, 2.0)));
+    }
+
+    #[test]
+    fn what_no_position_sensor_resolves_is_the_same() {
+        let cell = cell(&[&[Some(6e-8); 8], &[Some(9e-6); 8], &[Some(2e-5); 8]]);
+        assert_eq!(cell.rms_ratios[1].median, 1.0);
+        assert!((cell.rms_ratios[2].median - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn paths_are_called_by_their_files() {
+        assert_eq!(short_name("/tmp/here/softer.toml"), "softer");
+        assert_eq!(short_name("x500-smc"), "x500-smc");
+    }
+}

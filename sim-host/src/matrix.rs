@@ -1,0 +1,233 @@
+//! A matrix of flights: scenarios, what disturbs them, controllers, seeds. Built into the binary, or read from a file.
+
+use std::collections::BTreeSet;
+
+use anyhow::{Context, Result, ensure};
+use serde::{Deserialize, Serialize};
+
+use crate::scenario::{self, Scenario, built_in};
+use crate::seeds::Seeds;
+
+/// Matrices that come with the binary.
+const MATRICES: [(&str, &str); 1] = built_in!("matrices": "x500");
+
+/// A disturbance, as settings of a scenario.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DisturbanceEntry {
+    /// Its name.
+    pub name: String,
+    /// `KEY=VALUE`, as `--set` takes them.
+    pub set: Vec<String>,
+    /// Which scenarios it disturbs; all without it.
+    pub scenarios: Option<Vec<String>>,
+    /// Which of them it does not.
+    #[serde(default)]
+    pub except: Vec<String>,
+}
+
+impl DisturbanceEntry {
+    /// Whether it disturbs a scenario.
+    pub fn applies_to(&self, scenario: &str) -> bool {
+        let has = |names: &[String]| names.iter().any(|name| name == scenario);
+        self.scenarios.as_deref().is_none_or(has) && !has(&self.except)
+    }
+}
+
+/// A matrix file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MatrixFile {
+    /// What it compares, in a line.
+    pub summary: String,
+    /// Names or paths of tuning files; the first is the one that the others are compared with.
+    pub controllers: Vec<String>,
+    /// Names or paths of scenarios.
+    pub scenarios: Vec<String>,
+    /// What disturbs them.
+    pub disturbances: Vec<DisturbanceEntry>,
+    /// Seeds to judge with.
+    pub seeds: Seeds,
+    /// Seeds to tune with; none of them judges.
+    pub training_seeds: Option<Seeds>,
+}
+
+/// A matrix that can be flown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Matrix {
+    /// Its name, or the path it was read from.
+    pub name: String,
+    /// What to fly.
+    pub file: MatrixFile,
+    /// `KEY=VALUE` settings of every scenario, before those of the disturbances.
+    settings: Vec<String>,
+}
+
+/// A cell of a matrix: a scenario under a disturbance. [`Scenario::flown_by`] puts a controller in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// With the settings that make the disturbance, and the controller that its file names.
+    pub scenario: Scenario,
+    /// Its name in the matrix.
+    pub scenario_name: String,
+    /// Name of the disturbance.
+    pub disturbance_name: String,
+}
+
+impl Case {
+    /// Whether the seed makes a difference. Where it does not, one flight tells everything.
+    pub fn is_random(&self) -> bool {
+        let file = &self.scenario.file;
+        let gusty = file.wind.as_ref().is_some_and(|wind| wind.turbulence_20ft_m_s > 0.0);
+        file.disturbance.is_some() || file.tumble.is_some() || gusty
+    }
+
+    /// The seeds out of `seeds` that are worth flying: all if they differ, the first if they do not.
+    pub fn seeds(&self, seeds: Seeds) -> impl Iterator<Item = u64> {
+        let last = if self.is_random() { seeds.last } else { seeds.first };
+        seeds.first..=last
+    }
+}
+
+impl Matrix {
+    /// Loads a built-in matrix by name or a file by path. `settings` (`KEY=VALUE`) are applied to each scenario.
+    ///
+    /// # Errors
+    /// One line that names the matrix or file, the key, and what is wrong with it.
+    pub fn load(name: &str, settings: &[String]) -> Result<Self> {
+        let file: MatrixFile = scenario::read(name, "matrix", &MATRICES)?;
+        file.validate().with_context(|| format!("matrix `{name}`"))?;
+        Ok(Self { name: name.to_owned(), file, settings: settings.to_vec() })
+    }
+
+    /// Leaves only the scenarios and the disturbances named; where none are, all stay.
+    ///
+    /// # Errors
+    /// One line with the first name that the matrix does not have.
+    pub fn select(&mut self, scenarios: Option<&[String]>, disturbances: Option<&[String]>) -> Result<()> {
+        if let Some(names) = scenarios {
+            known(names, self.file.scenarios.iter(), "scenario", &self.name)?;
+            self.file.scenarios.retain(|scenario| names.contains(scenario));
+        }
+        if let Some(names) = disturbances {
+            let all = self.file.disturbances.iter().map(|disturbance| &disturbance.name);
+            known(names, all, "disturbance", &self.name)?;
+            self.file.disturbances.retain(|disturbance| names.contains(&disturbance.name));
+        }
+        Ok(())
+    }
+
+    /// Its cells: for each scenario in turn, the disturbances that apply to it.
+    ///
+    /// # Errors
+    /// One line that names the disturbance, the scenario, the key, and what is wrong with it.
+    pub fn cases(&self) -> Result<Vec<Case>> {
+        let cells = self.file.scenarios.iter().flat_map(|scenario| {
+            let applies = |disturbance: &&DisturbanceEntry| disturbance.applies_to(scenario);
+            self.file.disturbances.iter().filter(applies).map(move |disturbance| (scenario, disturbance))
+        });
+        cells.map(|(scenario, disturbance)| self.case(scenario, disturbance)).collect()
+    }
+
+    fn case(&self, scenario: &str, disturbance: &DisturbanceEntry) -> Result<Case> {
+        let settings = [self.settings.as_slice(), &disturbance.set].concat();
+        let loaded = Scenario::load(scenario, &settings)
+            .with_context(|| format!("matrix `{}`, disturbance `{}`", self.name, disturbance.name))?;
+        Ok(Case { scenario: loaded, scenario_name: scenario.to_owned(), disturbance_name: disturbance.name.clone() })
+    }
+}
+
+impl MatrixFile {
+    fn validate(&self) -> Result<()> {
+        distinct("controllers", self.controllers.iter())?;
+        distinct("scenarios", self.scenarios.iter())?;
+        distinct("disturbances", self.disturbances.iter().map(|disturbance| &disturbance.name))?;
+        for disturbance in &self.disturbances {
+            for name in disturbance.scenarios.iter().flatten().chain(&disturbance.except) {
+                let key = &disturbance.name;
+                ensure!(
+                    self.scenarios.contains(name),
+                    "disturbance `{key}` names `{name}`, which `scenarios` does not"
+                );
+            }
+        }
+        ensure!(
+            !self.training_seeds.is_some_and(|training| training.overlaps(self.seeds)),
+            "`seeds` and `training_seeds` overlap: what is tuned on a seed cannot be judged by it"
+        );
+        Ok(())
+    }
+}
+
+/// Refuses a list that is empty, or names something twice.
+fn distinct<'a>(key: &str, names: impl Iterator<Item = &'a String>) -> Result<()> {
+    let mut seen = BTreeSet::new();
+    for name in names {
+        ensure!(seen.insert(name), "`{key}` names `{name}` twice");
+    }
+    ensure!(!seen.is_empty(), "`{key}` is empty");
+    Ok(())
+}
+
+/// Refuses a name that is not among `all`.
+fn known<'a>(names: &[String], all: impl Iterator<Item = &'a String>, kind: &str, matrix: &str) -> Result<()> {
+    let all: Vec<&str> = all.map(String::as_str).collect();
+    for name in names {
+        let list = all.join(", ");
+        ensure!(all.contains(&name.as_str()), "matrix `{matrix}` has no {kind} `{name}`: use some of {list}");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_matrix_loads_with_all_its_scenarios() {
+        for (name, _) in MATRICES {
+            let matrix = Matrix::load(name, &[]).expect("valid");
+            let cases = matrix.cases().expect("valid");
+            assert_eq!(cases.len(), matrix.file.scenarios.len() * matrix.file.disturbances.len());
+        }
+    }
+
+    #[test]
+    fn disturbances_change_the_plant_and_not_what_the_firmware_believes() {
+        let cases = Matrix::load("x500", &[]).and_then(|matrix| matrix.cases()).expect("valid");
+        let case = |name: &str| cases.iter().find(|case| case.disturbance_name == name).expect("there");
+        let (calm, heavy) = (&case("none").scenario, &case("mass+30").scenario);
+        assert!((heavy.constants().mass / calm.constants().mass - 1.3).abs() < 1e-12);
+        assert_eq!(heavy.flight_config(), calm.flight_config());
+        assert_eq!(case("delay-4ms").scenario.actuation_delay_ticks(), 4);
+        assert_eq!(case("lag-50ms").scenario.constants().rotor_lag, 0.05);
+        let believed = f64::from(case("lag-50ms").scenario.flight_config().airframe.rotor_lag_s);
+        assert!((believed - 0.02).abs() < 1e-6, "{believed}");
+    }
+
+    #[test]
+    fn seeds_are_flown_where_they_make_a_difference() {
+        let matrix = Matrix::load("x500", &[]).expect("valid");
+        for case in matrix.cases().expect("valid") {
+            let random = case.scenario_name == "x500-recovery"
+                || case.disturbance_name.starts_with("dryden")
+                || case.disturbance_name == "gaussian";
+            assert_eq!(case.is_random(), random, "{} {}", case.scenario_name, case.disturbance_name);
+            let flown = if random { matrix.file.seeds.count() } else { 1 };
+            assert_eq!(case.seeds(matrix.file.seeds).count() as u64, flown);
+        }
+    }
+
+    #[test]
+    fn settings_and_filters_reach_the_cells() {
+        let mut matrix = Matrix::load("x500", &["duration_s=2".to_owned()]).expect("valid");
+        let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        matrix.select(Some(&names(&["x500-step", "x500-hover"])), Some(&names(&["mass-30"]))).expect("known");
+        matrix.file.disturbances[0].except = names(&["x500-step"]);
+        let cases = matrix.cases().expect("valid");
+        assert_eq!(cases.iter().map(|case| case.scenario_name.as_str()).collect::<Vec<_>>(), ["x500-hover"]);
+        assert_eq!(cases[0].scenario.file.duration_s, 2.0);
+        let error = matrix.select(Some(&names(&["x500-hovr"])), None).expect_err("unknown");
+        assert!(error.to_string().contains("x500-hovr"), "{error}");
+    }
+}

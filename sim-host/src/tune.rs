@@ -1,0 +1,102 @@
+//! Tuning: the gains of a controller, searched for by a swarm whose particles are judged by flights.
+//!
+//! ```text
+//! tunes/NAME.toml ──► Space: unit cube ──► gains ──► Controller ─┐
+//!        │                  ▲                                    ▼
+//!        └─► courses/NAME.toml ──► Course: flights, weights ──► cost
+//!                           │                                    │
+//!                        search (swarm, CMA-ES) ◄── Run ◄────────┘
+//!                                                    └─► journal, progress, best
+//! ```
+//!
+//! What is varied ([`Tune`]) and how it is judged ([`Course`]) are files of their own, so that several controllers are
+//! tuned on the same flights to the same cost. The search knows nothing of either: it sees costs of points in the unit
+//! cube. [`Run`] writes each of them down; resuming replays the search with what is known, and so goes on to the bit
+//! where it was.
+
+mod course;
+mod journal;
+mod run;
+mod search;
+mod space;
+
+pub use course::{Course, Weights};
+pub use journal::Journal;
+pub use run::{Iteration, Run, State};
+pub use search::{Method, Settings};
+pub use space::{Parameter, Scale, Space};
+
+use anyhow::{Context, Result};
+use serde::{Deserialize, Serialize};
+
+use crate::scenario::{self, TUNINGS, built_in};
+
+/// Tunes that come with the binary.
+const TUNES: [(&str, &str); 4] = built_in!("tunes": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
+
+/// Courses that come with the binary.
+const COURSES: [(&str, &str); 1] = built_in!("courses": "x500");
+
+/// A tune file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TuneFile {
+    /// What is tuned, in a line.
+    summary: String,
+    /// Name or path of the tuning file whose gains are varied.
+    base: String,
+    /// Name or path of the course that it is judged on.
+    course: String,
+    /// What is varied.
+    parameters: Vec<Parameter>,
+}
+
+/// What is varied, and how it is judged.
+#[derive(Clone, Debug)]
+pub struct Tune {
+    /// Its name, or the path that it was read from.
+    pub name: String,
+    /// Gains as points of the unit cube.
+    pub space: Space,
+    /// Flights and weights.
+    pub course: Course,
+}
+
+impl Tune {
+    /// Loads a built-in tune by name or a file by path, with the tuning and the course that it names.
+    ///
+    /// # Errors
+    /// One line that names the file, the key, and what is wrong with it.
+    pub fn load(name: &str) -> Result<Self> {
+        let context = || format!("tune `{name}`");
+        let file: TuneFile = scenario::read(name, "tune", &TUNES)?;
+        let base = scenario::read(&file.base, "tuning", &TUNINGS).with_context(context)?;
+        let space = Space::new(&file.base, base, file.parameters).with_context(context)?;
+        let course = Course::load(&file.course).with_context(context)?;
+        course.require_flyable(&space.base_controller()?).with_context(context)?;
+        Ok(Self { name: name.to_owned(), space, course })
+    }
+
+    /// Cost of a point of the unit cube: that of its controller's flights.
+    pub fn cost(&self, point: &[f64]) -> f64 {
+        self.space.controller(point).map_or(self.course.weights.refused(), |controller| self.course.cost(&controller))
+    }
+
+    /// What decides the costs of a run, for its journal: two runs of one text ask for the same flights.
+    pub fn identity(&self) -> String {
+        format!("{:?} {:?}", self.space, self.course)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_tune_loads_and_has_a_base_that_flies() {
+        for (name, _) in TUNES {
+            let tune = Tune::load(name).unwrap_or_else(|error| panic!("{error:#}"));
+            assert!(tune.space.base_controller().is_ok(), "{name}");
+        }
+    }
+}
