@@ -114,28 +114,21 @@ impl SlidingAttitude {
         let wanted = euler_demand(&mut self.axes, &target, &euler.angles(), &rates, hold);
         (wanted.s, euler.body_acceleration(&rates, &wanted.acceleration))
     }
-
-    /// d̂ of Ω̇, rad/s², given the torque that holds the rates.
-    #[inline]
-    fn disturbance(&mut self, input: &AttitudeInput, holding: &Vector3<f32>) -> Vector3<f32> {
-        let Some(observer) = &mut self.observer else { return Vector3::zeros() };
-        let applied = self.airframe.geometry.torque(input.rotor_speeds);
-        observer.step(input.rates, &(applied - holding).component_mul(&self.inverse_inertia))
-    }
 }
 
 impl AttitudeLaw for SlidingAttitude {
     #[inline]
     fn step(&mut self, input: &AttitudeInput) -> AttitudeDemand {
-        let (s, acceleration) = match self.form {
+        let (s, mut acceleration) = match self.form {
             AttitudeForm::Group => self.on_group(input),
-            AttitudeForm::Euler => {
-                self.on_euler_angles(*input.attitude, *input.rates, *input.target, input.saturated)
-            }
+            AttitudeForm::Euler => self.on_euler_angles(*input.attitude, *input.rates, *input.target, input.saturated),
         };
         let spins = self.rotor_senses.iter().zip(input.rotor_speeds).map(|(sense, omega)| sense * omega);
         let holding = holding_torque(&self.airframe, input.rates, spins.reduce(|a, b| a + b).unwrap_or(0.0));
-        let acceleration = acceleration - self.disturbance(input, &holding);
+        if let Some(observer) = &mut self.observer {
+            let applied = self.airframe.geometry.torque(input.rotor_speeds);
+            acceleration -= observer.step(input.rates, &(applied - holding).component_mul(&self.inverse_inertia));
+        }
         let inertia = Vector3::from(self.airframe.inertia_kg_m2);
         AttitudeDemand { s, torque: holding + inertia.component_mul(&acceleration) }
     }

@@ -79,7 +79,7 @@ impl DisturbanceObserver {
         let error = measured - self.rate;
         let most = self.disturbance_max;
         let disturbance = (self.disturbance + error * self.disturbance_gain).map(|d| math::limit(d, most));
-        self.rate += (model + disturbance) * self.step_s + error * self.rate_gain;
+        self.rate = self.rate + (model + disturbance) * self.step_s + error * self.rate_gain;
         self.disturbance = disturbance;
         disturbance
     }

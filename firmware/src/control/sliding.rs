@@ -299,15 +299,9 @@ impl SlidingAxis {
         if math::abs(approach) <= self.approach_max {
             (approach + velocity_error, self.lambda * error_rate)
         } else {
-            self.limited_surface(approach, velocity_error)
+            // Limited, it does not change.
+            (bound(approach, self.approach_max) + velocity_error, 0.0)
         }
-    }
-
-    /// The same where λ e is limited, and so does not change.
-    #[cold]
-    #[inline(never)]
-    fn limited_surface(&self, approach: f32, velocity_error: f32) -> (f32, f32) {
-        (math::limit(approach, self.approach_max) + velocity_error, 0.0)
     }
 
     fn integral_surface(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> (f32, f32) {
@@ -383,6 +377,13 @@ impl SlidingAxis {
         let lambda = if math::abs(self.lambda * error) <= self.approach_max { self.lambda } else { 0.0 };
         lambda * error_acceleration + slope * (lambda * error_rate + error_acceleration)
     }
+}
+
+/// ±`most`, on the side of `x`. A call of its own, or the compiler would have both sides computed every time.
+#[cold]
+#[inline(never)]
+fn bound(x: f32, most: f32) -> f32 {
+    if x > 0.0 { most } else { -most }
 }
 
 /// Eq. 17: 1, 0 or −1.

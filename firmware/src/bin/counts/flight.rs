@@ -185,9 +185,8 @@ impl Flight {
             self.counter.count(counter::mark_begin_guidance, || black_box(&self.guidance).at(black_box(effective)));
         self.counts.guidance.add(instructions);
         let (outer, input, reference) = black_box((&mut self.outer, &input, &reference));
-        let (instructions, output) = self
-            .counter
-            .count(counter::mark_begin_position, || black_box(outer.follow(effective, input, reference)));
+        let (instructions, output) =
+            self.counter.count(counter::mark_begin_position, || black_box(outer.follow(effective, input, reference)));
         self.counts.position.add(instructions);
         self.next = output.attitude;
     }
@@ -199,9 +198,8 @@ impl Flight {
         self.inner.sense(Some(&sample));
         let (inner, sample, reference) = black_box((&mut self.inner, &sample, &self.reference));
         let armed = black_box(true);
-        let (instructions, output) = self.counter.count(counter::mark_begin_attitude, || {
-            inner.step(tick, Some(sample), reference, armed)
-        });
+        let (instructions, output) =
+            self.counter.count(counter::mark_begin_attitude, || inner.step(tick, Some(sample), reference, armed));
         self.counts.attitude.add(instructions);
         if !output.saturated {
             self.counts.attitude_within_limits.add(instructions);
