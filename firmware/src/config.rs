@@ -91,6 +91,7 @@ impl Default for FlightConfig {
             position: PositionGains {
                 axes: [AxisGains::sat(6.0, 2.0, 2.0), AxisGains::sat(6.0, 2.0, 2.0), AxisGains::sat(6.0, 3.0, 1.5)],
                 observer: ObserverGains::default(),
+                effectiveness_rate: 0.0,
             },
             tilt_max_rad: 0.6,
             rotor_time_constant_s: 0.0,

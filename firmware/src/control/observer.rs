@@ -85,6 +85,52 @@ impl DisturbanceObserver {
     }
 }
 
+/// How much thrust the rotors really give, as a part of what the model says: a wrong mass, a weak rotor, a spent battery.
+///
+/// What is wrong with the thrust turns with the vehicle, faster than an observer of a disturbance that stands still in
+/// the world can follow. So the part of the disturbance along the force f, d̂·f/|f|², is taken over by a factor κ̂ on f: with
+/// `κ̂̇ = γ d̂·f/|f|²` and d̂ = (κ − κ̂) f the error of κ̂ dies as e^(−γt). What is taken over is taken off d̂ at once, so
+/// that their sum does not move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThrustEffectiveness {
+    /// γ h.
+    part: f32,
+    value: f32,
+}
+
+impl ThrustEffectiveness {
+    /// Between these lies every vehicle that can fly.
+    const RANGE: (f32, f32) = (0.6, 1.6);
+    /// Below this specific force (m/s²) its direction says little.
+    const FORCE_MIN: f32 = 1.0;
+
+    /// Adapted at `rate` γ (1/s), stepped every `step_s` seconds.
+    pub fn new(rate: f32, step_s: f32) -> Self {
+        Self { part: rate * step_s, value: 1.0 }
+    }
+
+    /// κ̂.
+    #[inline]
+    pub fn value(&self) -> f32 {
+        self.value
+    }
+
+    /// Back to what the model says.
+    pub fn reset(&mut self) {
+        self.value = 1.0;
+    }
+
+    /// Takes over a part of what `observer` has found, given the model's specific force, m/s².
+    #[inline]
+    pub fn adapt(&mut self, force: &Vector3<f32>, observer: &mut DisturbanceObserver) {
+        let square = math::max(force.norm_squared(), Self::FORCE_MIN * Self::FORCE_MIN);
+        let wanted = self.value + self.part * observer.disturbance.dot(force) / square;
+        let value = math::clamp(wanted, Self::RANGE.0, Self::RANGE.1);
+        observer.disturbance -= force * (value - self.value);
+        self.value = value;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -109,6 +155,26 @@ mod tests {
         // The lag of a double pole behind a ramp is 2L/ω₀; 1 % for the sampling.
         let lag = 7.0 + slope * 2.0 - found.x;
         assert!(math::abs(lag - 2.0 * slope / bandwidth) < 0.03 * slope / bandwidth, "{lag}");
+    }
+
+    #[test]
+    fn a_turning_thrust_that_is_too_weak_is_told_from_a_disturbance_that_stands_still() {
+        // 30 % less thrust than believed, along an axis that turns at 3 rad/s, and a steady 1 m/s² from the west.
+        let (h, weak, wind) = (4e-3_f32, 0.7_f32, Vector3::new(0.0, 1.0, 0.0));
+        let gains = ObserverGains { bandwidth_rad_s: 10.0, disturbance_max: 10.0 };
+        let mut observer = DisturbanceObserver::new(&gains, h);
+        let mut effectiveness = ThrustEffectiveness::new(2.0, h);
+        let (mut velocity, mut found) = (Vector3::zeros(), Vector3::zeros());
+        for i in 0..5_000 {
+            let (sin, cos) = math::sin_cos(math::wrap_angle(i as f32 * h * 3.0));
+            let force = Vector3::new(6.0 * sin, 6.0 * cos, 10.0);
+            found = observer.step(&velocity, &(force * effectiveness.value()));
+            effectiveness.adapt(&force, &mut observer);
+            velocity += (force * weak + wind) * h;
+        }
+        // The observer's lag behind what turns keeps a few percent of it.
+        assert!(math::abs(effectiveness.value() - weak) < 0.05, "{}", effectiveness.value());
+        assert!((found - wind).norm() < 0.7, "{found}");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use crate::airframe::Airframe;
 use crate::control::flatness::ForceProfile;
 use crate::control::law::{PositionDemand, PositionInput, PositionLaw};
-use crate::control::observer::{DisturbanceObserver, ObserverGains};
+use crate::control::observer::{DisturbanceObserver, ObserverGains, ThrustEffectiveness};
 use crate::control::sliding::{AxisGains, Correction, SlidingAxis};
 use crate::math;
 use crate::schedule::OUTER;
@@ -24,6 +24,8 @@ pub struct PositionGains {
     pub axes: [AxisGains; 3],
     /// Observer of the acceleration's disturbance, m/s².
     pub observer: ObserverGains,
+    /// Rate γ at which the observer's disturbance along the thrust is taken for wrong thrust, 1/s; 0 for never.
+    pub effectiveness_rate: f32,
 }
 
 impl PositionGains {
@@ -36,7 +38,8 @@ impl PositionGains {
         x.validate("control.x")?;
         y.validate("control.y")?;
         z.validate("control.z")?;
-        self.observer.validate("control.position_observer")
+        self.observer.validate("control.position_observer")?;
+        ConfigError::require_not_negative("control.effectiveness_rate", self.effectiveness_rate)
     }
 }
 
@@ -63,6 +66,14 @@ impl Translation {
         acceleration
     }
 
+    /// f that gives an acceleration r̈: the inverse of [`acceleration`](Self::acceleration).
+    #[inline]
+    pub fn force(&self, acceleration: &Vector3<f32>, velocity: &Vector3<f32>) -> Vector3<f32> {
+        let mut force = acceleration + self.drag(velocity);
+        force.z += self.gravity;
+        force
+    }
+
     /// (k/m) ṙ, m/s²; or its derivatives, for those of ṙ.
     #[inline]
     pub fn drag(&self, velocity: &Vector3<f32>) -> Vector3<f32> {
@@ -76,6 +87,7 @@ pub struct SlidingPosition {
     axes: [SlidingAxis; 3],
     model: Translation,
     observer: Option<DisturbanceObserver>,
+    effectiveness: ThrustEffectiveness,
 }
 
 impl SlidingPosition {
@@ -87,7 +99,19 @@ impl SlidingPosition {
             axes: gains.axes.map(|axis| SlidingAxis::new(&axis, step_s)),
             model: Translation::new(airframe),
             observer: (observer.bandwidth_rad_s > 0.0).then(|| DisturbanceObserver::new(&observer, step_s)),
+            effectiveness: ThrustEffectiveness::new(gains.effectiveness_rate, step_s),
         }
+    }
+
+    /// The vehicle's acceleration, m/s², as far as it is known, and d̂ in it.
+    #[inline]
+    fn observe(&mut self, input: &PositionInput) -> (Vector3<f32>, Vector3<f32>) {
+        let Some(observer) = &mut self.observer else { return (*input.acceleration, Vector3::zeros()) };
+        let force = self.model.force(input.acceleration, input.velocity);
+        let model = input.acceleration + force * (self.effectiveness.value() - 1.0);
+        let disturbance = observer.step(input.velocity, &model);
+        self.effectiveness.adapt(&force, observer);
+        (model + disturbance, disturbance)
     }
 }
 
@@ -98,25 +122,24 @@ impl PositionLaw for SlidingPosition {
     #[inline]
     fn step(&mut self, input: &PositionInput) -> PositionDemand {
         let reference = input.reference;
-        let disturbance = match &mut self.observer {
-            Some(observer) => observer.step(input.velocity, input.acceleration),
-            None => Vector3::zeros(),
-        };
+        let (acceleration, disturbance) = self.observe(input);
         let demand = demand(&mut self.axes, &self.model, reference, input.position, input.velocity, input.limited);
         let error = reference.position - input.position;
         let error_rate = reference.velocity - input.velocity;
-        let error_acceleration = reference.acceleration - (input.acceleration + disturbance);
+        let error_acceleration = reference.acceleration - acceleration;
         let rate = |i: usize, axis: &SlidingAxis| {
             axis.correction_rate(demand.s[i], error[i], error_rate[i], error_acceleration[i])
         };
         let [x, y, z] = &self.axes;
         let correction_rate = Vector3::new(rate(0, x), rate(1, y), rate(2, z));
+        // What the model's thrust has to be for the real one to be as wanted.
+        let share = 1.0 / self.effectiveness.value();
         PositionDemand {
             s: demand.s,
             profile: ForceProfile {
-                force: demand.force - disturbance,
-                rate: reference.jerk + self.model.drag(&reference.acceleration) + correction_rate,
-                acceleration: reference.snap + self.model.drag(&reference.jerk),
+                force: (demand.force - disturbance) * share,
+                rate: (reference.jerk + self.model.drag(&reference.acceleration) + correction_rate) * share,
+                acceleration: (reference.snap + self.model.drag(&reference.jerk)) * share,
             },
         }
     }
@@ -126,6 +149,7 @@ impl PositionLaw for SlidingPosition {
         if let Some(observer) = &mut self.observer {
             observer.reset();
         }
+        self.effectiveness.reset();
     }
 }
 

@@ -33,27 +33,30 @@ impl LowPass {
 /// form whose gain at rest is 1 exactly, whatever is rounded.
 #[derive(Clone, Debug)]
 pub(super) struct Butterworth {
-    /// 1/(1 + √2 g + g²), that times g, and that times g², for g = tan(πfh).
-    a: [f32; 3],
+    /// 1/(1 + √2 g + g²), that times g, and that times g², for g = tan(πfh); each axis its own.
+    a: [Vector3<f32>; 3],
     /// The integrators; none before the first input.
     state: Option<[Vector3<f32>; 2]>,
 }
 
 impl Butterworth {
-    /// With the cutoff in Hz, stepped every `step_s` seconds.
-    pub(super) fn new(cutoff_hz: f32, step_s: f32) -> Self {
-        let (sin, cos) = math::sin_cos(core::f32::consts::PI * cutoff_hz * step_s);
-        let g = sin / cos;
-        let a = 1.0 / (1.0 + g * (g + core::f32::consts::SQRT_2));
-        Self { a: [a, g * a, g * g * a], state: None }
+    /// With the cutoffs of the axes in Hz, stepped every `step_s` seconds.
+    pub(super) fn new(cutoff_hz: &Vector3<f32>, step_s: f32) -> Self {
+        let g = cutoff_hz.map(|cutoff_hz| {
+            let (sin, cos) = math::sin_cos(core::f32::consts::PI * cutoff_hz * step_s);
+            sin / cos
+        });
+        let a = g.map(|g| 1.0 / (1.0 + g * (g + core::f32::consts::SQRT_2)));
+        let times_g = a.component_mul(&g);
+        Self { a: [a, times_g, times_g.component_mul(&g)], state: None }
     }
 
     /// The next output. The first input is taken as if it had been there for ever.
     pub(super) fn step(&mut self, input: &Vector3<f32>) -> Vector3<f32> {
         let [slope, value] = self.state.unwrap_or([Vector3::zeros(), *input]);
-        let (error, [a1, a2, a3]) = (input - value, self.a);
-        let new_slope = slope * a1 + error * a2;
-        let output = value + slope * a2 + error * a3;
+        let (error, [a1, a2, a3]) = (input - value, &self.a);
+        let new_slope = slope.component_mul(a1) + error.component_mul(a2);
+        let output = value + slope.component_mul(a2) + error.component_mul(a3);
         self.state = Some([new_slope * 2.0 - slope, output * 2.0 - value]);
         output
     }
@@ -103,12 +106,12 @@ mod tests {
     fn both_low_passes_halve_the_power_at_their_cutoff() {
         // 1/√2; a sine sampled 50 times a period misses its crest by at most 1 − cos(π/50) = 0.2 %. The first order is
         // sampled exactly for a step, which is 1 − e^(−ωh) ≈ 6 % at 20 Hz from the continuous one.
-        let mut second = Butterworth::new(20.0, 1e-3);
+        let mut second = Butterworth::new(&Vector3::repeat(20.0), 1e-3);
         assert!((gain(20.0, |x| second.step(x)) - 0.5_f64.sqrt()).abs() < 3e-3);
         let mut first = LowPass::new(20.0, 1e-3);
         assert!((gain(20.0, |x| first.step(x)) - 0.5_f64.sqrt()).abs() < 0.05);
         // A decade above, |H| = 1/√(1 + (tan ratio)⁴): 40 dB a decade, a little more by the transformation.
-        let mut second = Butterworth::new(20.0, 1e-3);
+        let mut second = Butterworth::new(&Vector3::repeat(20.0), 1e-3);
         assert!(gain(200.0, |x| second.step(x)) < 0.01);
     }
 
@@ -116,7 +119,7 @@ mod tests {
     fn a_constant_passes_from_the_first_step() {
         let x = Vector3::new(3.0, -1.0, 0.5);
         let (mut first, mut second, mut slope) =
-            (LowPass::new(5.0, 1e-3), Butterworth::new(5.0, 1e-3), Difference::new(1e-3));
+            (LowPass::new(5.0, 1e-3), Butterworth::new(&Vector3::repeat(5.0), 1e-3), Difference::new(1e-3));
         for _ in 0..100 {
             assert!((first.step(&x) - x).norm() < 1e-5);
             assert_eq!(second.step(&x), x);

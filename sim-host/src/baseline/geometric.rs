@@ -1,9 +1,8 @@
 //! Geometric tracking control on SE(3): Lee, Leok and McClamroch (CDC 2010, arXiv:1003.2005), with the integrals of
 //! Goodarzi, Lee and Lee (ECC 2013, arXiv:1304.6765).
 //!
-//! With eR = ½ (RdᵀR − RᵀRd)^∨ and eΩ = Ω − RᵀRd Ωd,
-//!
 //! ```text
+//! eR = ½ (RdᵀR − RᵀRd)^∨    eΩ = Ω − RᵀRd Ωd
 //! f = kx (xd − x) + kv (vd − v) + ki sat(∫) + g e3 + ẍd
 //! M = J (−kR eR − kΩ eΩ − kI sat(∫)) + Ω × JΩ − J (Ω̂ RᵀRd Ωd − RᵀRd Ω̇d)
 //! ```
@@ -173,7 +172,7 @@ pub struct GeometricAttitude {
     integral: BoundedIntegral,
 }
 
-/// eR and eΩ, RᵀRd Ωd, and the derivative of the latter; all in the body's frame.
+/// eR, eΩ, and the derivative of the rate desired; all in the body's frame.
 struct Errors {
     rotation: Vector3<f32>,
     rate: Vector3<f32>,
@@ -249,7 +248,7 @@ mod tests {
         }
     }
 
-    /// Lee's error function ½ |eΩ|² + kR Ψ, Ψ = ½ tr(I − RdᵀR), for a kR alike about all axes.
+    /// Lee's error function ½ |eΩ|² + kR Ψ, Ψ = 1 − cos of the angle left, for a kR alike about all axes.
     fn lyapunov(kr: f64, at: (&UnitQuaternion<f64>, &Vector3<f64>), to: (&UnitQuaternion<f64>, &Vector3<f64>)) -> f64 {
         let relative = at.0.inverse() * to.0;
         let psi = 2.0 * relative.imag().norm_squared();

@@ -51,8 +51,8 @@ pub struct Indi {
     pub attitude_1_s2: AxisPair,
     /// kΩ, 1/s.
     pub rate_1_s: AxisPair,
-    /// Cutoff of H in the attitude loop, Hz.
-    pub rate_cutoff_hz: f32,
+    /// Cutoff of H in the attitude loop, Hz; yaw often needs a lower one.
+    pub rate_cutoff_hz: AxisPair,
     /// How much later than the model's the rotors answer, ticks.
     pub rotor_delay_ticks: u8,
     /// Whether the torque that turns a rotor faster is in the model: Smeur's G2.
@@ -77,7 +77,8 @@ impl Indi {
         }
         require_within("indi.feedback_rate", self.feedback_rate, 0.0, 1.0)?;
         require_cutoff("indi.acceleration_cutoff_hz", self.acceleration_cutoff_hz, OUTER_STEP_S)?;
-        require_cutoff("indi.rate_cutoff_hz", self.rate_cutoff_hz, TICK_S)?;
+        require_cutoff("indi.rate_cutoff_hz.xy", self.rate_cutoff_hz.xy, TICK_S)?;
+        require_cutoff("indi.rate_cutoff_hz.z", self.rate_cutoff_hz.z, TICK_S)?;
         let delay = f32::from(self.rotor_delay_ticks);
         require_within("indi.rotor_delay_ticks", delay, 0.0, DELAY_TICKS_MAX as f32)
     }
@@ -96,7 +97,7 @@ pub struct IndiPosition {
 impl IndiPosition {
     /// Stepped once a job of the outer partition, with valid gains.
     pub fn new(airframe: &Airframe, gains: &Indi) -> Self {
-        let low_pass = || Butterworth::new(gains.acceleration_cutoff_hz, OUTER_STEP_S);
+        let low_pass = || Butterworth::new(&Vector3::repeat(gains.acceleration_cutoff_hz), OUTER_STEP_S);
         Self {
             gains: *gains,
             model: Translation::new(airframe),
@@ -202,7 +203,7 @@ pub struct IndiAttitude {
 impl IndiAttitude {
     /// Stepped once a tick, with valid gains.
     pub fn new(airframe: &Airframe, gains: &Indi) -> Self {
-        let low_pass = || Butterworth::new(gains.rate_cutoff_hz, TICK_S);
+        let low_pass = || Butterworth::new(&gains.rate_cutoff_hz.vector(), TICK_S);
         Self {
             inertia: airframe.inertia_kg_m2.into(),
             kr: gains.attitude_1_s2.vector(),
@@ -249,7 +250,7 @@ mod tests {
 
     fn gains() -> Indi {
         let Controller::Indi(gains) = tuning("x500-indi") else { panic!("another controller") };
-        gains
+        Indi { rate_cutoff_hz: AxisPair { xy: 20.0, z: 20.0 }, ..gains }
     }
 
     /// Turns the vehicle at a constant angular acceleration beyond that of its rotors, with all else in place, and
@@ -301,7 +302,7 @@ mod tests {
         let (hover, mut faster) = (hover_speeds(&airframe), hover_speeds(&airframe));
         let towards = |rotor: &usize| airframe.geometry.yaw[*rotor] > 0.0;
         (0..ROTORS).filter(towards).for_each(|rotor| faster[rotor] += 1.0);
-        let mut model = RotorTorque::new(&airframe, &Indi { rotor_delay_ticks: 3, ..gains() });
+        let mut model = RotorTorque::new(&airframe, &Indi { rotor_delay_ticks: 3, rotor_spin_up: true, ..gains() });
         let mut yaw = Vec::new();
         for tick in 0..10 {
             yaw.push(model.step(if tick < 4 { &hover } else { &faster }).z);

@@ -127,7 +127,7 @@ impl PidPosition {
     fn velocity_wanted(&self, error: &Vector3<f32>, feedforward: &Vector3<f32>) -> Vector3<f32> {
         let most = self.gains.velocity_max_m_s;
         let by_error = self.gains.position_p_1_s.vector().component_mul(error);
-        let horizontal = within_circle(&by_error.xy(), &feedforward.xy(), most.xy);
+        let horizontal = within_circle(by_error.xy(), feedforward.xy(), most.xy);
         let vertical = math::clamp(by_error.z + feedforward.z, -most.z, most.z);
         Vector3::new(horizontal.x, horizontal.y, vertical)
     }
@@ -184,7 +184,7 @@ impl PositionLaw for PidPosition {
 }
 
 /// `first + second`, of which as much of `second` is left out as brings the sum within a circle.
-fn within_circle(first: &Vector2<f32>, second: &Vector2<f32>, radius: f32) -> Vector2<f32> {
+fn within_circle(first: Vector2<f32>, second: Vector2<f32>, radius: f32) -> Vector2<f32> {
     let sum = first + second;
     let size = math::sqrt(first.norm_squared());
     if sum.norm_squared() <= radius * radius {
@@ -194,7 +194,7 @@ fn within_circle(first: &Vector2<f32>, second: &Vector2<f32>, radius: f32) -> Ve
         return first * (radius / size);
     }
     // |first + s·second| = radius has one root s ≥ 0, since `first` lies inside.
-    let (a, half_b) = (second.norm_squared(), first.dot(second));
+    let (a, half_b) = (second.norm_squared(), first.dot(&second));
     let s = (math::sqrt(half_b * half_b + a * (radius * radius - size * size)) - half_b) / a;
     first + second * s
 }
@@ -368,11 +368,11 @@ mod tests {
     #[test]
     fn what_the_error_asks_for_goes_before_the_references_velocity() {
         let (first, second) = (Vector2::new(3.0_f32, 1.0), Vector2::new(-1.0_f32, 6.0));
-        assert_eq!(within_circle(&first, &second, 20.0), first + second);
-        let inside = within_circle(&first, &second, 5.0);
+        assert_eq!(within_circle(first, second, 20.0), first + second);
+        let inside = within_circle(first, second, 5.0);
         assert!((inside.norm() - 5.0).abs() < 1e-5);
         assert!((inside - first).perp(&second).abs() < 1e-5 && (inside - first).dot(&second) > 0.0, "{inside}");
-        let only = within_circle(&first, &second, 2.0);
+        let only = within_circle(first, second, 2.0);
         assert!((only.norm() - 2.0).abs() < 1e-5 && only.perp(&first).abs() < 1e-5, "{only}");
     }
 

@@ -27,6 +27,9 @@ pub struct Control {
     /// Observer of what accelerates it beyond its model, m/s².
     #[serde(default)]
     pub position_observer: ObserverGains,
+    /// Rate at which what is observed along the thrust is taken for wrong thrust, 1/s; 0 for never.
+    #[serde(default)]
+    pub effectiveness_rate: f32,
     /// Roll φ.
     #[serde(deserialize_with = "axis")]
     pub roll: AxisGains,
@@ -69,6 +72,10 @@ impl Control {
 
     /// For the position loop.
     pub fn position(&self) -> PositionGains {
-        PositionGains { axes: [self.x, self.y, self.z], observer: self.position_observer }
+        PositionGains {
+            axes: [self.x, self.y, self.z],
+            observer: self.position_observer,
+            effectiveness_rate: self.effectiveness_rate,
+        }
     }
 }
