@@ -111,8 +111,13 @@ impl Airframe {
         lift * self.omega_max_rad_s * self.omega_max_rad_s
     }
 
-    /// The sense, ±1, in which each rotor spins about +z: one that pushes the body towards +ψ spins the other way. Their
-    /// sum over the speeds is Ωr of Eq. 2, −ω1 + ω2 − ω3 + ω4 on the plus layout.
+    /// Ωr, the sum of the rotors' spins about +z (Eq. 2): −ω1 + ω2 − ω3 + ω4 on the plus layout.
+    #[inline]
+    pub fn rotor_spin_rad_s(&self, omega_rad_s: &[f32; ROTORS]) -> f32 {
+        self.rotor_senses().iter().zip(omega_rad_s).map(|(sense, omega)| sense * omega).sum()
+    }
+
+    /// The sense, ±1, in which each rotor spins about +z: one that pushes the body towards +ψ spins the other way.
     pub fn rotor_senses(&self) -> [f32; ROTORS] {
         self.geometry.yaw.map(|yaw| if yaw > 0.0 { -1.0 } else { 1.0 })
     }
