@@ -97,6 +97,7 @@ fn config() -> FlightConfig {
         position: PositionGains {
             axes: [horizontal, horizontal, vertical],
             observer: ObserverGains { bandwidth_rad_s: 6.0, disturbance_max: 6.0 },
+            effectiveness_rate: 1.0,
         },
         tilt_max_rad: 1.2,
         rotor_time_constant_s: 0.005,
