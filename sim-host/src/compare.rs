@@ -6,7 +6,7 @@ use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use crate::controller::Controller;
 use crate::matrix::{Case, Matrix};
-use crate::scenario;
+use crate::scenario::{self, Scenario};
 use crate::score::{self, Score};
 use crate::seeds::Seeds;
 use crate::statistics::Estimate;
@@ -95,7 +95,8 @@ pub struct Medians {
 }
 
 impl Medians {
-    fn of_flights(flights: &[FlightScore]) -> Self {
+    /// Of flights of one controller in one cell.
+    pub(crate) fn of_flights(flights: &[FlightScore]) -> Self {
         Self {
             flights: flights.len(),
             survived: flights.iter().filter(|flight| flight.score.survived).count(),
@@ -104,15 +105,15 @@ impl Medians {
     }
 
     /// Of the medians of cells, each of the same weight.
-    fn of_cells<'a>(cells: impl Iterator<Item = &'a Self> + Clone) -> Self {
+    fn of_cells(cells: &[&Self]) -> Self {
         // The cells are no sample of anything: their median has no interval.
         let estimate = |figure| Estimate {
             interval: None,
-            ..Estimate::of(cells.clone().map(|cell| Some(cell.estimate(figure).median)))
+            ..Estimate::of(cells.iter().map(|cell| Some(cell.estimate(figure).median)))
         };
         Self {
-            flights: cells.clone().map(|cell| cell.flights).sum(),
-            survived: cells.clone().map(|cell| cell.survived).sum(),
+            flights: cells.iter().map(|cell| cell.flights).sum(),
+            survived: cells.iter().map(|cell| cell.survived).sum(),
             estimates: Figure::ALL.map(estimate),
         }
     }
@@ -263,25 +264,27 @@ impl<'a> Contest<'a> {
     /// # Errors
     /// What of a scenario the firmware refuses.
     pub fn fly(&self, flown: impl Fn() + Sync) -> Result<Comparison> {
-        let mut entries = Vec::new();
+        let mut entries: Vec<(&Case, &str, Scenario)> = Vec::new();
         for case in &self.cases {
             for (name, controller) in &self.controllers {
-                let scenario = case.scenario.clone().flown_by(controller.clone())?;
-                entries.extend(case.seeds(self.matrix.file.seeds).map(|seed| (case, name, seed, scenario.clone())));
+                entries.push((case, name, case.scenario.clone().flown_by(controller.clone())?));
             }
         }
-        let fly = |(case, name, seed, scenario): &(&Case, &String, u64, scenario::Scenario)| {
+        let seeds = self.matrix.file.seeds;
+        let sorties: Vec<_> =
+            entries.iter().flat_map(|entry| entry.0.seeds(seeds).map(move |seed| (entry, seed))).collect();
+        let fly = |((case, name, scenario), seed): &(&(&Case, &str, Scenario), u64)| {
             let score = score::fly(scenario, *seed)?;
             flown();
             Ok(FlightScore {
                 scenario: short_name(&case.scenario_name).to_owned(),
                 disturbance: case.disturbance_name.clone(),
-                controller: (*name).clone(),
+                controller: (*name).to_owned(),
                 seed: *seed,
                 score,
             })
         };
-        Ok(self.judge(entries.par_iter().map(fly).collect::<Result<_>>()?))
+        Ok(self.judge(sorties.par_iter().map(fly).collect::<Result<_>>()?))
     }
 
     /// The flights, in the order of [`fly`](Self::fly), as a comparison.
@@ -320,7 +323,7 @@ fn overall(cells: &[Cell], index: usize, name: &str) -> Overall {
     let ratios = || cells.iter().map(|cell| cell.rms_ratios[index].median);
     Overall {
         controller: name.to_owned(),
-        medians: Medians::of_cells(cells.iter().map(|cell| &cell.controllers[index])),
+        medians: Medians::of_cells(&cells.iter().map(|cell| &cell.controllers[index]).collect::<Vec<_>>()),
         rms_ratio: Estimate::of(ratios().map(Some)).median,
         better_cells: ratios().filter(|ratio| *ratio < 1.0).count(),
         worse_cells: ratios().filter(|ratio| *ratio > 1.0).count(),

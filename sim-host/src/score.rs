@@ -144,3 +144,92 @@ fn attitude_error(row: &Row) -> f64 {
     let [roll, pitch, yaw] = row.desired_attitude;
     flown.angle_to(&UnitQuaternion::from_euler_angles(roll, pitch, yaw))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The score of a flight of `scenario` for `seconds` whose row at t is `row(t)`.
+    fn scored(scenario: &str, settings: &[&str], seconds: f64, row: impl Fn(f64) -> Row, survived: bool) -> Score {
+        let settings: Vec<String> = settings.iter().map(|setting| (*setting).to_owned()).collect();
+        let mut scorer = Scorer::new(&Scenario::load(scenario, &settings).expect("valid"));
+        let ticks = (seconds * 1e3).round() as u32;
+        for k in 0..ticks {
+            scorer.record(&row(f64::from(k) / 1e3));
+        }
+        scorer.score(&Outcome { ticks, saturated_ticks: ticks / 4, survived })
+    }
+
+    fn level(t: f64) -> Row {
+        Row { t, attitude: [1.0, 0.0, 0.0, 0.0], ..Row::default() }
+    }
+
+    fn assert_is(value: Option<f64>, expected: f64) {
+        let value = value.expect("defined");
+        assert!((value - expected).abs() <= 1e-9 * expected.abs().max(1.0), "{value} is not {expected}");
+    }
+
+    #[test]
+    fn distances_are_lengths_in_space() {
+        let score = scored("hover", &[], 2.0, |t| Row { position: [0.3, -0.4, 1.2], ..level(t) }, true);
+        assert_is(score.rms_m, 1.3);
+        assert_is(score.max_m, 1.3);
+        assert_eq!(score.settle_s, None);
+        assert_is(score.altitude_lost_m, 0.0);
+        // 2 A sin has a mean square of 2 A² over whole periods.
+        let wave = |t: f64| Row { position: [0.0, 0.0, -0.2 * libm::sin(core::f64::consts::TAU * t)], ..level(t) };
+        let score = scored("hover", &[], 3.0, wave, true);
+        assert_is(score.rms_m, 0.2 / 2.0_f64.sqrt());
+        assert_is(score.altitude_lost_m, 0.2);
+    }
+
+    #[test]
+    fn what_comes_before_the_trajectory_does_not_count() {
+        let approach = |t: f64| Row { position: [if t < 4.5 { 0.2 } else { 0.01 }, 0.0, 0.0], ..level(t) };
+        // Joined at 4 s: half a second of 20 cm, half a second of 1 cm.
+        let score =
+            scored("x500-hover", &["join={duration_s=4.0}", "trajectory.hold.position_m=[0,0,0]"], 5.0, approach, true);
+        assert_is(score.rms_m, (0.5 * 0.04_f64 + 0.5 * 0.0001).sqrt());
+        assert_is(score.settle_s, 0.5);
+        // A step at 1 s counts from there.
+        assert_eq!(counts_from_s(&Scenario::load("x500-step", &[]).expect("valid")), 1.0);
+        assert_eq!(counts_from_s(&Scenario::load("x500-recovery", &[]).expect("valid")), 0.0);
+    }
+
+    #[test]
+    fn effort_and_chattering_have_their_closed_forms() {
+        // ω² alternates between 100² and 110² on each rotor: 4 · 2100 a tick, 1000 ticks a second.
+        let row = |t: f64| {
+            let omega = if ((t * 1e3).round() as u32).is_multiple_of(2) { 100.0 } else { 110.0 };
+            Row { omega: [omega; 4], omega_command: [omega; 4], u: [9.0, 0.3, 0.0, -0.4], ..level(t) }
+        };
+        let score = scored("hover", &[], 2.0, row, true);
+        assert_is(score.chattering_rad2_s3, 8.4e6);
+        assert_is(score.omega_squared_mean_rad2_s2, f64::midpoint(1e4, 1.21e4));
+        assert_is(score.torque_rms_n_m, 0.5);
+        assert_eq!(score.saturated_fraction, 0.25);
+    }
+
+    #[test]
+    fn an_attitude_error_is_the_angle_of_one_rotation() {
+        let row = |t: f64| Row { desired_attitude: [0.0, 0.4, 0.0], ..level(t) };
+        assert_is(scored("hover", &[], 1.0, row, true).attitude_max_rad, 0.4);
+        // Upside down is π away whichever way it got there.
+        let row = |t: f64| Row { attitude: [0.0, 0.6, 0.8, 0.0], ..level(t) };
+        assert_is(scored("hover", &[], 1.0, row, true).attitude_max_rad, core::f64::consts::PI);
+    }
+
+    #[test]
+    fn a_lost_flight_has_no_figures() {
+        let score = scored("hover", &[], 1.5, level, false);
+        let expected = Score { flown_s: 1.5, saturated_fraction: 0.25, ..Score::default() };
+        assert_eq!(score, expected);
+    }
+
+    #[test]
+    fn a_nan_is_not_forgotten() {
+        let row = |t: f64| Row { position: [if t == 0.5 { f64::NAN } else { 0.0 }, 0.0, 0.0], ..level(t) };
+        let score = scored("hover", &[], 1.0, row, true);
+        assert_eq!((score.rms_m, score.max_m), (None, None));
+    }
+}

@@ -248,3 +248,111 @@ fn help_and_version_are_results() {
     assert!(folder.succeeds(&["run", "--help"]).contains("--seeds"));
     assert!(folder.succeeds(&["--version"]).contains(env!("CARGO_PKG_VERSION")));
 }
+
+/// Three cells: one in which nothing is random, one that is, and one that loses a rotor and so the vehicle.
+const MATRIX: &str = r#"
+summary = "a small one"
+controllers = ["stiff.toml", "soft.toml"]
+scenarios = ["hover"]
+seeds = "101..106"
+training_seeds = "1..4"
+
+[[disturbances]]
+name = "none"
+set = []
+
+[[disturbances]]
+name = "gusts"
+set = ["wind={mean_m_s=[3.0,0.0,0.0],turbulence_20ft_m_s=15.0}"]
+
+[[disturbances]]
+name = "three-rotors"
+set = ["truth.rotor_effectiveness=[0.0,1.0,1.0,1.0]"]
+"#;
+
+/// Gains of helix.toml as a tuning file, those of the position divided by `softness`.
+fn tuning(softness: f64) -> String {
+    let (_, gains) = HELIX.split_once("[control]").expect("gains by the sliding mode laws");
+    let gain = format!("lambda = {:.2}", 4.0 / softness);
+    format!("summary = \"of a test\"\n[smc]{}", gains.replace("lambda = 4.0", &gain))
+}
+
+/// A folder with the matrix and its two controllers.
+fn compared(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.file("matrix.toml", MATRIX);
+    folder.file("stiff.toml", &tuning(1.0));
+    folder.file("soft.toml", &tuning(2.0));
+    folder
+}
+
+#[test]
+fn a_comparison_is_the_same_whatever_the_threads() {
+    let folder = compared("threads");
+    let files = |jobs: &str| {
+        folder.succeeds(&["compare", "matrix.toml", "--jobs", jobs, "--out", jobs]);
+        let names = ["json", "csv", "md"].map(|kind| format!("compare.{kind}"));
+        let figures = ["rms", "ratio", "survival"].map(|figure| format!("compare-{figure}.svg"));
+        let read = |name: &String| fs::read(folder.0.join(jobs).join(name)).expect("the file was written");
+        names.iter().chain(&figures).map(read).collect::<Vec<_>>()
+    };
+    assert!(files("1") == files("4"));
+}
+
+#[test]
+fn a_comparison_says_who_is_better_and_who_is_lost() {
+    let folder = compared("compare");
+    let text = folder.succeeds(&["compare", "matrix.toml", "--json"]);
+    let found: Value = serde_json::from_str(&text).expect("one JSON value and nothing else");
+    assert_eq!(found["controllers"], serde_json::json!(["stiff", "soft"]));
+    let [calm, gusts, broken] = found["cells"].as_array().expect("cells").as_slice() else { panic!("{text}") };
+    assert_eq!((&calm["random"], &calm["controllers"][0]["flights"]), (&false.into(), &1.into()));
+    assert_eq!((&gusts["random"], &gusts["controllers"][0]["flights"]), (&true.into(), &6.into()));
+    // With half the bandwidth the same gust moves the vehicle further, under every seed.
+    let ratio = &gusts["rms_ratios"][1];
+    assert!(ratio["median"].as_f64() > Some(1.2) && ratio["interval"][0].as_f64() > Some(1.0), "{ratio}");
+    assert_eq!((&broken["controllers"][0]["survived"], &broken["controllers"][0]["flights"]), (&0.into(), &1.into()));
+    assert_eq!(broken["controllers"][0]["rms_m"]["median"], Value::Null);
+    assert_eq!(found["lost"], serde_json::json!([]));
+
+    let swapped = folder.succeeds(&["compare", "matrix.toml", "--controllers", "soft.toml,stiff.toml"]);
+    assert!(swapped.contains("lost: hover under gusts to stiff") && swapped.contains("lost 0/1"), "{swapped}");
+    assert!(swapped.lines().all(|line| line.chars().count() <= 120), "{swapped}");
+}
+
+#[test]
+fn a_comparison_can_be_narrowed() {
+    let folder = compared("narrow");
+    let arguments = ["compare", "matrix.toml", "--disturbances", "gusts", "--seeds", "3..5", "--set", "duration_s=1"];
+    let text = folder.succeeds(&[&arguments[..], &["--controllers", "stiff.toml", "--out", "out"]].concat());
+    assert!(text.contains("TUNED ON"), "seeds 3 and 4 are for training: {text}");
+    let csv = fs::read_to_string(folder.0.join("out/compare.csv")).expect("the file was written");
+    let rows: Vec<&str> = csv.lines().skip(1).collect();
+    assert!(rows.len() == 3 && rows.iter().all(|row| row.starts_with("hover,gusts,stiff,")), "{csv}");
+}
+
+#[test]
+fn a_comparison_of_what_is_not_there_is_refused() {
+    let folder = compared("refused");
+    folder.refuses(&["compare", "x600"], "x600");
+    folder.refuses(&["compare", "matrix.toml", "--controllers", "stiff.toml,x500-lqr"], "x500-lqr");
+    folder.refuses(&["compare", "matrix.toml", "--controllers", "gone.toml"], "gone.toml");
+    folder.refuses(&["compare", "matrix.toml", "--scenarios", "hovver"], "hovver");
+    folder.refuses(&["compare", "matrix.toml", "--disturbances", "gusts,rain"], "rain");
+    folder.refuses(&["compare", "matrix.toml", "--jobs", "0"], "--jobs");
+    folder.refuses(&["compare", "matrix.toml", "--seeds", "2..1"], "--seeds");
+    for (from, to, culprit) in [
+        ("1..4", "100..101", "training_seeds"),
+        ("101..106", "106", "seeds"),
+        ("soft.toml", "stiff.toml", "twice"),
+        ("soft.toml", "lost.toml", "lost.toml"),
+        ("\"hover\"", "", "scenarios"),
+        ("mean_m_s", "median_m_s", "gusts"),
+        ("set = []", "set = []\nexcept = [\"helix\"]", "helix"),
+        ("summary", "colour = 1\nsummary", "colour"),
+    ] {
+        assert!(MATRIX.contains(from), "{from}");
+        folder.file("spoilt.toml", &MATRIX.replacen(from, to, 1));
+        folder.refuses(&["compare", "spoilt.toml"], culprit);
+    }
+}

@@ -1,4 +1,4 @@
-//! Nothing allocates in the lockstep loop: firmware with all partitions, plant, noise, metrics and the MAVLink bytes.
+//! Nothing allocates in the lockstep loop: firmware with all partitions, plant, noise, metrics, score and the MAVLink bytes.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -7,8 +7,10 @@ use firmware::mavlink::Ground;
 use firmware::schedule::GROUND;
 use sim_host::flight;
 use sim_host::plant::rigid_body::RigidBody;
+use sim_host::record::Recorder;
 use sim_host::report::{Metrics, TruthWriter};
 use sim_host::scenario::Scenario;
+use sim_host::score::Scorer;
 use sim_host::sil::Flight;
 
 /// The system's allocator, counting.
@@ -44,7 +46,7 @@ fn noise(tick: u32) -> [u8; 8] {
 }
 
 /// Flies `ticks` ticks with a talking ground station; returns how many bytes the firmware sent.
-fn fly(flight: &mut Flight<RigidBody>, ticks: u32, recorder: &mut (Metrics, TruthWriter<std::io::Sink>)) -> usize {
+fn fly(flight: &mut Flight<RigidBody>, ticks: u32, recorder: &mut impl Recorder) -> usize {
     let mut sent = 0;
     for tick in 0..ticks {
         if tick % GROUND.period == 0 {
@@ -73,7 +75,7 @@ fn five_seconds_of_flight_allocate_nothing() {
     assert!(ALLOCATIONS.load(Ordering::Relaxed) > before, "the counter counts");
     flight.autopilot.ground = Ground::default();
 
-    let mut recorder = (Metrics::new(), TruthWriter::hash_only());
+    let mut recorder = ((Metrics::new(), TruthWriter::hash_only()), Scorer::new(&scenario));
     fly(&mut flight, 1_000, &mut recorder);
     let before = ALLOCATIONS.load(Ordering::Relaxed);
     let sent = fly(&mut flight, 5_000, &mut recorder);

@@ -52,7 +52,7 @@ pub fn write(comparison: &Comparison, folder: &Path) -> Result<()> {
 /// A row a flight; what a flight does not have is empty.
 pub fn csv(flights: &[FlightScore]) -> String {
     let mut text = "scenario,disturbance,controller,seed,survived,flown_s".to_owned();
-    Figure::ALL.iter().for_each(|figure| text.extend([",", figure.key()]));
+    text.extend(Figure::ALL.map(|figure| format!(",{}", figure.key())));
     for flight in flights {
         let (FlightScore { scenario, disturbance, controller, seed, score }, survived) =
             (flight, flight.score.survived);
@@ -76,31 +76,31 @@ pub fn render(comparison: &Comparison) -> String {
     let mut text = heading(comparison);
     let indices: Vec<usize> = (0..comparison.controllers.len()).collect();
     for beside in indices.chunks(BESIDE) {
-        let names = beside.iter().map(|i| comparison.controllers[*i].clone()).collect();
-        line(&mut text, "", names);
+        let names: Vec<String> = beside.iter().map(|i| comparison.controllers[*i].clone()).collect();
+        line(&mut text, "", &names);
         let mut scenario = "";
         for cell in &comparison.cells {
             if cell.scenario != scenario {
                 scenario = &cell.scenario;
                 let _ = writeln!(text, "{scenario}");
             }
-            line(
-                &mut text,
-                &format!("  {}", cell.disturbance),
-                beside.iter().map(|i| entry(&cell.controllers[*i])).collect(),
-            );
+            let entries: Vec<String> = beside.iter().map(|i| entry(&cell.controllers[*i])).collect();
+            line(&mut text, &format!("  {}", cell.disturbance), &entries);
         }
         text.push('\n');
     }
     text.push_str(&overall_table(comparison));
     text.push('\n');
-    lost_cells(comparison).iter().for_each(|sentence| text.extend([sentence, "\n"]));
+    text.extend(lost_cells(comparison).iter().map(|sentence| format!("{sentence}\n")));
     text
 }
 
-fn line(text: &mut String, name: &str, entries: Vec<String>) {
-    let entries: String = entries.iter().map(|entry| format!("  {entry:<COLUMN$}")).collect();
-    text.extend([format!("{name:<NAME$}{entries}").trim_end(), "\n"]);
+fn line(text: &mut String, name: &str, entries: &[String]) {
+    let mut line = format!("{name:<NAME$}");
+    for entry in entries {
+        let _ = write!(line, "  {entry:<COLUMN$}");
+    }
+    text.extend([line.trim_end(), "\n"]);
 }
 
 fn heading(comparison: &Comparison) -> String {
@@ -165,10 +165,12 @@ fn overall_table(comparison: &Comparison) -> String {
     let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
     let mut text = "whole matrix; `ratio`: RMS over the first controller's under the same seed, median over seeds, then over cells\n".to_owned();
     for row in &rows {
-        let rest: String =
-            row[1..].iter().zip(&widths[1..]).map(|(entry, width)| format!("  {entry:>width$}")).collect();
         let (name, width) = (&row[0], widths[0]);
-        let _ = writeln!(text, "{name:<width$}{rest}");
+        let _ = write!(text, "{name:<width$}");
+        for (entry, width) in row[1..].iter().zip(&widths[1..]) {
+            let _ = write!(text, "  {entry:>width$}");
+        }
+        text.push('\n');
     }
     text + EXPLAINED
 }
@@ -220,6 +222,77 @@ pub fn markdown(comparison: &Comparison) -> String {
         EXPLAINED,
         "`ratio`: RMS over the first controller's under the same seed, median over seeds, then over cells.\n\n",
     ]);
-    lost_cells(comparison).iter().for_each(|sentence| text.extend(["- ", sentence, "\n"]));
+    text.extend(lost_cells(comparison).iter().map(|sentence| format!("- {sentence}\n")));
     text
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::compare::Contest;
+    use crate::matrix::Matrix;
+    use crate::score::Score;
+
+    /// The x500's own tuning in two cells for 50 ms: enough for tables and figures.
+    pub(in crate::report) fn comparison() -> Comparison {
+        let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
+        let mut matrix = Matrix::load("x500", &names(&["duration_s=0.05"])).expect("valid");
+        matrix
+            .select(Some(&names(&["x500-hover", "x500-recovery"])), Some(&names(&["none", "mass+30"])))
+            .expect("known");
+        matrix.file.controllers = names(&["x500-smc"]);
+        matrix.file.seeds = "1001..1006".parse().expect("valid");
+        Contest::new(&matrix).and_then(|contest| contest.fly(|| ())).expect("flown")
+    }
+
+    /// The same with a second controller, all of whose flights are lost.
+    pub(in crate::report) fn with_a_loser() -> Comparison {
+        let mut comparison = comparison();
+        let flight = FlightScore { score: Score::default(), ..comparison.flights[0].clone() };
+        let all_lost = |medians: &Medians| Medians::of_flights(&vec![flight.clone(); medians.flights]);
+        for cell in &mut comparison.cells {
+            let (first, ratio) = (all_lost(&cell.controllers[0]), cell.rms_ratios[0]);
+            cell.controllers.push(first);
+            cell.rms_ratios.push(Estimate { median: f64::INFINITY, ..ratio });
+        }
+        let first = comparison.overall[0].clone();
+        let medians = all_lost(&first.medians);
+        comparison.overall.push(Overall { controller: "loser".into(), medians, rms_ratio: f64::INFINITY, ..first });
+        comparison.controllers.push("loser".into());
+        comparison
+    }
+
+    #[test]
+    fn tables_fit_the_terminal_and_show_what_is_lost() {
+        let text = render(&with_a_loser());
+        assert!(text.lines().all(|line| line.chars().count() <= 120), "{text}");
+        assert!(text.contains("lost 0/1") && text.contains("lost [lost, lost] 0/6"), "{text}");
+        assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
+        let markdown = markdown(&with_a_loser());
+        let columns = |line: &str| line.matches('|').count();
+        assert!(
+            markdown.lines().filter(|line| line.starts_with("| x500-")).all(|line| columns(line) >= 5),
+            "{markdown}"
+        );
+    }
+
+    #[test]
+    fn a_row_a_flight_in_csv_with_as_many_fields_as_the_heading() {
+        let comparison = comparison();
+        let text = csv(&comparison.flights);
+        let fields: Vec<usize> = text.lines().map(|line| line.split(',').count()).collect();
+        // Two deterministic cells of x500-hover, two random ones of x500-recovery with six seeds.
+        assert_eq!(fields, vec![6 + Figure::ALL.len(); 1 + 2 + 12]);
+        assert_eq!(quoted("a,\"b\""), "\"a,\"\"b\"\"\"");
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        for (value, text) in
+            [(0.0, "0"), (6e-5, "6e-5"), (1.234, "1.23"), (12.34, "12.3"), (1234.4, "1234"), (2e6, "2.0e6")]
+        {
+            assert_eq!(number(value, "lost"), text);
+        }
+        assert_eq!(number(f64::INFINITY, "lost"), "lost");
+    }
 }

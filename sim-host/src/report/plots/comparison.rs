@@ -36,7 +36,7 @@ fn errors(comparison: &Comparison, path: &Path) -> Result<()> {
     let keys: Vec<Key> =
         comparison.controllers.iter().enumerate().map(|(i, name)| Key::Series(name, color(i))).collect();
     let size = (CHART.0 * columns as u32, 44 + CHART.1 * rows as u32);
-    save(path, size, "RMS distance from the trajectory: median, 95 % interval", &keys, |area| {
+    save(path, size, "RMS distance from the trajectory: median, 95 % interval (a cross: lost)", &keys, |area| {
         let charts = area.split_evenly((rows, columns));
         scenarios.iter().zip(&charts).try_for_each(|(scenario, chart)| {
             let cells: Vec<&Cell> = comparison.cells.iter().filter(|cell| cell.scenario == *scenario).collect();
@@ -240,4 +240,38 @@ fn names(comparison: &Comparison, name: impl Fn(&Cell) -> &String) -> Vec<&str> 
         }
     }
     names
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::report::comparison::tests::with_a_loser;
+
+    #[test]
+    fn figures_are_whole_and_show_what_is_lost() {
+        let folder = std::env::temp_dir().join(format!("glissade-{}-compare", std::process::id()));
+        fs::create_dir_all(&folder).expect("a folder for the figures");
+        draw(&with_a_loser(), &folder).expect("drawn");
+        let words = [
+            ("compare-rms.svg", ["RMS, mm", "x500-recovery", "mass+30", "loser"]),
+            ("compare-ratio.svg", ["loser / x500-smc", "first is better", "lost", "none"]),
+            ("compare-survival.svg", ["0/6", "6/6", "0/1", "1/1"]),
+        ];
+        for (name, words) in words {
+            let svg = fs::read_to_string(folder.join(name)).expect("the file was written");
+            assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && !svg.contains("NaN"), "{name}");
+            for word in words {
+                assert!(svg.contains(word), "{name} has no {word}");
+            }
+        }
+        fs::remove_dir_all(&folder).expect("the folder is there");
+    }
+
+    #[test]
+    fn ticks_are_round_and_few() {
+        assert_eq!(ticks(1.5, 60.0), [2.0, 5.0, 10.0, 20.0, 50.0]);
+        assert_eq!(ticks(0.008, 90.0), [0.01, 0.1, 1.0, 10.0]);
+    }
 }
