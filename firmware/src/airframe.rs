@@ -65,7 +65,8 @@ impl RotorGeometry {
     #[inline]
     pub fn torque(&self, omega_rad_s: &[f32; ROTORS]) -> Vector3<f32> {
         let square = omega_rad_s.map(|omega| omega * omega);
-        let sum = |row: &[f32; ROTORS]| row.iter().zip(&square).fold(0.0, |sum, (b, square)| sum + b * square);
+        let product = |(b, square): (&f32, &f32)| b * square;
+        let sum = |row: &[f32; ROTORS]| row.iter().zip(&square).map(product).reduce(|a, b| a + b).unwrap_or(0.0);
         Vector3::new(sum(&self.roll), sum(&self.pitch), sum(&self.yaw))
     }
 
@@ -110,15 +111,15 @@ impl Airframe {
         lift * self.omega_max_rad_s * self.omega_max_rad_s
     }
 
-    /// Ωr, the sum of the rotors' spins about +z (Eq. 2): a rotor that pushes the body towards +ψ spins the
-    /// other way, Ωr = −ω1 + ω2 − ω3 + ω4 on the plus layout.
+    /// Ωr, the sum of the rotors' spins about +z (Eq. 2): −ω1 + ω2 − ω3 + ω4 on the plus layout.
     #[inline]
     pub fn rotor_spin_rad_s(&self, omega_rad_s: &[f32; ROTORS]) -> f32 {
-        let mut spin = 0.0;
-        for (omega, yaw) in omega_rad_s.iter().zip(&self.geometry.yaw) {
-            spin += if *yaw > 0.0 { -omega } else { *omega };
-        }
-        spin
+        self.rotor_senses().iter().zip(omega_rad_s).map(|(sense, omega)| sense * omega).sum()
+    }
+
+    /// The sense, ±1, in which each rotor spins about +z: one that pushes the body towards +ψ spins the other way.
+    pub fn rotor_senses(&self) -> [f32; ROTORS] {
+        self.geometry.yaw.map(|yaw| if yaw > 0.0 { -1.0 } else { 1.0 })
     }
 
     /// Refuses values no vehicle can have.

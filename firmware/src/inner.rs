@@ -3,7 +3,7 @@
 //! Owns the last good motion and the last motor command. Plain data in, plain data out; what it is told to
 //! follow comes from the outer partition, whether it may turn the rotors from the commander.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::airframe::{Airframe, ROTORS};
 use crate::config::{FlightConfig, Start};
@@ -102,29 +102,34 @@ impl<A: AttitudeLaw> Inner<A> {
         reference: &AttitudeReference,
         armed: bool,
     ) -> &InnerOutput {
-        self.output = if armed {
+        if armed {
             let age = tick.wrapping_sub(reference.valid_at).min(EXTRAPOLATED_AT_MOST);
-            match sample {
-                Some(frame) if self.stale_ticks == 0 => self.control(&frame.nav, reference, age as f32 * TICK_S),
-                _ => {
-                    let nav = self.nav;
-                    self.control(&nav, reference, age as f32 * TICK_S)
-                }
-            }
+            let nav = match sample {
+                Some(frame) if self.stale_ticks == 0 => &frame.nav,
+                _ => &self.nav,
+            };
+            let (attitude, rates) = (nav.attitude, nav.rates);
+            self.control(&attitude, &rates, reference, age as f32 * TICK_S);
         } else {
             self.law.reset();
             self.rotors.follow(&MotorCommand::STOPPED.omega_rad_s);
-            InnerOutput::IDLE
-        };
+            self.output = InnerOutput::IDLE;
+        }
         &self.output
     }
 
     /// One tick of control, `dt` seconds after the reference holds.
     #[inline]
-    fn control(&mut self, nav: &NavState, reference: &AttitudeReference, dt: f32) -> InnerOutput {
+    fn control(
+        &mut self,
+        attitude: &UnitQuaternion<f32>,
+        rates: &Vector3<f32>,
+        reference: &AttitudeReference,
+        dt: f32,
+    ) {
         let wanted = self.law.step(&AttitudeInput {
-            attitude: &nav.attitude,
-            rates: &nav.rates,
+            attitude,
+            rates,
             target: &reference.target_after(dt),
             rotor_speeds: self.rotors.omega_rad_s(),
             saturated: self.output.saturated,
@@ -140,14 +145,15 @@ impl<A: AttitudeLaw> Inner<A> {
             // of the sample is not to stay.
             self.law.reset();
             self.rotors.follow(&self.output.motors.omega_rad_s);
-            return InnerOutput { saturated: true, ..self.output };
+            self.output.saturated = true;
+            return;
         };
-        InnerOutput {
-            motors: MotorCommand { omega_rad_s: self.rotors.command(allocation.omega_sq.map(math::sqrt)) },
+        self.output = InnerOutput {
+            motors: MotorCommand { omega_rad_s: self.rotors.command(math::sqrt_each(allocation.omega_sq)) },
             demand,
             s: wanted.s,
             saturated: allocation.saturated,
-        }
+        };
     }
 
     /// The motion as last sensed.

@@ -10,12 +10,42 @@ use core::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[inline]
 pub fn sqrt(x: f32) -> f32 {
-    /// The argument comes, and the result goes, in s0 (AAPCS, hard float).
+    /// The argument comes, and the result goes, in s0 (AAPCS, hard float). The assembler is told of the floating-point
+    /// unit, because it does not know the target's where it collects the symbols of a crate to be linked as a whole.
     #[unsafe(naked)]
     extern "C" fn vsqrt(x: f32) -> f32 {
-        core::arch::naked_asm!("vsqrt.f32 s0, s0", "bx lr")
+        core::arch::naked_asm!(".fpu fpv4-sp-d16", "vsqrt.f32 s0, s0", "bx lr")
     }
     vsqrt(x)
+}
+
+/// Square roots, correctly rounded: by one call, which the compiler cannot look into and saves its registers for.
+#[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
+#[inline]
+pub fn sqrt_each([a, b, c, d]: [f32; 4]) -> [f32; 4] {
+    #[repr(C)]
+    struct Four(f32, f32, f32, f32);
+    /// Four floats alone in a structure come, and go, in s0 to s3 (AAPCS, hard float).
+    #[unsafe(naked)]
+    extern "C" fn vsqrt(x: Four) -> Four {
+        core::arch::naked_asm!(
+            ".fpu fpv4-sp-d16",
+            "vsqrt.f32 s0, s0",
+            "vsqrt.f32 s1, s1",
+            "vsqrt.f32 s2, s2",
+            "vsqrt.f32 s3, s3",
+            "bx lr",
+        )
+    }
+    let Four(a, b, c, d) = vsqrt(Four(a, b, c, d));
+    [a, b, c, d]
+}
+
+/// Square roots, correctly rounded.
+#[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
+#[inline]
+pub fn sqrt_each(x: [f32; 4]) -> [f32; 4] {
+    x.map(sqrt)
 }
 
 /// Square root, correctly rounded.
@@ -41,6 +71,25 @@ pub fn min(a: f32, b: f32) -> f32 {
 #[inline]
 pub fn clamp(x: f32, low: f32, high: f32) -> f32 {
     min(max(x, low), high)
+}
+
+/// `x` limited to ±`most`; `-most` where `x` is NaN. As [`clamp`], at the cost of one comparison where no limit acts.
+#[inline]
+pub fn limit(x: f32, most: f32) -> f32 {
+    if abs(x) <= most {
+        x
+    } else if x > 0.0 {
+        most
+    } else {
+        -most
+    }
+}
+
+/// `x` limited to `0.0 ..= most`; 0 where `x` is NaN. Numbers from 0 up are ordered as their bits are, and those of a
+/// negative number or of none are greater: one comparison tells that neither limit acts.
+#[inline]
+pub fn limit_positive(x: f32, most: f32) -> f32 {
+    if x.to_bits() <= most.to_bits() { x } else { clamp(x, 0.0, most) }
 }
 
 /// Magnitude.

@@ -60,7 +60,8 @@ fn scalars(hash: &mut Hash, numbers: &mut Numbers, step: u32) {
         math::tanh(4.0 * b),
         math::wrap_angle(angle + 3.0 * b),
     ];
-    for value in [sine, cosine, phase].into_iter().chain(powers).chain(extremes).chain(others) {
+    let roots = math::sqrt_each([a, b, a * b, 1e20 * a].map(math::abs));
+    for value in [sine, cosine, phase].into_iter().chain(powers).chain(extremes).chain(others).chain(roots) {
         hash.take(value);
     }
 }

@@ -136,13 +136,15 @@ impl AttitudeReference {
     #[inline]
     pub fn target_after(&self, dt: f32) -> AttitudeTarget {
         let AttitudeTarget { attitude, rates, accelerations } = &self.target;
-        let half = (rates + accelerations * (0.5 * dt)) * (0.5 * dt);
+        let later = rates + accelerations * dt;
+        // Half of dt times the mean of the rates now and then.
+        let half = later * (0.5 * dt) - accelerations * (0.25 * dt * dt);
         let square = half.norm_squared();
         let vector = half * (1.0 - square * (1.0 / 6.0));
         let turn = Quaternion::new(1.0 - 0.5 * square, vector.x, vector.y, vector.z);
         AttitudeTarget {
             attitude: UnitQuaternion::new_unchecked(attitude.quaternion() * turn),
-            rates: rates + accelerations * dt,
+            rates: later,
             accelerations: *accelerations,
         }
     }

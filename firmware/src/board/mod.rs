@@ -7,6 +7,8 @@
 //!
 //! The only module of the crate with `unsafe` code; each block says why it is sound.
 
+#[cfg(feature = "pil")]
+pub mod counter;
 pub mod fault;
 #[cfg(feature = "pil")]
 pub mod host;

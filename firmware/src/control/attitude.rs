@@ -7,11 +7,11 @@
 //! [`torque`] are those equations to the letter, where φ̇ ≈ p; in flight η̇, η̈ are taken to body rates and
 //! accelerations by the exact kinematics, which hold short of θ = ±90°.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::airframe::Airframe;
+use crate::airframe::{Airframe, ROTORS};
 use crate::control::euler::{Euler, EulerReference};
-use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw};
+use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, AttitudeTarget};
 use crate::control::observer::{DisturbanceObserver, ObserverGains};
 use crate::control::pointing::PointingError;
 use crate::control::sliding::{AxisGains, SlidingAxis};
@@ -61,6 +61,7 @@ impl AttitudeGains {
 pub struct SlidingAttitude {
     airframe: Airframe,
     inverse_inertia: Vector3<f32>,
+    rotor_senses: [f32; ROTORS],
     axes: [SlidingAxis; 3],
     form: AttitudeForm,
     observer: Option<DisturbanceObserver>,
@@ -73,6 +74,7 @@ impl SlidingAttitude {
         Self {
             airframe: *airframe,
             inverse_inertia: Vector3::from(airframe.inertia_kg_m2).map(|i| 1.0 / i),
+            rotor_senses: airframe.rotor_senses(),
             axes: gains.axes.map(|axis| SlidingAxis::new(&axis, TICK_S)),
             form: gains.form,
             observer: (observer.bandwidth_rad_s > 0.0).then(|| DisturbanceObserver::new(&observer, TICK_S)),
@@ -83,49 +85,52 @@ impl SlidingAttitude {
     #[inline]
     fn on_group(&mut self, input: &AttitudeInput) -> (Vector3<f32>, Vector3<f32>) {
         let pointing = PointingError::between(input.attitude, &input.target.attitude);
-        let desired = pointing.rotation * input.target.rates;
-        let rate_error = desired - input.rates;
+        let rate_error = pointing.to_body(&input.target.rates) - input.rates;
+        // d/dt [R(qe) Ωd] = R(qe) Ω̇d − Ω × R(qe) Ωd, and Ω × Ω = 0.
+        let feedforward = pointing.to_body(&input.target.accelerations) - input.rates.cross(&rate_error);
         let (e, rate) = (&pointing.error, pointing.rate(&rate_error));
         let hold = input.saturated;
         let [g1, g2, g3] = &mut self.axes;
         let roll = g1.correction_along(e.x, rate.x, rate_error.x, hold);
         let pitch = g2.correction_along(e.y, rate.y, rate_error.y, hold);
         let yaw = g3.correction_along(e.z, rate.z, rate_error.z, hold);
-        // d/dt [R(qe) Ωd] = R(qe) Ω̇d − Ω × R(qe) Ωd.
-        let feedforward = pointing.rotation * input.target.accelerations - input.rates.cross(&desired);
         let correction = Vector3::new(roll.acceleration, pitch.acceleration, yaw.acceleration);
         (Vector3::new(roll.s, pitch.s, yaw.s), feedforward + correction)
     }
 
-    /// The same by Eq. 25–27, with the exact kinematics.
-    fn on_euler_angles(&mut self, input: &AttitudeInput) -> (Vector3<f32>, Vector3<f32>) {
-        let target = EulerReference::of_target(input.target);
-        let euler = Euler::from_quaternion(input.attitude);
-        let rates = euler.rates(input.rates);
-        let wanted = euler_demand(&mut self.axes, &target, &euler.angles(), &rates, input.saturated);
+    /// The same by Eq. 25–27, with the exact kinematics; apart, and given copies, so that the loop on the group
+    /// keeps what it works with in registers.
+    #[inline(never)]
+    fn on_euler_angles(
+        &mut self,
+        attitude: UnitQuaternion<f32>,
+        body_rates: Vector3<f32>,
+        target: AttitudeTarget,
+        hold: bool,
+    ) -> (Vector3<f32>, Vector3<f32>) {
+        let target = EulerReference::of_target(&target);
+        let euler = Euler::from_quaternion(&attitude);
+        let rates = euler.rates(&body_rates);
+        let wanted = euler_demand(&mut self.axes, &target, &euler.angles(), &rates, hold);
         (wanted.s, euler.body_acceleration(&rates, &wanted.acceleration))
-    }
-
-    /// d̂ of Ω̇, rad/s².
-    #[inline]
-    fn disturbance(&mut self, input: &AttitudeInput, spin: f32) -> Vector3<f32> {
-        let Some(observer) = &mut self.observer else { return Vector3::zeros() };
-        let applied = self.airframe.geometry.torque(input.rotor_speeds);
-        let own = torque(&self.airframe, &Vector3::zeros(), input.rates, spin);
-        observer.step(input.rates, &(applied - own).component_mul(&self.inverse_inertia))
     }
 }
 
 impl AttitudeLaw for SlidingAttitude {
     #[inline]
     fn step(&mut self, input: &AttitudeInput) -> AttitudeDemand {
-        let spin = self.airframe.rotor_spin_rad_s(input.rotor_speeds);
-        let (s, acceleration) = match self.form {
+        let (s, mut acceleration) = match self.form {
             AttitudeForm::Group => self.on_group(input),
-            AttitudeForm::Euler => self.on_euler_angles(input),
+            AttitudeForm::Euler => self.on_euler_angles(*input.attitude, *input.rates, *input.target, input.saturated),
         };
-        let acceleration = acceleration - self.disturbance(input, spin);
-        AttitudeDemand { s, torque: torque(&self.airframe, &acceleration, input.rates, spin) }
+        let spins = self.rotor_senses.iter().zip(input.rotor_speeds).map(|(sense, omega)| sense * omega);
+        let holding = holding_torque(&self.airframe, input.rates, spins.reduce(|a, b| a + b).unwrap_or(0.0));
+        if let Some(observer) = &mut self.observer {
+            let applied = self.airframe.geometry.torque(input.rotor_speeds);
+            acceleration -= observer.step(input.rates, &(applied - holding).component_mul(&self.inverse_inertia));
+        }
+        let inertia = Vector3::from(self.airframe.inertia_kg_m2);
+        AttitudeDemand { s, torque: holding + inertia.component_mul(&acceleration) }
     }
 
     fn reset(&mut self) {
@@ -173,13 +178,20 @@ pub fn euler_demand(
 /// With Ω = η̇ these are Eq. 25–27 to the letter: `U2 = Ix[φ̈ − c1 θ̇ψ̇ − c2 φ̇|φ̇| − c3 Ωr θ̇]` and so on.
 #[inline]
 pub fn torque(airframe: &Airframe, acceleration: &Vector3<f32>, rates: &Vector3<f32>, spin: f32) -> Vector3<f32> {
+    let inertia = Vector3::from(airframe.inertia_kg_m2);
+    holding_torque(airframe, rates, spin) + inertia.component_mul(acceleration)
+}
+
+/// The part of [`torque`] that keeps the rates as they are, against gyroscopic effects and drag.
+#[inline]
+fn holding_torque(airframe: &Airframe, rates: &Vector3<f32>, spin: f32) -> Vector3<f32> {
     let [ix, iy, iz] = airframe.inertia_kg_m2;
     let [k4, k5, k6] = airframe.rotational_drag_n_m_s2;
     let (p, q, r) = (rates.x, rates.y, rates.z);
     let gyroscopic = airframe.rotor_inertia_kg_m2 * spin;
     Vector3::new(
-        (k4 * p * math::abs(p) - ((iy - iz) * r - gyroscopic) * q) + ix * acceleration.x,
-        (k5 * q * math::abs(q) - ((iz - ix) * r + gyroscopic) * p) + iy * acceleration.y,
-        (k6 * r * math::abs(r) - (ix - iy) * p * q) + iz * acceleration.z,
+        k4 * p * math::abs(p) - ((iy - iz) * r - gyroscopic) * q,
+        k5 * q * math::abs(q) - ((iz - ix) * r + gyroscopic) * p,
+        k6 * r * math::abs(r) - (ix - iy) * p * q,
     )
 }

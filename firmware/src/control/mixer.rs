@@ -189,14 +189,16 @@ where
     ///
     /// # Errors
     /// [`MixerError::NonFinite`] with the demand's field; nothing is allocated then.
-    #[inline]
+    // A call would put the demand and the speeds into memory.
+    #[allow(clippy::inline_always)]
+    #[inline(always)]
     pub fn allocate(&self, demand: &ControlInput) -> Result<Allocation<N>, MixerError> {
         let omega_sq = self.speeds(demand);
         // A demand that is not finite has no speed that is.
         if self.are_possible(&omega_sq) {
             return Ok(Allocation { omega_sq, saturated: false });
         }
-        self.allocate_limited(demand)
+        self.allocate_limited(*demand)
     }
 
     /// B⁺ U, limits or not.
@@ -204,7 +206,7 @@ where
     fn speeds(&self, u: &ControlInput) -> [f32; N] {
         core::array::from_fn(|i| {
             let torque = self.roll[i] * u.roll_n_m + self.pitch[i] * u.pitch_n_m;
-            torque + (self.thrust[i] * u.thrust_n + self.yaw[i] * u.yaw_n_m)
+            torque + self.thrust[i] * u.thrust_n + self.yaw[i] * u.yaw_n_m
         })
     }
 
@@ -215,9 +217,9 @@ where
 
     #[cold]
     #[inline(never)]
-    fn allocate_limited(&self, demand: &ControlInput) -> Result<Allocation<N>, MixerError> {
+    fn allocate_limited(&self, demand: ControlInput) -> Result<Allocation<N>, MixerError> {
         if !math::all_finite(&demand.as_array()) {
-            return Err(non_finite(demand));
+            return Err(non_finite(&demand));
         }
         let asked = [demand.roll_n_m, demand.pitch_n_m];
         let share = self.torque_facets.facets().iter().fold(1.0, |share, facet| facet.shorten(share, &asked));

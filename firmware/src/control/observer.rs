@@ -78,8 +78,8 @@ impl DisturbanceObserver {
         }
         let error = measured - self.rate;
         let most = self.disturbance_max;
-        let disturbance = (self.disturbance + error * self.disturbance_gain).map(|d| math::clamp(d, -most, most));
-        self.rate += (model + disturbance) * self.step_s + error * self.rate_gain;
+        let disturbance = (self.disturbance + error * self.disturbance_gain).map(|d| math::limit(d, most));
+        self.rate = self.rate + (model + disturbance) * self.step_s + error * self.rate_gain;
         self.disturbance = disturbance;
         disturbance
     }

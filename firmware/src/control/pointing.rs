@@ -12,7 +12,7 @@
 //! 90°; q and −q give the same error, so it never unwinds; and since the tilt does not depend on the heading, a vehicle
 //! that is short of yaw torque still points its thrust the shortest way.
 
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::math;
 
@@ -21,40 +21,57 @@ use crate::math;
 pub struct PointingError {
     /// e1..e3, rad for small errors.
     pub error: Vector3<f32>,
-    /// R(qe), which takes the desired body's vectors to the body's frame.
-    pub rotation: Matrix3<f32>,
-    /// wx − yz, wy + xz, 1/√N, sgn(w)·(w, x, y, z).
+    /// wx − yz, wy + xz, 1/√N, sgn(w)/√N.
     tilt: (f32, f32),
     per_root: f32,
-    relative: [f32; 4],
+    signed_per_root: f32,
+    /// qe = w + (x, y, z), and 2 (x, y, z).
+    w: f32,
+    vector: Vector3<f32>,
+    twice: Vector3<f32>,
 }
 
 /// Below this N the thrust axis points the wrong way so exactly that every way back is as short: the vehicle rolls.
 const INVERTED: f32 = 1e-6;
+/// 1/√N at that N.
+const PER_ROOT_MAX: f32 = 1e3;
 
 impl PointingError {
     /// Of the attitude `is` towards `ought`, both body to world.
     #[inline]
     pub fn between(is: &UnitQuaternion<f32>, ought: &UnitQuaternion<f32>) -> Self {
         let (a, b) = (is.quaternion(), ought.quaternion());
-        // q⁻¹ ⊗ qd, with the sign for which w ≥ 0.
+        // q⁻¹ ⊗ qd.
         let w = a.w * b.w + a.i * b.i + a.j * b.j + a.k * b.k;
         let x = a.w * b.i - a.i * b.w - a.j * b.k + a.k * b.j;
         let y = a.w * b.j + a.i * b.k - a.j * b.w - a.k * b.i;
         let z = a.w * b.k - a.i * b.j + a.j * b.i - a.k * b.w;
-        let sign = if w < 0.0 { -1.0 } else { 1.0 };
-        let (w, x, y, z) = (sign * w, sign * x, sign * y, sign * z);
 
-        let square = w * w + z * z;
-        let per_root = 1.0 / math::sqrt(math::max(square, INVERTED));
         let tilt = (w * x - y * z, w * y + x * z);
-        let twice = 2.0 * per_root;
-        let error = if square > INVERTED {
-            Vector3::new(twice * tilt.0, twice * tilt.1, twice * z)
+        let square = w * w + z * z;
+        let upright = square > INVERTED;
+        let per_root = if upright { 1.0 / math::sqrt(square) } else { PER_ROOT_MAX };
+        // Products of two components do not know the sign of the quaternion; what turns about the axis does.
+        let signed_per_root = if w < 0.0 { -per_root } else { per_root };
+        let error = if upright {
+            Vector3::new(2.0 * per_root * tilt.0, 2.0 * per_root * tilt.1, 2.0 * signed_per_root * z)
         } else {
             Vector3::new(2.0, 0.0, 0.0)
         };
-        Self { error, rotation: rotation(w, x, y, z), tilt, per_root, relative: [w, x, y, z] }
+        let vector = Vector3::new(x, y, z);
+        Self { error, tilt, per_root, signed_per_root, w, vector, twice: vector + vector }
+    }
+
+    /// R(qe) v, which takes a vector of the desired body's frame to the body's: `v + w t + q × t` with `t = 2 q × v`,
+    /// cheaper for two vectors than the matrix.
+    #[inline]
+    pub fn to_body(&self, v: &Vector3<f32>) -> Vector3<f32> {
+        let (w, q, t) = (self.w, &self.vector, self.twice.cross(v));
+        Vector3::new(
+            v.x + w * t.x + q.y * t.z - q.z * t.y,
+            v.y + w * t.y + q.z * t.x - q.x * t.z,
+            v.z + w * t.z + q.x * t.y - q.y * t.x,
+        )
     }
 
     /// ė, given the rate error R(qe) Ωd − Ω in the body's frame.
@@ -64,37 +81,18 @@ impl PointingError {
     #[inline]
     pub fn rate(&self, rate_error: &Vector3<f32>) -> Vector3<f32> {
         let (a, b, c) = (rate_error.x, rate_error.y, rate_error.z);
-        let ((t1, t2), [w, x, y, z]) = (self.tilt, self.relative);
+        let ((t1, t2), w, (x, y, z)) = (self.tilt, self.w, (self.vector.x, self.vector.y, self.vector.z));
         let root = self.per_root;
         // −Ṅ/N.
         let shrinking = (a * t1 + b * t2) * (root * root);
-        let axis = self.rotation.m33;
+        // 2N − 1.
+        let axis = 1.0 - (x * self.twice.x + y * self.twice.y);
         Vector3::new(
             root * (a * axis - 2.0 * c * t2 + t1 * shrinking),
             root * (b * axis + 2.0 * c * t1 + t2 * shrinking),
-            root * (c * w + a * y - b * x + z * shrinking),
+            self.signed_per_root * (c * w + a * y - b * x + z * shrinking),
         )
     }
-}
-
-/// The matrix of a unit quaternion.
-#[inline]
-fn rotation(w: f32, x: f32, y: f32, z: f32) -> Matrix3<f32> {
-    let (x2, y2, z2) = (2.0 * x, 2.0 * y, 2.0 * z);
-    let (xx, yy, zz) = (x * x2, y * y2, z * z2);
-    let (xy, xz, yz) = (x * y2, x * z2, y * z2);
-    let (wx, wy, wz) = (w * x2, w * y2, w * z2);
-    Matrix3::new(
-        1.0 - (yy + zz),
-        xy - wz,
-        xz + wy,
-        xy + wz,
-        1.0 - (xx + zz),
-        yz - wx,
-        xz - wy,
-        yz + wx,
-        1.0 - (xx + yy),
-    )
 }
 
 #[cfg(test)]
@@ -153,7 +151,7 @@ mod tests {
             let at = |t: f32| PointingError::between(&(is * Q::new(rates * t)), &(ought * Q::new(desired_rates * t)));
             let now = at(0.0);
             let numeric = (at(h).error - at(-h).error) / (2.0 * h);
-            let rate = now.rate(&(now.rotation * desired_rates - rates));
+            let rate = now.rate(&(now.to_body(&desired_rates) - rates));
             // f32 differences: 1e-7·2/4e-3 of rounding; h² of truncation, more near the inverted attitude.
             assert!((numeric - rate).norm() < 5e-3, "{is}: {numeric} {rate}");
         }

@@ -20,8 +20,9 @@ use crate::signals::TICK_S;
 pub struct RotorModel {
     /// Part of the way to its command that a rotor goes in a tick, 1 − e^(−h/τ); 1 without lag.
     part: f32,
-    /// What is asked for beyond it: 1 or more.
+    /// What is asked for beyond it, and whether that is anything.
     lead: f32,
+    leads: bool,
     omega_max: f32,
     omega: [f32; ROTORS],
 }
@@ -34,6 +35,7 @@ impl RotorModel {
         Self {
             part: part(lag_s),
             lead: if leads { part(lead_lag_s) / part(lag_s) } else { 1.0 },
+            leads,
             omega_max: omega_max_rad_s,
             omega: [0.0; ROTORS],
         }
@@ -53,13 +55,15 @@ impl RotorModel {
     /// The command (rad/s) by which the rotors come to the speeds wanted, which lie within their limits. A tick passes.
     #[inline]
     pub fn command(&mut self, wanted_rad_s: [f32; ROTORS]) -> [f32; ROTORS] {
-        let mut command = wanted_rad_s;
-        if self.lead > 1.0 {
-            for (command, omega) in command.iter_mut().zip(self.omega) {
-                *command = math::clamp(omega + self.lead * (*command - omega), 0.0, self.omega_max);
-            }
+        if !self.leads {
+            self.follow(&wanted_rad_s);
+            return wanted_rad_s;
         }
-        self.follow(&command);
+        let mut command = wanted_rad_s;
+        for (command, omega) in command.iter_mut().zip(&mut self.omega) {
+            *command = math::limit_positive(*omega + self.lead * (*command - *omega), self.omega_max);
+            *omega += self.part * (*command - *omega);
+        }
         command
     }
 

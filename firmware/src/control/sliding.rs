@@ -187,7 +187,7 @@ impl Twist {
     /// w and the change of v.
     #[inline]
     fn solve(&self, gain: f32, s: f32) -> (f32, f32) {
-        let sign = math::clamp(s * self.per_inside, -1.0, 1.0);
+        let sign = math::limit(s * self.per_inside, 1.0);
         let beyond = math::abs(s) - self.inside;
         let mut w = self.over_horizon * sign;
         if beyond > 0.0 {
@@ -217,6 +217,8 @@ pub struct SlidingAxis {
     approach_max: f32,
     reach: Reach,
     surface: Surface,
+    /// Slope of a layer on a linear surface: with [`ReachingLaw::ImplicitSgn`] or [`ReachingLaw::Sat`].
+    layer: Option<f32>,
     step_s: f32,
     /// v of super-twisting.
     twist: f32,
@@ -248,7 +250,11 @@ impl SlidingAxis {
             }
         };
         let AxisGains { lambda, gain, approach_max, surface, .. } = *gains;
-        Self { lambda, gain, approach_max, reach, surface, step_s, twist: 0.0, integral: None }
+        let layer = match (surface, reach) {
+            (Surface::Linear, Reach::Layer { slope }) => Some(slope),
+            _ => None,
+        };
+        Self { lambda, gain, approach_max, reach, surface, layer, step_s, twist: 0.0, integral: None }
     }
 
     /// Forgets what has been integrated.
@@ -269,17 +275,33 @@ impl SlidingAxis {
     /// surface is `s = λ e + velocity_error`, its derivative takes `λ ė`.
     #[inline]
     pub fn correction_along(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> Correction {
+        if let Some(slope) = self.layer {
+            let (s, equivalent) = self.linear_surface(error, error_rate, velocity_error);
+            return Correction { s, acceleration: equivalent + math::limit(slope * s, self.gain) };
+        }
+        self.correction_otherwise(error, error_rate, velocity_error, hold)
+    }
+
+    /// The same for every surface and reaching law; apart, so that what is flown most fits into the loop.
+    #[inline(never)]
+    fn correction_otherwise(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> Correction {
         let (s, equivalent) = match self.surface {
-            Surface::Linear => {
-                let approach = self.lambda * error;
-                let limited = math::clamp(approach, -self.approach_max, self.approach_max);
-                // Where the approach is limited it does not change.
-                let equivalent = if limited == approach { self.lambda * error_rate } else { 0.0 };
-                (limited + velocity_error, equivalent)
-            }
+            Surface::Linear => self.linear_surface(error, error_rate, velocity_error),
             Surface::Integral => self.integral_surface(error, error_rate, velocity_error, hold),
         };
         Correction { s, acceleration: equivalent + self.reach(s, hold) }
+    }
+
+    /// s, and the derivative of its part λ e.
+    #[inline]
+    fn linear_surface(&self, error: f32, error_rate: f32, velocity_error: f32) -> (f32, f32) {
+        let approach = self.lambda * error;
+        if math::abs(approach) <= self.approach_max {
+            (approach + velocity_error, self.lambda * error_rate)
+        } else {
+            // Limited, it does not change.
+            (bound(approach, self.approach_max) + velocity_error, 0.0)
+        }
     }
 
     fn integral_surface(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> (f32, f32) {
@@ -291,15 +313,14 @@ impl SlidingAxis {
     }
 
     /// `u_r(s)`.
-    #[inline]
     fn reach(&mut self, s: f32, hold: bool) -> f32 {
         let k = self.gain;
         let (rate, twist) = match self.reach {
-            Reach::Layer { slope } => return math::clamp(s * slope, -k, k),
+            Reach::Layer { slope } => return math::limit(s * slope, k),
             Reach::Sgn => return k * sgn(s),
             Reach::Tanh { per_rho } => return k * math::tanh(s * per_rho),
             Reach::Power { alpha } => return k * sgn(s) * math::shape_power(math::abs(s), alpha),
-            Reach::Exponential { slope, rate } => return math::clamp(s * slope, -k, k) + rate * s,
+            Reach::Exponential { slope, rate } => return math::limit(s * slope, k) + rate * s,
             Reach::SuperTwisting { twist_step } => (k * math::sqrt(math::abs(s)) * sgn(s), twist_step * sgn(s)),
             Reach::ImplicitSuperTwisting(twist) => twist.solve(k, s),
         };
@@ -329,14 +350,19 @@ impl SlidingAxis {
     /// Derivative of the [`correction`](Self::correction) that gave `s`, for e, ė and ë.
     #[inline]
     pub fn correction_rate(&self, s: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
+        if let Some(slope) = self.layer {
+            let slope = if math::abs(s * slope) < self.gain { slope } else { 0.0 };
+            return self.linear_rate(slope, error, error_rate, error_acceleration);
+        }
+        self.correction_rate_otherwise(s, error, error_rate, error_acceleration)
+    }
+
+    /// The same for every surface and reaching law.
+    #[inline(never)]
+    fn correction_rate_otherwise(&self, s: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
         let slope = self.reach_slope(s);
         match self.surface {
-            Surface::Linear => {
-                let approach = self.lambda * error;
-                // Limited, the approach is constant.
-                let lambda = if math::abs(approach) <= self.approach_max { self.lambda } else { 0.0 };
-                lambda * error_acceleration + slope * (lambda * error_rate + error_acceleration)
-            }
+            Surface::Linear => self.linear_rate(slope, error, error_rate, error_acceleration),
             Surface::Integral => {
                 let (twice, square) = (2.0 * self.lambda, self.lambda * self.lambda);
                 let equivalent_rate = twice * error_acceleration + square * error_rate;
@@ -344,6 +370,20 @@ impl SlidingAxis {
             }
         }
     }
+
+    #[inline]
+    fn linear_rate(&self, slope: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
+        // Limited, the approach is constant.
+        let lambda = if math::abs(self.lambda * error) <= self.approach_max { self.lambda } else { 0.0 };
+        lambda * error_acceleration + slope * (lambda * error_rate + error_acceleration)
+    }
+}
+
+/// ±`most`, on the side of `x`. A call of its own, or the compiler would have both sides computed every time.
+#[cold]
+#[inline(never)]
+fn bound(x: f32, most: f32) -> f32 {
+    if x > 0.0 { most } else { -most }
 }
 
 /// Eq. 17: 1, 0 or −1.

@@ -218,8 +218,8 @@ impl IndiAttitude {
     /// Ω̇ wanted, rad/s².
     fn wanted(&self, input: &AttitudeInput) -> Vector3<f32> {
         let pointing = PointingError::between(input.attitude, &input.target.attitude);
-        let desired = pointing.rotation * input.target.rates;
-        let feedforward = pointing.rotation * input.target.accelerations - input.rates.cross(&desired);
+        let desired = pointing.to_body(&input.target.rates);
+        let feedforward = pointing.to_body(&input.target.accelerations) - input.rates.cross(&desired);
         let feedback = self.kr.component_mul(&pointing.error) + self.kw.component_mul(&(desired - input.rates));
         feedforward + feedback
     }

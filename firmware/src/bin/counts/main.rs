@@ -1,0 +1,86 @@
+//! Counts the instructions of the control loops over a flight on the target, and fails where one is over its budget:
+//! `cargo counts`.
+
+#![cfg_attr(all(target_arch = "arm", target_os = "none"), no_std, no_main)]
+
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod flight;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod plant;
+
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod image {
+    use firmware::board::counter::Counter;
+    use firmware::board::fault;
+    use firmware::board::mps2::Peripherals;
+    use semihosting::println;
+
+    use crate::flight::{Counts, Flight, Tally};
+
+    /// Instructions of a call that may not be exceeded, by the mean and by any call.
+    struct Budget {
+        mean: u32,
+        max: u32,
+    }
+
+    const ATTITUDE: Budget = Budget { mean: 600, max: 900 };
+    /// While no rotor is at its limit; at one, the mixer has its facets to go through.
+    const ATTITUDE_WITHIN_LIMITS: Budget = Budget { mean: 600, max: 600 };
+    const POSITION: Budget = Budget { mean: 1_000, max: 1_000 };
+
+    /// A vehicle that ends farther than this from its reference, m, has not flown what is to be counted.
+    const TRACKED_WITHIN_M: f32 = 0.3;
+
+    #[cortex_m_rt::entry]
+    fn main() -> ! {
+        let Some(board) = Peripherals::take() else { fault::end() };
+        let counter = Counter::new(board.clock);
+        match Flight::new(counter).map(Flight::fly) {
+            // Flown all the same, for those who count by the marks.
+            Ok(_) if !counter.is_exact() => println!("not counted: QEMU's clock needs -icount shift=10"),
+            Ok(counts) if report(&counts) => semihosting::process::exit(0),
+            Ok(_) => {}
+            Err(error) => println!("no flight to count: {error}"),
+        }
+        fault::end()
+    }
+
+    /// Prints what a flight has taken. True if it was a flight with everything in it, and within its budgets.
+    fn report(counts: &Counts) -> bool {
+        println!("instructions a call         calls    mean   max  budgets");
+        let rows = [
+            ("attitude and mixer", &counts.attitude, Some(ATTITUDE)),
+            ("the same, no limit acting", &counts.attitude_within_limits, Some(ATTITUDE_WITHIN_LIMITS)),
+            ("position and flatness", &counts.position, Some(POSITION)),
+            ("guidance", &counts.guidance, None),
+            ("mixer", &counts.mixer, None),
+            ("mixer at a limit", &counts.mixer_saturated, None),
+        ];
+        let mut good = true;
+        for (name, tally, budget) in rows {
+            good &= row(name, tally, budget);
+        }
+        println!("{:.3} m from its reference at the end", counts.final_error_m);
+        good && counts.final_error_m < TRACKED_WITHIN_M
+    }
+
+    fn row(name: &str, tally: &Tally, budget: Option<Budget>) -> bool {
+        let (calls, mean, max) = (tally.calls, tally.mean(), tally.max);
+        let Some(budget) = budget else {
+            println!("{name:26} {calls:6} {mean:7.1} {max:5}");
+            return calls > 0;
+        };
+        let within = mean <= budget.mean as f32 && max <= budget.max;
+        let verdict = if within { "" } else { "  EXCEEDED" };
+        println!("{name:26} {calls:6} {mean:7.1} {max:5}  {} {}{verdict}", budget.mean, budget.max);
+        calls > 0 && within
+    }
+
+    #[panic_handler]
+    fn panic(_: &core::panic::PanicInfo) -> ! {
+        fault::end()
+    }
+}
+
+#[cfg(not(all(target_arch = "arm", target_os = "none")))]
+fn main() {}
