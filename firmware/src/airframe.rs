@@ -31,6 +31,8 @@ pub struct Airframe {
     pub omega_max_rad_s: f32,
     /// Time constant of a rotor's speed, s; 0 for a rotor that follows at once.
     pub rotor_lag_s: f32,
+    /// Whether spinning a rotor up turns the body the other way, −Jr Ω̇r.
+    pub spin_up_reaction: bool,
     /// What each rotor contributes to U1..U4 for each unit of ω² (see [`RotorGeometry`]).
     pub geometry: RotorGeometry,
 }
@@ -65,15 +67,25 @@ impl RotorGeometry {
     #[inline]
     pub fn torque(&self, omega_rad_s: &[f32; ROTORS]) -> Vector3<f32> {
         let square = omega_rad_s.map(|omega| omega * omega);
-        let product = |(b, square): (&f32, &f32)| b * square;
-        let sum = |row: &[f32; ROTORS]| row.iter().zip(&square).map(product).reduce(|a, b| a + b).unwrap_or(0.0);
-        Vector3::new(sum(&self.roll), sum(&self.pitch), sum(&self.yaw))
+        Vector3::new(product(&self.roll, &square), product(&self.pitch, &square), product(&self.yaw, &square))
+    }
+
+    /// The last of them alone, U4 in N m.
+    #[inline]
+    pub fn yaw_torque(&self, omega_rad_s: &[f32; ROTORS]) -> f32 {
+        product(&self.yaw, &omega_rad_s.map(|omega| omega * omega))
     }
 
     /// The matrix B, 4 × [`ROTORS`].
     pub const fn rows(&self) -> [[f32; ROTORS]; 4] {
         [self.thrust, self.roll, self.pitch, self.yaw]
     }
+}
+
+/// A row of B times squared speeds.
+#[inline]
+fn product(row: &[f32; ROTORS], square: &[f32; ROTORS]) -> f32 {
+    row.iter().zip(square).map(|(b, square)| b * square).reduce(|a, b| a + b).unwrap_or(0.0)
 }
 
 impl Airframe {
@@ -88,6 +100,7 @@ impl Airframe {
             gravity_m_s2: 9.81,
             omega_max_rad_s: 0.0,
             rotor_lag_s: 0.0,
+            spin_up_reaction: false,
             geometry: RotorGeometry::plus(29.8e-4, 33e-6, 0.350),
         };
         airframe.omega_max_rad_s = airframe.omega_for_thrust_to_weight(thrust_to_weight);
@@ -103,6 +116,14 @@ impl Airframe {
     pub fn omega_for_thrust_to_weight(&self, ratio: f32) -> f32 {
         let lift: f32 = self.geometry.thrust.iter().sum();
         math::sqrt(ratio * self.weight_n() / lift)
+    }
+
+    /// How far the reaction to spinning the rotors up is ahead of the yaw torque for which they are spun up, s: around
+    /// hover, the two together are U4 + T U̇4 with T = Jr/(2 d ω). 0 where there is no such reaction.
+    pub fn spin_up_lead_s(&self) -> f32 {
+        let yaw: f32 = self.geometry.yaw.iter().map(|d| math::abs(*d)).sum::<f32>() / ROTORS as f32;
+        let per_speed = 2.0 * yaw * self.omega_for_thrust_to_weight(1.0);
+        if self.spin_up_reaction && per_speed > 0.0 { self.rotor_inertia_kg_m2 / per_speed } else { 0.0 }
     }
 
     /// Greatest thrust of all rotors together, N.

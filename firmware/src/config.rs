@@ -68,6 +68,12 @@ impl FlightConfig {
         self.trajectory.validate()
     }
 
+    /// Time constant with which the rotors answer, s: their lag, or what lead brings it down to.
+    pub fn rotor_answer_s(&self) -> f32 {
+        let (lag, lead) = (self.airframe.rotor_lag_s, self.rotor_time_constant_s);
+        if lead > 0.0 && lead < lag { lead } else { lag }
+    }
+
     /// Start position as a vector.
     pub fn start_position(&self) -> Vector3<f32> {
         self.start_position_m.into()

@@ -10,7 +10,7 @@ use crate::config::{FlightConfig, Start};
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeInput, AttitudeLaw};
 use crate::control::mixer::Mixer;
-use crate::control::rotor::RotorModel;
+use crate::control::rotor::{RotorModel, YawInversion};
 use crate::math;
 use crate::signals::{AttitudeReference, ControlInput, MotorCommand, NavState, SensorFrame, TICK_S, Tick};
 use crate::validate::ConfigError;
@@ -52,6 +52,7 @@ pub struct Inner<A = SlidingAttitude> {
     law: A,
     mixer: Mixer<ROTORS>,
     rotors: RotorModel,
+    yaw: YawInversion,
     nav: NavState,
     stale_ticks: u32,
     refused_samples: u32,
@@ -67,13 +68,26 @@ impl<A: AttitudeLaw> Inner<A> {
         let airframe = config.airframe;
         let omega_max = airframe.omega_max_rad_s;
         let mixer = Mixer::new(&airframe.geometry.rows(), omega_max).map_err(|_| ConfigError::SingularGeometry)?;
-        let mut rotors = RotorModel::new(airframe.rotor_lag_s, config.rotor_time_constant_s, omega_max);
+        let mut rotors = RotorModel::new(airframe.rotor_lag_s, config.rotor_answer_s(), omega_max);
         if config.start == Start::InFlight {
             rotors.set([airframe.omega_for_thrust_to_weight(1.0); ROTORS]);
         }
         let mut nav = NavState::at_rest();
         nav.position = config.start_position();
-        Ok(Self { airframe, law, mixer, rotors, nav, stale_ticks: 0, refused_samples: 0, output: InnerOutput::IDLE })
+        // Rotors that nothing is led for are not to be led in yaw either.
+        let spin_up_lead_s = if config.rotor_time_constant_s > 0.0 { airframe.spin_up_lead_s() } else { 0.0 };
+        let yaw = YawInversion::new(spin_up_lead_s, config.rotor_answer_s());
+        Ok(Self {
+            airframe,
+            law,
+            mixer,
+            rotors,
+            yaw,
+            nav,
+            stale_ticks: 0,
+            refused_samples: 0,
+            output: InnerOutput::IDLE,
+        })
     }
 
     /// Takes in this tick's sample. A missing one, or one that holds a number that is not finite, leaves the
@@ -138,7 +152,7 @@ impl<A: AttitudeLaw> Inner<A> {
             thrust_n: math::max(reference.thrust_n + reference.thrust_rate_n_s * dt, 0.0),
             roll_n_m: wanted.torque.x,
             pitch_n_m: wanted.torque.y,
-            yaw_n_m: wanted.torque.z,
+            yaw_n_m: self.yaw.demand(self.airframe.geometry.yaw_torque(self.rotors.omega_rad_s()), wanted.torque.z),
         };
         let Ok(allocation) = self.mixer.allocate(&demand) else {
             // A sample so wild that a product overflowed. The last command is safer than none; what the law has made

@@ -115,6 +115,7 @@ impl AirframeFile {
             gravity_m_s2: self.gravity_m_s2 as f32,
             omega_max_rad_s: self.omega_max() as f32,
             rotor_lag_s: self.rotor_lag_s as f32,
+            spin_up_reaction: self.spin_up_reaction,
             geometry: RotorGeometry { thrust: row(0), roll: row(1), pitch: row(2), yaw: row(3) },
         }
     }

@@ -10,6 +10,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::airframe::{Airframe, ROTORS};
+use crate::config::FlightConfig;
 use crate::control::euler::{Euler, EulerReference};
 use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, AttitudeTarget};
 use crate::control::observer::{DisturbanceObserver, ObserverGains};
@@ -65,13 +66,16 @@ pub struct SlidingAttitude {
     axes: [SlidingAxis; 3],
     form: AttitudeForm,
     observer: Option<DisturbanceObserver>,
+    spin_up: SpinUp,
 }
 
 impl SlidingAttitude {
-    /// With valid gains.
-    pub fn new(airframe: &Airframe, gains: &AttitudeGains) -> Self {
+    /// With the gains and the airframe of a valid configuration.
+    pub fn new(config: &FlightConfig) -> Self {
+        let (airframe, gains) = (&config.airframe, &config.attitude);
         let observer = gains.observer;
         Self {
+            spin_up: SpinUp { lead_ticks: airframe.spin_up_lead_s() / TICK_S, last_yaw: 0.0 },
             airframe: *airframe,
             inverse_inertia: Vector3::from(airframe.inertia_kg_m2).map(|i| 1.0 / i),
             rotor_senses: airframe.rotor_senses(),
@@ -125,8 +129,9 @@ impl AttitudeLaw for SlidingAttitude {
         };
         let spins = self.rotor_senses.iter().zip(input.rotor_speeds).map(|(sense, omega)| sense * omega);
         let holding = holding_torque(&self.airframe, input.rates, spins.reduce(|a, b| a + b).unwrap_or(0.0));
+        let mut applied = self.airframe.geometry.torque(input.rotor_speeds);
+        applied.z = self.spin_up.with_reaction(applied.z);
         if let Some(observer) = &mut self.observer {
-            let applied = self.airframe.geometry.torque(input.rotor_speeds);
             acceleration -= observer.step(input.rates, &(applied - holding).component_mul(&self.inverse_inertia));
         }
         let inertia = Vector3::from(self.airframe.inertia_kg_m2);
@@ -138,6 +143,25 @@ impl AttitudeLaw for SlidingAttitude {
         if let Some(observer) = &mut self.observer {
             observer.reset();
         }
+    }
+}
+
+/// The reaction to spinning the rotors up, T U̇4 ([`Airframe::spin_up_lead_s`]).
+#[derive(Clone, Debug)]
+struct SpinUp {
+    /// T over a tick.
+    lead_ticks: f32,
+    /// U4 a tick ago.
+    last_yaw: f32,
+}
+
+impl SpinUp {
+    /// The torque (N m) that turns the body now, given U4 of the rotors' speeds. A tick passes.
+    #[inline]
+    fn with_reaction(&mut self, yaw: f32) -> f32 {
+        let change = yaw - self.last_yaw;
+        self.last_yaw = yaw;
+        yaw + self.lead_ticks * change
     }
 }
 

@@ -9,7 +9,8 @@
 //! ω_cmd = ω̂ + (ω_wanted − ω̂)·(1 − e^(−h/τ′))/(1 − e^(−h/τ)),   0 ≤ ω_cmd ≤ ω_max
 //! ```
 //!
-//! The model is fed with the limited command, so nothing winds up.
+//! The model is fed with the limited command, so nothing winds up. [`YawInversion`] does the same for the torque with
+//! which rotors that spin up turn the body.
 
 use crate::airframe::ROTORS;
 use crate::math;
@@ -28,13 +29,13 @@ pub struct RotorModel {
 }
 
 impl RotorModel {
-    /// At rest; `lag_s` is τ and `lead_lag_s` τ′, in s. A τ′ of zero, or not below τ, asks for no lead.
-    pub fn new(lag_s: f32, lead_lag_s: f32, omega_max_rad_s: f32) -> Self {
+    /// At rest; `lag_s` is τ and `answer_s` τ′, in s. A τ′ that is not below τ asks for no lead.
+    pub fn new(lag_s: f32, answer_s: f32, omega_max_rad_s: f32) -> Self {
         let part = |time_s: f32| if time_s > 0.0 { 1.0 - math::exp(-TICK_S / time_s) } else { 1.0 };
-        let leads = lead_lag_s > 0.0 && lead_lag_s < lag_s;
+        let leads = answer_s < lag_s;
         Self {
             part: part(lag_s),
-            lead: if leads { part(lead_lag_s) / part(lag_s) } else { 1.0 },
+            lead: if leads { part(answer_s) / part(lag_s) } else { 1.0 },
             leads,
             omega_max: omega_max_rad_s,
             omega: [0.0; ROTORS],
@@ -80,6 +81,30 @@ impl RotorModel {
     }
 }
 
+/// Yaw with rotors whose spinning up turns the body by itself.
+///
+/// Speeds that change towards another yaw torque U4 turn the body by T U̇4 on the way, T = Jr/(2 d ω): more, where T is
+/// longer than the time τ′ in which the rotors answer, than the torque they are changed for. The two are a torque of
+/// U4 + T U̇4, so the one wanted is had almost at once and without overshoot if U4 itself goes there with a time
+/// constant of T + τ′: from where it is, it is asked to go the part τ′/(T + τ′) of the way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct YawInversion {
+    part: f32,
+}
+
+impl YawInversion {
+    /// With T and τ′, s.
+    pub fn new(lead_s: f32, answer_s: f32) -> Self {
+        Self { part: if lead_s > 0.0 { answer_s / (lead_s + answer_s) } else { 1.0 } }
+    }
+
+    /// U4 (N m) to ask for, given that of the speeds now and the torque wanted.
+    #[inline]
+    pub fn demand(self, now: f32, wanted: f32) -> f32 {
+        now + self.part * (wanted - now)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,6 +122,23 @@ mod tests {
         // 400 rad/s above would ask for 1,600 at once: it gets 1,000, and goes there as a rotor without lead does.
         model.set([500.0; ROTORS]);
         assert_eq!(model.command([900.0; ROTORS]), [1000.0; ROTORS]);
+    }
+
+    #[test]
+    fn a_step_of_yaw_torque_is_had_at_once_with_the_reaction_and_kept_without() {
+        // U4 follows what is asked for with τ′ = 8 ms; the body feels U4 + T U̇4, T = 128 ms.
+        let (lead, answer, h) = (0.128_f32, 0.008_f32, 1e-4_f32);
+        let inversion = YawInversion::new(lead, answer);
+        let (mut yaw, wanted) = (0.0_f32, 0.3_f32);
+        for _ in 0..5_000 {
+            let rate = (inversion.demand(yaw, wanted) - yaw) / answer;
+            let felt = yaw + lead * rate;
+            // From T/(T + τ′) = 94 % at once up to all of it.
+            assert!(felt > 0.93 * wanted && felt < 1.001 * wanted, "{felt}");
+            yaw += rate * h;
+        }
+        assert!(math::abs(yaw - wanted) < 0.03 * wanted, "{yaw}");
+        assert_eq!(YawInversion::new(0.0, answer).demand(0.25, 0.75), 0.75);
     }
 
     #[test]

@@ -70,6 +70,7 @@ fn airframe() -> Airframe {
         gravity_m_s2: 9.81,
         omega_max_rad_s: 1_071.0,
         rotor_lag_s: 0.02,
+        spin_up_reaction: true,
         geometry: RotorGeometry {
             thrust: [lift; 4],
             roll: [-arm, arm, arm, -arm],
@@ -149,7 +150,7 @@ impl Flight {
         Ok(Self {
             counter,
             counts: Counts::default(),
-            inner: Inner::new(&config, SlidingAttitude::new(airframe, &config.attitude))?,
+            inner: Inner::new(&config, SlidingAttitude::new(&config))?,
             outer: Outer::new(&config, SlidingPosition::new(airframe, &config.position))?,
             guidance: Guidance::new(config.trajectory, config.join.as_ref(), config.start_position())?,
             mixer: Mixer::new(&airframe.geometry.rows(), airframe.omega_max_rad_s)
