@@ -6,6 +6,7 @@
 )]
 
 pub mod airframe;
+pub mod analyse;
 pub mod baseline;
 pub mod cli;
 pub mod compare;

@@ -4,6 +4,7 @@
 //! code 2; a flight that ends badly is a result, not a complaint. A difference between image and desktop, or an
 //! overrun, is one line and exit code 1.
 
+mod analyse;
 mod bench;
 mod compare;
 mod demo;
@@ -54,6 +55,20 @@ enum Command {
     Serve(ServeArgs),
     /// Fly a scenario with the Cortex-M image under QEMU in the loop, and compare it with the desktop bit for bit.
     Pil(PilArgs),
+    /// Margins, attitude bandwidth and noise of a scenario's loops about hover: linear, and as the simulation has them.
+    Analyse {
+        #[command(flatten)]
+        which: Which,
+        /// Seed of the test noise.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// Write analyse.json and figures there.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Print a JSON object.
+        #[arg(long)]
+        json: bool,
+    },
     /// Measure how fast the simulation is.
     Bench {
         /// Simulated seconds a run.
@@ -254,6 +269,7 @@ pub fn main() -> ExitCode {
         Some(Command::Scenarios { json }) => scenarios::run(json),
         Some(Command::Serve(args)) => serve::run(&args),
         Some(Command::Pil(args)) => pil::run(&args),
+        Some(Command::Analyse { which, seed, out, json }) => analyse::run(&which, seed, out.as_deref(), json),
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
         Some(Command::Sweep { which, seed, json }) => sweep::run(&which, seed, json),
         Some(Command::Compare(args)) => compare::run(&args),

@@ -15,6 +15,8 @@ pub(super) enum Source {
     WindAlong = 6,
     WindAcross = 7,
     WindVertical = 8,
+    /// Test signal of an analysis.
+    Test = 64,
 }
 
 /// The random numbers of one source.

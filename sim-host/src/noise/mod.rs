@@ -27,6 +27,22 @@ impl Samples {
     }
 }
 
+/// A test signal, white from tick to tick: three Gaussian numbers of mean 0 at a time.
+#[derive(Clone, Debug)]
+pub struct White(Samples);
+
+impl White {
+    /// Of a standard deviation a component.
+    pub fn new(seed: u64, sigma: f64) -> Self {
+        Self(Samples::new(seed, Source::Test, sigma))
+    }
+
+    /// The next three.
+    pub fn draw(&mut self) -> Vector3<f64> {
+        self.0.draw()
+    }
+}
+
 /// What disturbs the flight at a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Disturbed {

@@ -38,9 +38,10 @@ struct CourseFile {
 ///
 /// A flight that is survived costs
 /// `rms ln(RMS + floor) + yaw ln(yaw RMS + floor) + settling S/T + chattering ln(1 + v) + saturation σ`
-/// with the distance from the trajectory in m and the heading's error in rad, S the time until it stays within 5 cm,
-/// T what is flown at most, v the total variation of the commanded ω² a second in units of Σω² in hover, σ the saturated part
-/// of the flight. A flight that is lost costs `lost (2 − t/T)`, t the time flown: the later, the better.
+/// with the distance from the trajectory in m and the heading's error in rad, S the time until the distance stays within
+/// 5 cm, T the time that counts, v the total variation of the commanded ω² a second in units of Σω² in hover, σ the
+/// saturated part of the flight. A flight that is lost costs `lost (2 − t/D)`, t the time flown of the whole D:
+/// the later, the better.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weights {
@@ -285,6 +286,18 @@ mod tests {
         near(cost(Weights { settling: 3.0, ..WEIGHTS }), 1.0);
         near(cost(Weights { chattering: 0.5, ..WEIGHTS }), 0.5);
         near(cost(Weights { saturation: 2.0, ..WEIGHTS }), 0.5);
+    }
+
+    #[test]
+    fn gains_that_are_refused_cost_more_than_any_flight() {
+        let Controller::Smc(mut control) = scenario::tuning("x500-smc").expect("built in").controller else {
+            panic!("another controller")
+        };
+        control.x.lambda = -1.0;
+        let controller = Controller::Smc(control);
+        let course = Course::load("x500").expect("valid");
+        assert_eq!(course.cost(&controller), course.weights.refused());
+        assert!(course.require_flyable(&controller).is_err());
     }
 
     #[test]

@@ -42,7 +42,7 @@ impl Journal {
         let text = std::fs::read_to_string(path).with_context(|| cannot("resume from", path))?;
         let rows = text.strip_prefix(&header(identity, names)).ok_or_else(|| {
             anyhow!(
-                "{} is another run's: tune file, course, method, particles or seed differ; choose another folder with --out",
+                "{} is another run's: tune, course, method, particles or seed differ; choose another folder with --out",
                 path.display()
             )
         })?;

@@ -103,21 +103,27 @@ impl Space {
     /// # Errors
     /// A base that is no tuning; a parameter without a range, or with a key that the base does not have as a number,
     /// or that another parameter sets too.
-    pub fn new(name: &str, mut base: Table, parameters: Vec<Parameter>) -> Result<Self> {
+    pub fn new(name: &str, base: Table, parameters: Vec<Parameter>) -> Result<Self> {
         ensure!(!parameters.is_empty(), "`parameters` is empty: name what is to be varied");
+        let space = Self { base, parameters };
+        let context = || format!("tuning `{name}`");
+        space.base_controller().with_context(context)?;
         let mut seen = BTreeSet::new();
-        for parameter in &parameters {
+        for parameter in &space.parameters {
             parameter.validate()?;
             for key in &parameter.keys {
-                ensure!(seen.insert(key.clone()), "`{key}` is set by two parameters: keep one");
-                number(&mut base, key).with_context(|| format!("tuning `{name}`"))?;
+                ensure!(seen.insert(key), "`{key}` is set by two parameters: keep one");
+                space.require_variable(key).with_context(context)?;
             }
         }
-        let space = Self { base, parameters };
-        space.base_controller().with_context(|| format!("tuning `{name}`"))?;
-        // A key that counts, as ticks do, takes no fraction.
-        space.controller(&vec![0.5; space.dimensions()]).context("`parameters.keys` names what takes whole numbers")?;
         Ok(space)
+    }
+
+    /// Refuses a key that is no number, or one that takes whole numbers alone.
+    fn require_variable(&self, key: &str) -> Result<()> {
+        let mut table = self.base.clone();
+        *number(&mut table, key)? = Value::Float(0.5);
+        controller(table).map(drop).with_context(|| format!("`{key}` cannot be varied"))
     }
 
     /// Number of dimensions.
@@ -263,6 +269,6 @@ mod tests {
         let base = include_str!("../../tunings/x500-indi.toml").parse().expect("TOML");
         let ticks = parameter(&["indi.rotor_delay_ticks"], 1.0, 4.0, Scale::Log);
         let error = format!("{:#}", Space::new("x500-indi", base, vec![ticks]).expect_err("ticks are whole"));
-        assert!(error.contains("parameters.keys") && error.contains("rotor_delay_ticks"), "{error}");
+        assert!(error.contains("`indi.rotor_delay_ticks` cannot be varied"), "{error}");
     }
 }

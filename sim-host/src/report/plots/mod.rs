@@ -4,6 +4,7 @@
 //! degrees. The reference is a wide light line below a thin dark one, so that both show where they agree. Long
 //! series are thinned without losing their peaks, so that a file stays below 300 kB.
 
+pub mod analysis;
 pub mod comparison;
 mod convergence;
 mod helix;

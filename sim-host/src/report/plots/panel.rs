@@ -28,6 +28,8 @@ pub(super) mod palette {
     pub(in super::super) const REFERENCE: RGBColor = RGBColor(230, 159, 0);
     /// What was flown: dark and thin, above.
     pub(in super::super) const FLOWN: RGBColor = RGBColor(0, 114, 178);
+    /// A level to compare with.
+    pub(in super::super) const LEVEL: RGBColor = RGBColor(140, 140, 140);
     /// Where a path starts.
     pub(in super::super) const START: RGBColor = RGBColor(213, 94, 0);
     /// While a disturbance acts.
@@ -52,6 +54,7 @@ pub(super) mod palette {
 pub(super) enum Role {
     Reference,
     Flown,
+    Level,
 }
 
 impl Role {
@@ -59,6 +62,7 @@ impl Role {
         let (color, width) = match self {
             Self::Reference => (palette::REFERENCE, 4 * FINE),
             Self::Flown => (palette::FLOWN, FINE + 1),
+            Self::Level => (palette::LEVEL, FINE),
         };
         color.stroke_width(width)
     }
@@ -71,6 +75,10 @@ pub(super) enum Key<'a> {
     Flown,
     Start,
     Disturbed,
+    Linear,
+    Simulated,
+    Small,
+    Step,
     /// One of several, by name and colour.
     Series(&'a str, RGBColor),
 }
@@ -82,6 +90,10 @@ impl<'a> Key<'a> {
             Self::Flown => "flown",
             Self::Start => "start",
             Self::Disturbed => "disturbed",
+            Self::Linear => "linear",
+            Self::Simulated => "in the simulation",
+            Self::Small => "a small step",
+            Self::Step => "5°",
             Self::Series(name, _) => name,
         }
     }
@@ -102,13 +114,20 @@ pub(super) struct Panel {
     pub(super) shaded: Option<(f64, f64)>,
     /// As many pixels a unit in both directions.
     pub(super) equal_scales: bool,
+    /// Points of their own.
+    pub(super) dots: Points,
+    /// A place to mark.
+    pub(super) mark: Option<(f64, f64)>,
+    /// What is across is given as its decimal logarithm.
+    pub(super) decades: bool,
 }
 
 impl Panel {
     /// Lines over time.
     pub(super) fn over_time(title: &str, up: &str, lines: Vec<(Role, Points)>) -> Self {
         let (title, across, up) = (title.into(), "t, s".into(), up.into());
-        Self { title, across, up, lines, mark_start: false, shaded: None, equal_scales: false }
+        let (mark_start, shaded, equal_scales, decades) = (false, None, false, false);
+        Self { title, across, up, lines, mark_start, shaded, equal_scales, dots: vec![], mark: None, decades }
     }
 
     /// A path in a plane, its start marked.
@@ -131,11 +150,20 @@ impl Panel {
         for (role, points) in &self.lines {
             chart.draw_series(LineSeries::new(points.iter().copied(), role.style()))?;
         }
+        self.draw_dots(&mut chart)?;
         self.draw_start(&mut chart)
     }
 
+    fn draw_dots(&self, chart: &mut Chart) -> Result<()> {
+        chart.draw_series(self.dots.iter().map(|place| Circle::new(*place, px(4), palette::START.filled())))?;
+        chart.draw_series(
+            self.mark.iter().map(|place| Cross::new(*place, px(5), palette::INK.stroke_width(FINE + 1))),
+        )?;
+        Ok(())
+    }
+
     fn ranges(&self, area: &Area) -> ((f64, f64), (f64, f64)) {
-        let points = || self.lines.iter().flat_map(|(_, points)| points);
+        let points = || self.lines.iter().flat_map(|(_, points)| points).chain(&self.dots).chain(&self.mark);
         let across = extent(points().map(|p| p.0));
         let up = padded(extent(points().map(|p| p.1)), 0.06);
         if self.equal_scales {
@@ -163,7 +191,7 @@ impl Panel {
             .axis_style(palette::INK.stroke_width(FINE))
             .x_labels(7)
             .y_labels(6)
-            .x_label_formatter(&|v| tick(*v, across.1 - across.0))
+            .x_label_formatter(&|v| if self.decades { decade(*v) } else { tick(*v, across.1 - across.0) })
             .y_label_formatter(&|v| tick(*v, up.1 - up.0))
             .label_style(text(12))
             .axis_desc_style(text(13))
@@ -240,9 +268,9 @@ fn draw_sample(area: &Area, key: Key, x: i32, middle: i32) -> Result<()> {
     let (end, half) = (x + at(26), at(6));
     let line = |role: Role| PathElement::new(vec![(x, middle), (end, middle)], role.style());
     match key {
-        Key::Reference => area.draw(&line(Role::Reference))?,
-        Key::Flown => area.draw(&line(Role::Flown))?,
-        Key::Start => area.draw(&Circle::new((x + at(20), middle), px(4), palette::START.filled()))?,
+        Key::Reference | Key::Small => area.draw(&line(Role::Reference))?,
+        Key::Flown | Key::Linear | Key::Step => area.draw(&line(Role::Flown))?,
+        Key::Start | Key::Simulated => area.draw(&Circle::new((x + at(20), middle), px(4), palette::START.filled()))?,
         Key::Disturbed => {
             area.draw(&Rectangle::new([(x, middle - half), (end, middle + half)], palette::DISTURBED.filled()))?;
         }
@@ -288,6 +316,15 @@ pub(super) fn equalised(across: (f64, f64), up: (f64, f64), (width, height): (u3
         (middle - half, middle + half)
     };
     (widen(across, width), widen(up, height))
+}
+
+/// The label of a tick at a logarithm: of whole decades alone.
+pub(super) fn decade(logarithm: f64) -> String {
+    let whole = logarithm.round();
+    if (logarithm - whole).abs() > 1e-6 {
+        return String::new();
+    }
+    format!("{:.1$}", libm::pow(10.0, whole), (-whole).max(0.0) as usize)
 }
 
 /// A tick's label with as many decimals as its axis of `size` needs for about six ticks.

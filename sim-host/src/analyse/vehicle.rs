@@ -1,0 +1,165 @@
+//! The vehicle about hover: what the laws see there, and what their demands do.
+
+use anyhow::{Context, Result};
+use firmware::config::{FlightConfig, Start};
+use firmware::guidance::Trajectory;
+use firmware::schedule::OUTER;
+use firmware::signals::TICK_S_EXACT;
+use nalgebra::{Complex, Matrix4, Vector4};
+
+use super::chain::{Chain, Sampled};
+use crate::scenario::Scenario;
+
+/// Period of the outer partition, s.
+pub(super) const OUTER_STEP_S: f64 = OUTER.period as f64 * TICK_S_EXACT;
+
+/// From the outer partition's release to its output, s.
+const AHEAD_S: f64 = OUTER.offset as f64 * TICK_S_EXACT;
+
+/// `e^(jωt)`.
+pub(super) fn turned(angle: f64) -> Complex<f64> {
+    let (sin, cos) = libm::sincos(angle);
+    Complex::new(cos, sin)
+}
+
+/// The scenario's vehicle and controller, hovering at the origin in still air.
+pub(super) fn hovering(scenario: &Scenario) -> Scenario {
+    let mut hover = scenario.clone();
+    let file = &mut hover.file;
+    file.trajectory = Trajectory::Hold { position_m: [0.0; 3], yaw_rad: 0.0 };
+    (file.join, file.disturbance, file.wind, file.tumble) = (None, None, None, None);
+    (file.start, file.ground, file.start_position_m) = (Start::InFlight, false, [0.0; 3]);
+    (file.start_velocity_m_s, file.start_attitude_deg, file.start_rates_rad_s) = (None, None, None);
+    hover
+}
+
+/// The rotor model of the firmware, linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct BelievedRotor {
+    /// Part of the way to what is wanted that a rotor goes in a tick.
+    part: f64,
+    lead: f64,
+}
+
+impl BelievedRotor {
+    fn new(config: &FlightConfig) -> Self {
+        let (lag, wanted) = (f64::from(config.airframe.rotor_lag_s), f64::from(config.rotor_time_constant_s));
+        let part = |time_s: f64| if time_s > 0.0 { 1.0 - libm::exp(-TICK_S_EXACT / time_s) } else { 1.0 };
+        let lead = if wanted > 0.0 && wanted < lag { part(wanted) / part(lag) } else { 1.0 };
+        Self { part: lead * part(lag), lead }
+    }
+}
+
+/// What becomes of a demand, by frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Actuation {
+    /// What the firmware believes that the rotors give, before it has computed this tick's command.
+    pub(super) believed: Complex<f64>,
+    /// What they are told.
+    pub(super) command: Complex<f64>,
+    /// What they are told, with the delay.
+    pub(super) delayed: Complex<f64>,
+}
+
+/// A vehicle about hover.
+#[derive(Clone, Debug)]
+pub(super) struct Vehicle {
+    rotor: BelievedRotor,
+    delay_s: f64,
+    /// Rotor speeds, rad/s.
+    pub(super) omega: Vector4<f64>,
+    /// Change of the rotors' speeds for each N m about an axis, rad/s.
+    pub(super) omega_per_torque: [Vector4<f64>; 3],
+    /// Thrust over mass as the firmware believes, m/s²: the vertical force that its position law asks for.
+    pub(super) specific_thrust: f64,
+    /// m as the firmware believes, kg.
+    pub(super) mass_kg: f64,
+    /// k over m as the firmware believes, 1/s.
+    pub(super) specific_drag: [f64; 3],
+    /// About x, y, z, with what the tilt does to the place.
+    pub(super) about: [Sampled; 3],
+    /// Along z.
+    pub(super) vertical: Sampled,
+}
+
+impl Vehicle {
+    /// Of a scenario.
+    ///
+    /// # Errors
+    /// A rotor geometry that cannot be inverted.
+    pub(super) fn new(scenario: &Scenario) -> Result<Self> {
+        let (truth, believed) = (scenario.constants(), scenario.airframe.constants());
+        let inverse = believed.geometry.try_inverse().context("`rotors`: the four cannot be mixed")?;
+        // What comes of U1..U4; off its diagonal it couples the axes, which is left out.
+        let given: Matrix4<f64> = truth.geometry * inverse;
+        let thrust = truth.mass * truth.gravity / given[(0, 0)];
+        let omega = (inverse.column(0) * thrust).map(|square: f64| square.max(0.0).sqrt());
+        let per_torque = |axis: usize| inverse.column(axis + 1).component_div(&(omega * 2.0));
+        let omega_per_torque = core::array::from_fn(per_torque);
+        let reacts = truth.spin_up_reaction && truth.rotor_lag > 0.0;
+        let about = |axis: usize| {
+            let gain = given[(axis + 1, axis + 1)];
+            let momentum = truth.rotor_inertia * truth.spin.dot(&omega_per_torque[axis]);
+            Chain {
+                lag_s: truth.rotor_lag,
+                reaction_s: if reacts && axis == 2 { -momentum / gain } else { 0.0 },
+                gain: gain / truth.inertia[axis],
+                tilt: if axis == 2 { 0.0 } else { truth.gravity },
+                // Roll moves it along y, pitch along x.
+                drag: truth.drag[1 - axis.min(1)] / truth.mass,
+                rate_drag: 0.0,
+            }
+        };
+        let vertical = Chain {
+            lag_s: truth.rotor_lag,
+            gain: given[(0, 0)] / truth.mass,
+            rate_drag: truth.drag.z / truth.mass,
+            ..Chain::default()
+        };
+        Ok(Self {
+            rotor: BelievedRotor::new(&scenario.flight_config()),
+            delay_s: scenario.actuation_delay_ticks() as f64 * TICK_S_EXACT,
+            omega,
+            omega_per_torque,
+            specific_thrust: thrust / believed.mass,
+            mass_kg: believed.mass,
+            specific_drag: (believed.drag / believed.mass).into(),
+            about: [0, 1, 2].map(|axis| about(axis).sampled(TICK_S_EXACT)),
+            vertical: vertical.sampled(TICK_S_EXACT),
+        })
+    }
+
+    /// What becomes of a demand at ω, rad/s.
+    pub(super) fn actuation(&self, omega_rad_s: f64) -> Actuation {
+        let BelievedRotor { part, lead } = self.rotor;
+        let z = turned(omega_rad_s * TICK_S_EXACT);
+        let believed = Complex::new(part, 0.0) / (z - 1.0 + part);
+        let command = believed + (Complex::new(1.0, 0.0) - believed) * lead;
+        Actuation { believed, command, delayed: command * turned(-omega_rad_s * self.delay_s) }
+    }
+
+    /// Position, velocity and acceleration as a position law gets them, predicted from those at the release; the
+    /// acceleration is what the thrust gives at the release.
+    pub(super) fn predicted(&self, axis: usize, [position, velocity, thrust]: [Complex<f64>; 3]) -> [Complex<f64>; 3] {
+        let acceleration = thrust - velocity * self.specific_drag[axis];
+        [
+            position + velocity * AHEAD_S + acceleration * (0.5 * AHEAD_S * AHEAD_S),
+            velocity + acceleration * AHEAD_S,
+            acceleration,
+        ]
+    }
+
+    /// How a force and its two derivatives, given at the release, reach the inner partition: held for a period of the
+    /// outer, carried on by a Taylor series. Amplitudes at ω of 1, t, t²/2 since the reference holds.
+    pub(super) fn hold(omega_rad_s: f64) -> [Complex<f64>; 3] {
+        let mut sum = [Complex::new(0.0, 0.0); 3];
+        for tick in 0..OUTER.period {
+            let t = f64::from(tick) * TICK_S_EXACT;
+            let turn = turned(-omega_rad_s * (t + AHEAD_S)) / f64::from(OUTER.period);
+            for (sum, weight) in sum.iter_mut().zip([1.0, t, 0.5 * t * t]) {
+                *sum += turn * weight;
+            }
+        }
+        sum
+    }
+}

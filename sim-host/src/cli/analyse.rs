@@ -1,0 +1,76 @@
+//! `analyse`: margins, bandwidth and noise of a scenario's loops.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+
+use super::Which;
+use crate::analyse::{Analysis, Loop, analyse};
+use crate::report::{OutFolder, plots};
+
+pub(super) fn run(which: &Which, seed: u64, out: Option<&Path>, as_json: bool) -> Result<()> {
+    let analysis = analyse(&which.load()?, seed)?;
+    if let Some(path) = out {
+        OutFolder::create(path)?;
+        let file = path.join("analyse.json");
+        std::fs::write(&file, serde_json::to_string(&analysis)? + "\n")
+            .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", file.display()))?;
+        plots::analysis::draw(path, &analysis)?;
+    }
+    super::say(&if as_json { serde_json::to_string(&analysis)? } else { table(&analysis) })
+}
+
+fn table(analysis: &Analysis) -> String {
+    let mut lines = vec![format!("{}, {}: about hover", analysis.scenario, analysis.controller), String::new()];
+    lines.push(format!(
+        "{:<5}  {:>9}  {:>9}  {:>9}  {:>8}  {:>8}  {:>5}  {:>15}  margins in the simulation",
+        "loop", "ωc rad/s", "gain up", "gain down", "phase °", "delay ms", "Ms", "L simulated"
+    ));
+    lines.extend(analysis.loops.iter().map(loop_line));
+    lines.push(String::new());
+    lines.push(format!("{:<5}  {:>15}  {:>9}  {:>9}", "angle", "bandwidth rad/s", "rise ms", "overshoot"));
+    lines.extend(analysis.attitude.iter().map(|axis| {
+        let rise = number(axis.rise_s.map(|t| 1e3 * t), 0);
+        format!(
+            "{:<5}  {:>15}  {rise:>9}  {:>7.1} %",
+            axis.name,
+            number(axis.bandwidth_rad_s, 1),
+            100.0 * axis.overshoot
+        )
+    }));
+    let noise = &analysis.noise;
+    lines.push(String::new());
+    lines.push(format!(
+        "noise of 1 mrad/s a sample on the rates: rotors' commands {:.2} rad/s RMS ({:.2} in the simulation)",
+        1e-3 * noise.per_sample,
+        1e-3 * noise.per_sample_simulated
+    ));
+    lines.push(format!(
+        "noise of 0.1 mrad/s/√Hz:                 rotors' commands {:.2} rad/s RMS",
+        1e-4 * noise.per_density
+    ));
+    lines.join("\n")
+}
+
+fn loop_line(one: &Loop) -> String {
+    let m = &one.margins;
+    let gain_error = one.checks.iter().fold(0.0_f64, |most, c| most.max(c.gain_error.abs()));
+    let phase_error = one.checks.iter().fold(0.0_f64, |most, c| most.max(c.phase_error_deg.abs()));
+    let within = format!("{:.1} %, {phase_error:.1}°", 100.0 * gain_error);
+    let confirmed = one.margin_checks.iter().filter(|c| c.stable == c.expected_stable).count();
+    let end = if one.stable { format!("{confirmed} of {} hold", one.margin_checks.len()) } else { "UNSTABLE".into() };
+    format!(
+        "{:<5}  {:>9}  {:>9}  {:>9}  {:>8}  {:>8}  {:>5.2}  {within:>15}  {end}",
+        one.name,
+        number(m.crossover_rad_s, 2),
+        number(m.gain_upper.map(|g| g.factor), 2),
+        number(m.gain_lower.map(|g| g.factor), 3),
+        number(m.phase_deg, 1),
+        number(m.delay_s.map(|t| 1e3 * t), 2),
+        m.sensitivity_peak,
+    )
+}
+
+fn number(value: Option<f64>, digits: usize) -> String {
+    value.map_or("-".to_owned(), |v| format!("{v:.digits$}"))
+}

@@ -1,0 +1,78 @@
+//! The linear analysis against closed forms, and against the simulation.
+
+#![allow(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
+
+use sim_host::analyse::{Analysis, Loop, analyse};
+use sim_host::scenario::Scenario;
+
+fn analysed(name: &str, settings: &[&str]) -> Analysis {
+    let settings: Vec<String> = settings.iter().map(|s| (*s).to_owned()).collect();
+    analyse(&Scenario::load(name, &settings).expect("valid"), 1).expect("it hovers")
+}
+
+/// Every loop stands still, answers as linearised, and is lost where its margins say.
+fn holds(analysis: &Analysis) {
+    assert_eq!(analysis.loops.len(), 6);
+    for one in &analysis.loops {
+        assert!(one.stable, "{}", one.name);
+        assert!(one.checks.len() >= 4 && one.margin_checks.len() >= 4, "{}: {:?}", one.name, one.margins);
+        for check in &one.checks {
+            let near = check.gain_error.abs() < 0.05 && check.phase_error_deg.abs() < 3.0;
+            assert!(near, "{}: {check:?}", one.name);
+        }
+        for check in &one.margin_checks {
+            assert_eq!(check.stable, check.expected_stable, "{}: {check:?}, {:?}", one.name, one.margins);
+        }
+    }
+    let noise = analysis.noise;
+    // 18,000 samples, correlated over some 10: 2 % of deviation at three sigma.
+    assert!((noise.per_sample_simulated / noise.per_sample - 1.0).abs() < 0.03, "{noise:?}");
+}
+
+#[test]
+fn hover_does_in_the_simulation_what_its_linear_loops_say() {
+    holds(&analysed("hover", &[]));
+}
+
+#[test]
+fn rotors_that_lag_do() {
+    holds(&analysed("helix-lag", &[]));
+}
+
+#[test]
+fn a_vehicle_with_delay_lead_and_observers_does() {
+    holds(&analysed("x500-hover", &[]));
+}
+
+/// Without lag the attitude loop is λ and K/ρ on a double integrator whose torque is held for a tick.
+#[test]
+fn the_attitude_loop_is_the_sampled_double_integrators() {
+    let analysis = analysed("hover", &[]);
+    let roll = loop_named(&analysis, "roll");
+    // u_r = (K/ρ) s with λ = 30, K/ρ = 200: torque/I = −(λ + K/ρ) p − λ K/ρ φ.
+    let (rate, angle, h) = (230.0, 6000.0, 1e-3);
+    for sample in &roll.response {
+        let (sin, cos) = (sample.omega_rad_s * h).sin_cos();
+        let z = nalgebra::Complex::new(cos, sin);
+        let expected = (z - 1.0).inv() * (rate * h) + (z + 1.0) * (angle * 0.5 * h * h) / ((z - 1.0) * (z - 1.0));
+        let error = (sample.value - expected).norm_sqr().sqrt() / expected.norm_sqr().sqrt();
+        assert!(error < 2e-3, "{sample:?} {expected}");
+    }
+    // At z = −1 L is −rate h/2.
+    let gain = roll.margins.gain_upper.expect("it has one").factor;
+    assert!((gain - 2.0 / (rate * h)).abs() < 0.005 * gain, "{gain}");
+    // |L| = 1 of rate/(jω) + angle/(jω)²: ω⁴ = rate² ω² + angle²; half a tick of hold.
+    let square = 0.5 * (rate * rate + (rate * rate * rate * rate + 4.0 * angle * angle).sqrt());
+    let crossover = square.sqrt();
+    let phase = (rate * crossover / angle).atan() - 0.5 * crossover * h;
+    let margins = roll.margins;
+    assert!((margins.crossover_rad_s.expect("it has one") / crossover - 1.0).abs() < 0.01, "{margins:?}");
+    assert!((margins.phase_deg.expect("it has one") - phase.to_degrees()).abs() < 0.5, "{margins:?}");
+    let bandwidth = analysis.attitude[0].bandwidth_rad_s.expect("it has one");
+    // λ K/ρ/((s + λ)(s + K/ρ)), held and sampled: −3 dB near 29.3 rad/s.
+    assert!((bandwidth / 29.35 - 1.0).abs() < 0.01, "{bandwidth}");
+}
+
+fn loop_named<'a>(analysis: &'a Analysis, name: &str) -> &'a Loop {
+    analysis.loops.iter().find(|one| one.name == name).expect("it is one of the six")
+}
