@@ -290,6 +290,16 @@ mod tests {
     }
 
     #[test]
+    fn the_cheap_limits_are_clamp() {
+        let special = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, 2.5, -2.5];
+        for x in sweep(-5.0, 5.0).chain(special) {
+            assert_eq!(limit(x, 2.5), clamp(x, -2.5, 2.5), "{x}");
+            assert_eq!(limit_positive(x, 2.5), clamp(x, 0.0, 2.5), "{x}");
+        }
+        assert_eq!(limit_positive(-0.0, 2.5).to_bits(), 0);
+    }
+
+    #[test]
     fn not_a_number_is_limited_not_passed_on() {
         assert_eq!(clamp(f32::NAN, -1.0, 1.0), -1.0);
     }
