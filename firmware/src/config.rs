@@ -6,6 +6,7 @@ use crate::airframe::Airframe;
 use crate::control::attitude::{AttitudeForm, AttitudeGains};
 use crate::control::observer::ObserverGains;
 use crate::control::position::PositionGains;
+use crate::control::rotor::YawInversion;
 use crate::control::sliding::AxisGains;
 use crate::guidance::{JoinPlan, Trajectory};
 use crate::validate::ConfigError;
@@ -72,6 +73,12 @@ impl FlightConfig {
     pub fn rotor_answer_s(&self) -> f32 {
         let (lag, lead) = (self.airframe.rotor_lag_s, self.rotor_time_constant_s);
         if lead > 0.0 && lead < lag { lead } else { lag }
+    }
+
+    /// How the torque about yaw is asked for; rotors that nothing is led for are not led in yaw either.
+    pub fn yaw_inversion(&self) -> YawInversion {
+        let lead_s = if self.rotor_time_constant_s > 0.0 { self.airframe.spin_up_lead_s() } else { 0.0 };
+        YawInversion::new(lead_s, self.rotor_answer_s())
     }
 
     /// Start position as a vector.

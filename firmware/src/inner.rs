@@ -74,15 +74,12 @@ impl<A: AttitudeLaw> Inner<A> {
         }
         let mut nav = NavState::at_rest();
         nav.position = config.start_position();
-        // Rotors that nothing is led for are not to be led in yaw either.
-        let spin_up_lead_s = if config.rotor_time_constant_s > 0.0 { airframe.spin_up_lead_s() } else { 0.0 };
-        let yaw = YawInversion::new(spin_up_lead_s, config.rotor_answer_s());
         Ok(Self {
             airframe,
             law,
             mixer,
             rotors,
-            yaw,
+            yaw: config.yaw_inversion(),
             nav,
             stale_ticks: 0,
             refused_samples: 0,

@@ -45,7 +45,7 @@ impl AttitudeAt {
     /// Of `axis`: roll, pitch, yaw.
     pub(super) fn new<A: AttitudeLaw + Clone>(law: &A, vehicle: &Vehicle, axis: usize, omega_rad_s: f64) -> Self {
         let gain = |channel| law::attitude(law, vehicle, axis, channel, omega_rad_s);
-        let actuation = vehicle.actuation(omega_rad_s);
+        let actuation = vehicle.turning(axis, omega_rad_s);
         let moved = vehicle.about[axis].at(turned(omega_rad_s * TICK_S_EXACT)).after(actuation.delayed);
         let for_rate = gain(AttitudeChannel::Rate);
         let returned = gain(AttitudeChannel::Angle) * moved.angle

@@ -39,14 +39,16 @@ struct BelievedRotor {
     /// Part of the way to what is wanted that a rotor goes in a tick.
     part: f64,
     lead: f64,
+    /// Part of the way from the yaw torque that is to the one wanted for which the rotors are told to go.
+    yaw: f64,
 }
 
 impl BelievedRotor {
     fn new(config: &FlightConfig) -> Self {
-        let (lag, wanted) = (f64::from(config.airframe.rotor_lag_s), f64::from(config.rotor_time_constant_s));
+        let (lag, wanted) = (f64::from(config.airframe.rotor_lag_s), f64::from(config.rotor_answer_s()));
         let part = |time_s: f64| if time_s > 0.0 { 1.0 - libm::exp(-TICK_S_EXACT / time_s) } else { 1.0 };
-        let lead = if wanted > 0.0 && wanted < lag { part(wanted) / part(lag) } else { 1.0 };
-        Self { part: lead * part(lag), lead }
+        let lead = if wanted < lag { part(wanted) / part(lag) } else { 1.0 };
+        Self { part: lead * part(lag), lead, yaw: f64::from(config.yaw_inversion().demand(0.0, 1.0)) }
     }
 }
 
@@ -129,9 +131,18 @@ impl Vehicle {
         })
     }
 
-    /// What becomes of a demand at ω, rad/s.
+    /// What becomes of a torque about an axis at ω, rad/s. About yaw the rotors are told u = B + p (demand − B), B being
+    /// what they are believed to give: u = p demand/(1 − (1 − p) b), with B = b u.
+    pub(super) fn turning(&self, axis: usize, omega_rad_s: f64) -> Actuation {
+        let plain = self.actuation(omega_rad_s);
+        let one = Complex::new(1.0, 0.0);
+        let told = if axis == 2 { one * self.rotor.yaw / (one - plain.believed * (1.0 - self.rotor.yaw)) } else { one };
+        Actuation { believed: plain.believed * told, command: plain.command * told, delayed: plain.delayed * told }
+    }
+
+    /// What becomes of a thrust at ω, rad/s.
     pub(super) fn actuation(&self, omega_rad_s: f64) -> Actuation {
-        let BelievedRotor { part, lead } = self.rotor;
+        let BelievedRotor { part, lead, .. } = self.rotor;
         let z = turned(omega_rad_s * TICK_S_EXACT);
         let believed = Complex::new(part, 0.0) / (z - 1.0 + part);
         let command = believed + (Complex::new(1.0, 0.0) - believed) * lead;
