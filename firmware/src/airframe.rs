@@ -70,12 +70,6 @@ impl RotorGeometry {
         Vector3::new(product(&self.roll, &square), product(&self.pitch, &square), product(&self.yaw, &square))
     }
 
-    /// The last of them alone, U4 in N m.
-    #[inline]
-    pub fn yaw_torque(&self, omega_rad_s: &[f32; ROTORS]) -> f32 {
-        product(&self.yaw, &omega_rad_s.map(|omega| omega * omega))
-    }
-
     /// The matrix B, 4 × [`ROTORS`].
     pub const fn rows(&self) -> [[f32; ROTORS]; 4] {
         [self.thrust, self.roll, self.pitch, self.yaw]

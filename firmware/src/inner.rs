@@ -5,10 +5,10 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::airframe::{Airframe, ROTORS};
+use crate::airframe::{Airframe, ROTORS, RotorGeometry};
 use crate::config::{FlightConfig, Start};
 use crate::control::attitude::SlidingAttitude;
-use crate::control::law::{AttitudeInput, AttitudeLaw};
+use crate::control::law::{AttitudeInput, AttitudeLaw, RotorEffect};
 use crate::control::mixer::Mixer;
 use crate::control::rotor::{RotorModel, YawInversion};
 use crate::math;
@@ -52,6 +52,10 @@ pub struct Inner<A = SlidingAttitude> {
     law: A,
     mixer: Mixer<ROTORS>,
     rotors: RotorModel,
+    /// The sense, ±1, in which each spins about +z.
+    senses: [f32; ROTORS],
+    /// What they are believed to do.
+    effect: RotorEffect,
     yaw: YawInversion,
     nav: NavState,
     stale_ticks: u32,
@@ -72,12 +76,15 @@ impl<A: AttitudeLaw> Inner<A> {
         if config.start == Start::InFlight {
             rotors.set([airframe.omega_for_thrust_to_weight(1.0); ROTORS]);
         }
+        let senses = airframe.rotor_senses();
         let mut nav = NavState::at_rest();
         nav.position = config.start_position();
         Ok(Self {
             airframe,
             law,
             mixer,
+            effect: effect(&airframe.geometry, &senses, rotors.omega_rad_s()),
+            senses,
             rotors,
             yaw: config.yaw_inversion(),
             nav,
@@ -123,7 +130,7 @@ impl<A: AttitudeLaw> Inner<A> {
             self.control(&attitude, &rates, reference, age as f32 * TICK_S);
         } else {
             self.law.reset();
-            self.rotors.follow(&MotorCommand::STOPPED.omega_rad_s);
+            self.follow(&MotorCommand::STOPPED);
             self.output = InnerOutput::IDLE;
         }
         &self.output
@@ -143,19 +150,20 @@ impl<A: AttitudeLaw> Inner<A> {
             rates,
             target: &reference.target_after(dt),
             rotor_speeds: self.rotors.omega_rad_s(),
+            rotors: &self.effect,
             saturated: self.output.saturated,
         });
         let demand = ControlInput {
             thrust_n: math::max(reference.thrust_n + reference.thrust_rate_n_s * dt, 0.0),
             roll_n_m: wanted.torque.x,
             pitch_n_m: wanted.torque.y,
-            yaw_n_m: self.yaw.demand(self.airframe.geometry.yaw_torque(self.rotors.omega_rad_s()), wanted.torque.z),
+            yaw_n_m: self.yaw.demand(self.effect.torque.z, wanted.torque.z),
         };
         let Ok(allocation) = self.mixer.allocate(&demand) else {
             // A sample so wild that a product overflowed. The last command is safer than none; what the law has made
             // of the sample is not to stay.
             self.law.reset();
-            self.rotors.follow(&self.output.motors.omega_rad_s);
+            self.follow(&{ self.output.motors });
             self.output.saturated = true;
             return;
         };
@@ -165,6 +173,13 @@ impl<A: AttitudeLaw> Inner<A> {
             s: wanted.s,
             saturated: allocation.saturated,
         };
+        self.effect = effect(&self.airframe.geometry, &self.senses, self.rotors.omega_rad_s());
+    }
+
+    /// A tick passes with a command that no law has given.
+    fn follow(&mut self, command: &MotorCommand) {
+        self.rotors.follow(&command.omega_rad_s);
+        self.effect = effect(&self.airframe.geometry, &self.senses, self.rotors.omega_rad_s());
     }
 
     /// The motion as last sensed.
@@ -192,4 +207,11 @@ impl<A: AttitudeLaw> Inner<A> {
     pub fn refused_samples(&self) -> u32 {
         self.refused_samples
     }
+}
+
+/// What rotors do at their speeds, rad/s.
+#[inline]
+fn effect(geometry: &RotorGeometry, senses: &[f32; ROTORS], omega_rad_s: &[f32; ROTORS]) -> RotorEffect {
+    let spins = senses.iter().zip(omega_rad_s).map(|(sense, omega)| sense * omega);
+    RotorEffect { torque: geometry.torque(omega_rad_s), spin_rad_s: spins.reduce(|a, b| a + b).unwrap_or(0.0) }
 }

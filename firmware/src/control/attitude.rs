@@ -9,7 +9,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::airframe::{Airframe, ROTORS};
+use crate::airframe::Airframe;
 use crate::config::FlightConfig;
 use crate::control::euler::{Euler, EulerReference};
 use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, AttitudeTarget};
@@ -62,7 +62,6 @@ impl AttitudeGains {
 pub struct SlidingAttitude {
     airframe: Airframe,
     inverse_inertia: Vector3<f32>,
-    rotor_senses: [f32; ROTORS],
     axes: [SlidingAxis; 3],
     form: AttitudeForm,
     observer: Option<DisturbanceObserver>,
@@ -78,7 +77,6 @@ impl SlidingAttitude {
             spin_up: SpinUp { lead_ticks: airframe.spin_up_lead_s() / TICK_S, last_yaw: 0.0 },
             airframe: *airframe,
             inverse_inertia: Vector3::from(airframe.inertia_kg_m2).map(|i| 1.0 / i),
-            rotor_senses: airframe.rotor_senses(),
             axes: gains.axes.map(|axis| SlidingAxis::new(&axis, TICK_S)),
             form: gains.form,
             observer: (observer.bandwidth_rad_s > 0.0).then(|| DisturbanceObserver::new(&observer, TICK_S)),
@@ -127,9 +125,8 @@ impl AttitudeLaw for SlidingAttitude {
             AttitudeForm::Group => self.on_group(input),
             AttitudeForm::Euler => self.on_euler_angles(*input.attitude, *input.rates, *input.target, input.saturated),
         };
-        let spins = self.rotor_senses.iter().zip(input.rotor_speeds).map(|(sense, omega)| sense * omega);
-        let holding = holding_torque(&self.airframe, input.rates, spins.reduce(|a, b| a + b).unwrap_or(0.0));
-        let mut applied = self.airframe.geometry.torque(input.rotor_speeds);
+        let holding = holding_torque(&self.airframe, input.rates, input.rotors.spin_rad_s);
+        let mut applied = input.rotors.torque;
         applied.z = self.spin_up.with_reaction(applied.z);
         if let Some(observer) = &mut self.observer {
             acceleration -= observer.step(input.rates, &(applied - holding).component_mul(&self.inverse_inertia));

@@ -21,6 +21,15 @@ pub struct AttitudeTarget {
     pub accelerations: Vector3<f32>,
 }
 
+/// What rotors do to the body by their speeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotorEffect {
+    /// U2..U4, N m.
+    pub torque: Vector3<f32>,
+    /// Ωr, rad/s.
+    pub spin_rad_s: f32,
+}
+
 /// What an attitude law is given in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeInput<'a> {
@@ -32,6 +41,8 @@ pub struct AttitudeInput<'a> {
     pub target: &'a AttitudeTarget,
     /// Speeds at which the rotors are believed to turn, rad/s: the last commands, through the lag of the model.
     pub rotor_speeds: &'a [f32; ROTORS],
+    /// What they do at these speeds.
+    pub rotors: &'a RotorEffect,
     /// True if the mixer could not give the last demand: what integrates ought to hold.
     pub saturated: bool,
 }

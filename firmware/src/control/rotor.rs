@@ -23,6 +23,8 @@ pub struct RotorModel {
     part: f32,
     /// What is asked for beyond it, and whether that is anything.
     lead: f32,
+    /// 1 less that.
+    behind: f32,
     leads: bool,
     omega_max: f32,
     omega: [f32; ROTORS],
@@ -33,13 +35,8 @@ impl RotorModel {
     pub fn new(lag_s: f32, answer_s: f32, omega_max_rad_s: f32) -> Self {
         let part = |time_s: f32| if time_s > 0.0 { 1.0 - math::exp(-TICK_S / time_s) } else { 1.0 };
         let leads = answer_s < lag_s;
-        Self {
-            part: part(lag_s),
-            lead: if leads { part(answer_s) / part(lag_s) } else { 1.0 },
-            leads,
-            omega_max: omega_max_rad_s,
-            omega: [0.0; ROTORS],
-        }
+        let lead = if leads { part(answer_s) / part(lag_s) } else { 1.0 };
+        Self { part: part(lag_s), lead, behind: 1.0 - lead, leads, omega_max: omega_max_rad_s, omega: [0.0; ROTORS] }
     }
 
     /// Speeds at which the rotors are believed to turn, rad/s.
@@ -62,7 +59,7 @@ impl RotorModel {
         }
         let mut command = wanted_rad_s;
         for (command, omega) in command.iter_mut().zip(&mut self.omega) {
-            *command = math::limit_positive(*omega + self.lead * (*command - *omega), self.omega_max);
+            *command = math::limit_positive(self.lead * *command + self.behind * *omega, self.omega_max);
             *omega += self.part * (*command - *omega);
         }
         command

@@ -2,7 +2,7 @@
 //! the others at rest, once up and once down.
 
 use firmware::airframe::ROTORS;
-use firmware::control::law::{AttitudeInput, AttitudeLaw, AttitudeTarget, PositionInput, PositionLaw};
+use firmware::control::law::{AttitudeInput, AttitudeLaw, AttitudeTarget, PositionInput, PositionLaw, RotorEffect};
 use firmware::signals::{FlatReference, TICK_S_EXACT};
 use nalgebra::{Complex, Quaternion, UnitQuaternion, Vector3};
 
@@ -82,6 +82,7 @@ fn torque_for<A: AttitudeLaw>(
         rates: &along(axis, on(AttitudeChannel::Rate)),
         target: &target,
         rotor_speeds: &rotor_speeds,
+        rotors: &RotorEffect { torque: along(axis, on(AttitudeChannel::Torque)), spin_rad_s: 0.0 },
         saturated: false,
     });
     f64::from(demand.torque[axis])

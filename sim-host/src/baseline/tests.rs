@@ -1,7 +1,7 @@
 //! What the tests of the three controllers share, and their flights.
 
 use firmware::airframe::{Airframe, ROTORS};
-use firmware::control::law::{AttitudeInput, AttitudeTarget};
+use firmware::control::law::{AttitudeInput, AttitudeTarget, RotorEffect};
 use nalgebra::UnitQuaternion;
 
 use super::*;
@@ -9,6 +9,9 @@ use crate::controller::Controller;
 use crate::flight;
 use crate::record::Row;
 use crate::scenario::Scenario;
+
+/// No baseline looks at it: INDI filters the speeds and makes its own.
+const UNUSED: RotorEffect = RotorEffect { torque: Vector3::new(0.0, 0.0, 0.0), spin_rad_s: 0.0 };
 
 const TUNINGS: [&str; 3] = ["x500-pid", "x500-geometric", "x500-indi"];
 
@@ -40,7 +43,7 @@ pub(super) fn input<'a>(
     target: &'a AttitudeTarget,
     rotor_speeds: &'a [f32; ROTORS],
 ) -> AttitudeInput<'a> {
-    AttitudeInput { attitude, rates, target, rotor_speeds, saturated: false }
+    AttitudeInput { attitude, rates, target, rotor_speeds, rotors: &UNUSED, saturated: false }
 }
 
 /// Attitudes all over the rotation group.

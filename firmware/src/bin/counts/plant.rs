@@ -1,4 +1,4 @@
-//! A vehicle to be flown on the target: a rigid body with lagging rotors, in Euler steps of a tick. Only good enough
+//! A vehicle to be flown on the target: a rigid body with rotors that lag and react, in Euler steps of a tick. Only good enough
 //! for the loops to meet what they meet in a flight.
 
 use firmware::airframe::{Airframe, ROTORS};
@@ -24,12 +24,15 @@ impl Plant {
     /// One tick with these commands.
     pub(crate) fn step(&mut self, command: &MotorCommand) {
         let airframe = &self.airframe;
+        let spin_before = airframe.rotor_spin_rad_s(&self.omega_rad_s);
         for (omega, command) in self.omega_rad_s.iter_mut().zip(command.omega_rad_s) {
             *omega += (command - *omega) * (TICK_S / airframe.rotor_lag_s);
         }
         let lifts = self.omega_rad_s.iter().zip(&airframe.geometry.thrust).map(|(omega, lift)| lift * omega * omega);
         let thrust_n: f32 = lifts.sum();
-        let torque = airframe.geometry.torque(&self.omega_rad_s);
+        let mut torque = airframe.geometry.torque(&self.omega_rad_s);
+        let spin_up = (airframe.rotor_spin_rad_s(&self.omega_rad_s) - spin_before) / TICK_S;
+        torque.z -= airframe.rotor_inertia_kg_m2 * spin_up;
         let inertia = Vector3::from(airframe.inertia_kg_m2);
 
         let nav = &mut self.nav;
