@@ -154,7 +154,8 @@ impl<A: AttitudeLaw> Inner<A> {
             saturated: self.output.saturated,
         });
         let demand = ControlInput {
-            thrust_n: math::max(reference.thrust_n + reference.thrust_rate_n_s * dt, 0.0),
+            // Below zero it is for the mixer to limit.
+            thrust_n: reference.thrust_n + reference.thrust_rate_n_s * dt,
             roll_n_m: wanted.torque.x,
             pitch_n_m: wanted.torque.y,
             yaw_n_m: self.yaw.demand(self.effect.torque.z, wanted.torque.z),

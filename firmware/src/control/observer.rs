@@ -18,7 +18,7 @@ use crate::validate::ConfigError;
 pub struct ObserverGains {
     /// ω₀, rad/s; 0 for no observer.
     pub bandwidth_rad_s: f32,
-    /// Bound D on each component of the disturbance, in units of y a second: nothing larger is believed.
+    /// Bound D on the size of the disturbance, in units of y a second: nothing larger is believed.
     pub disturbance_max: f32,
 }
 
@@ -42,6 +42,8 @@ pub struct DisturbanceObserver {
     rate_gain: f32,
     disturbance_gain: f32,
     disturbance_max: f32,
+    /// Its square.
+    square_max: f32,
     started: bool,
     rate: Vector3<f32>,
     disturbance: Vector3<f32>,
@@ -57,6 +59,7 @@ impl DisturbanceObserver {
             rate_gain: slow * (2.0 - slow),
             disturbance_gain: slow * slow / step_s,
             disturbance_max: gains.disturbance_max,
+            square_max: gains.disturbance_max * gains.disturbance_max,
             started: false,
             rate: Vector3::zeros(),
             disturbance: Vector3::zeros(),
@@ -77,12 +80,22 @@ impl DisturbanceObserver {
             self.rate = *measured;
         }
         let error = measured - self.rate;
-        let most = self.disturbance_max;
-        let disturbance = (self.disturbance + error * self.disturbance_gain).map(|d| math::limit(d, most));
+        let mut disturbance = self.disturbance + error * self.disturbance_gain;
+        let square = disturbance.norm_squared();
+        // So that what is not a number does not stay.
+        if !(square <= self.square_max) {
+            disturbance = shortened(&disturbance, square, self.disturbance_max);
+        }
         self.rate = self.rate + (model + disturbance) * self.step_s + error * self.rate_gain;
         self.disturbance = disturbance;
         disturbance
     }
+}
+
+/// A vector of the given square brought to a size; zero if it is not finite.
+#[cold]
+fn shortened(vector: &Vector3<f32>, square: f32, size: f32) -> Vector3<f32> {
+    if square.is_finite() { vector * (size / math::sqrt(square)) } else { Vector3::zeros() }
 }
 
 /// How much thrust the rotors really give, as a part of what the model says: a wrong mass, a weak rotor, a spent battery.
@@ -184,7 +197,7 @@ mod tests {
         let mut y = 0.0_f32;
         for _ in 0..2_000 {
             let found = observer.step(&Vector3::repeat(y), &Vector3::zeros());
-            assert!(found.amax() <= 2.0);
+            assert!(found.norm() <= 2.000_001);
             y += 10.0 * 1e-3;
         }
     }
