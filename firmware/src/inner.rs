@@ -5,12 +5,12 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::airframe::{Airframe, ROTORS, RotorGeometry};
+use crate::airframe::{Airframe, ROTORS};
 use crate::config::{FlightConfig, Start};
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeInput, AttitudeLaw, RotorEffect};
 use crate::control::mixer::Mixer;
-use crate::control::rotor::{RotorModel, YawInversion};
+use crate::control::rotor::{RotorModel, RotorTorque, YawInversion};
 use crate::math;
 use crate::signals::{AttitudeReference, ControlInput, MotorCommand, NavState, SensorFrame, TICK_S, Tick};
 use crate::validate::ConfigError;
@@ -52,8 +52,7 @@ pub struct Inner<A = SlidingAttitude> {
     law: A,
     mixer: Mixer<ROTORS>,
     rotors: RotorModel,
-    /// The sense, ±1, in which each spins about +z.
-    senses: [f32; ROTORS],
+    believed: RotorTorque,
     /// What they are believed to do.
     effect: RotorEffect,
     yaw: YawInversion,
@@ -76,15 +75,15 @@ impl<A: AttitudeLaw> Inner<A> {
         if config.start == Start::InFlight {
             rotors.set([airframe.omega_for_thrust_to_weight(1.0); ROTORS]);
         }
-        let senses = airframe.rotor_senses();
+        let believed = RotorTorque::new(&airframe);
         let mut nav = NavState::at_rest();
         nav.position = config.start_position();
         Ok(Self {
             airframe,
             law,
             mixer,
-            effect: effect(&airframe.geometry, &senses, rotors.omega_rad_s()),
-            senses,
+            effect: believed.steady(rotors.omega_rad_s()),
+            believed,
             rotors,
             yaw: config.yaw_inversion(),
             nav,
@@ -158,7 +157,7 @@ impl<A: AttitudeLaw> Inner<A> {
             thrust_n: reference.thrust_n + reference.thrust_rate_n_s * dt,
             roll_n_m: wanted.torque.x,
             pitch_n_m: wanted.torque.y,
-            yaw_n_m: self.yaw.demand(self.effect.torque.z, wanted.torque.z),
+            yaw_n_m: self.yaw.demand(self.effect.yaw_n_m, wanted.torque.z),
         };
         let Ok(allocation) = self.mixer.allocate(&demand) else {
             // A sample so wild that a product overflowed. The last command is safer than none; what the law has made
@@ -174,13 +173,13 @@ impl<A: AttitudeLaw> Inner<A> {
             s: wanted.s,
             saturated: allocation.saturated,
         };
-        self.effect = effect(&self.airframe.geometry, &self.senses, self.rotors.omega_rad_s());
+        self.effect = self.believed.after(&self.effect, self.rotors.omega_rad_s());
     }
 
     /// A tick passes with a command that no law has given.
     fn follow(&mut self, command: &MotorCommand) {
         self.rotors.follow(&command.omega_rad_s);
-        self.effect = effect(&self.airframe.geometry, &self.senses, self.rotors.omega_rad_s());
+        self.effect = self.believed.after(&self.effect, self.rotors.omega_rad_s());
     }
 
     /// The motion as last sensed.
@@ -208,11 +207,4 @@ impl<A: AttitudeLaw> Inner<A> {
     pub fn refused_samples(&self) -> u32 {
         self.refused_samples
     }
-}
-
-/// What rotors do at their speeds, rad/s.
-#[inline]
-fn effect(geometry: &RotorGeometry, senses: &[f32; ROTORS], omega_rad_s: &[f32; ROTORS]) -> RotorEffect {
-    let spins = senses.iter().zip(omega_rad_s).map(|(sense, omega)| sense * omega);
-    RotorEffect { torque: geometry.torque(omega_rad_s), spin_rad_s: spins.reduce(|a, b| a + b).unwrap_or(0.0) }
 }

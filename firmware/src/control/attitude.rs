@@ -65,7 +65,6 @@ pub struct SlidingAttitude {
     axes: [SlidingAxis; 3],
     form: AttitudeForm,
     observer: Option<DisturbanceObserver>,
-    spin_up: SpinUp,
 }
 
 impl SlidingAttitude {
@@ -74,7 +73,6 @@ impl SlidingAttitude {
         let (airframe, gains) = (&config.airframe, &config.attitude);
         let observer = gains.observer;
         Self {
-            spin_up: SpinUp { lead_ticks: airframe.spin_up_lead_s() / TICK_S, last_yaw: 0.0 },
             airframe: *airframe,
             inverse_inertia: Vector3::from(airframe.inertia_kg_m2).map(|i| 1.0 / i),
             axes: gains.axes.map(|axis| SlidingAxis::new(&axis, TICK_S)),
@@ -126,10 +124,9 @@ impl AttitudeLaw for SlidingAttitude {
             AttitudeForm::Euler => self.on_euler_angles(*input.attitude, *input.rates, *input.target, input.saturated),
         };
         let holding = holding_torque(&self.airframe, input.rates, input.rotors.spin_rad_s);
-        let mut applied = input.rotors.torque;
-        applied.z = self.spin_up.with_reaction(applied.z);
         if let Some(observer) = &mut self.observer {
-            acceleration -= observer.step(input.rates, &(applied - holding).component_mul(&self.inverse_inertia));
+            acceleration -=
+                observer.step(input.rates, &(input.rotors.torque - holding).component_mul(&self.inverse_inertia));
         }
         let inertia = Vector3::from(self.airframe.inertia_kg_m2);
         AttitudeDemand { s, torque: holding + inertia.component_mul(&acceleration) }
@@ -140,25 +137,6 @@ impl AttitudeLaw for SlidingAttitude {
         if let Some(observer) = &mut self.observer {
             observer.reset();
         }
-    }
-}
-
-/// The reaction to spinning the rotors up, T U̇4 ([`Airframe::spin_up_lead_s`]).
-#[derive(Clone, Debug)]
-struct SpinUp {
-    /// T over a tick.
-    lead_ticks: f32,
-    /// U4 a tick ago.
-    last_yaw: f32,
-}
-
-impl SpinUp {
-    /// The torque (N m) that turns the body now, given U4 of the rotors' speeds. A tick passes.
-    #[inline]
-    fn with_reaction(&mut self, yaw: f32) -> f32 {
-        let change = yaw - self.last_yaw;
-        self.last_yaw = yaw;
-        yaw + self.lead_ticks * change
     }
 }
 

@@ -21,11 +21,13 @@ pub struct AttitudeTarget {
     pub accelerations: Vector3<f32>,
 }
 
-/// What rotors do to the body by their speeds.
+/// What rotors do to the body by their speeds, and by changing them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotorEffect {
-    /// U2..U4, N m.
+    /// Torque on the body, N m: U2..U4, with the reaction to spinning up.
     pub torque: Vector3<f32>,
+    /// U4 alone, N m.
+    pub yaw_n_m: f32,
     /// Ωr, rad/s.
     pub spin_rad_s: f32,
 }

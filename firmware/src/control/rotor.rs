@@ -12,20 +12,20 @@
 //! The model is fed with the limited command, so nothing winds up. [`YawInversion`] does the same for the torque with
 //! which rotors that spin up turn the body.
 
-use crate::airframe::ROTORS;
+use crate::airframe::{Airframe, ROTORS, RotorGeometry};
+use crate::control::law::RotorEffect;
 use crate::math;
 use crate::signals::TICK_S;
 
 /// Lag and lead of all rotors, and their speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotorModel {
-    /// Part of the way to its command that a rotor goes in a tick, 1 − e^(−h/τ); 1 without lag.
+    /// Part of the way to its command that a rotor goes in a tick, 1 − e^(−h/τ), and what is left; 1 and 0 without lag.
     part: f32,
-    /// What is asked for beyond it, and whether that is anything.
+    rest: f32,
+    /// What is asked for beyond it, and 1 less that; 1 and 0 without lead.
     lead: f32,
-    /// 1 less that.
     behind: f32,
-    leads: bool,
     omega_max: f32,
     omega: [f32; ROTORS],
 }
@@ -34,9 +34,15 @@ impl RotorModel {
     /// At rest; `lag_s` is τ and `answer_s` τ′, in s. A τ′ that is not below τ asks for no lead.
     pub fn new(lag_s: f32, answer_s: f32, omega_max_rad_s: f32) -> Self {
         let part = |time_s: f32| if time_s > 0.0 { 1.0 - math::exp(-TICK_S / time_s) } else { 1.0 };
-        let leads = answer_s < lag_s;
-        let lead = if leads { part(answer_s) / part(lag_s) } else { 1.0 };
-        Self { part: part(lag_s), lead, behind: 1.0 - lead, leads, omega_max: omega_max_rad_s, omega: [0.0; ROTORS] }
+        let lead = if answer_s < lag_s { part(answer_s) / part(lag_s) } else { 1.0 };
+        Self {
+            part: part(lag_s),
+            rest: 1.0 - part(lag_s),
+            lead,
+            behind: 1.0 - lead,
+            omega_max: omega_max_rad_s,
+            omega: [0.0; ROTORS],
+        }
     }
 
     /// Speeds at which the rotors are believed to turn, rad/s.
@@ -53,28 +59,58 @@ impl RotorModel {
     /// The command (rad/s) by which the rotors come to the speeds wanted, which lie within their limits. A tick passes.
     #[inline]
     pub fn command(&mut self, wanted_rad_s: [f32; ROTORS]) -> [f32; ROTORS] {
-        if !self.leads {
-            self.follow(&wanted_rad_s);
-            return wanted_rad_s;
-        }
         let mut command = wanted_rad_s;
         for (command, omega) in command.iter_mut().zip(&mut self.omega) {
             *command = math::limit_positive(self.lead * *command + self.behind * *omega, self.omega_max);
-            *omega += self.part * (*command - *omega);
+            *omega = self.part * *command + self.rest * *omega;
         }
         command
     }
 
     /// A tick passes with these commands, rad/s.
-    #[inline]
     pub fn follow(&mut self, command_rad_s: &[f32; ROTORS]) {
-        if self.part < 1.0 {
-            for (omega, command) in self.omega.iter_mut().zip(command_rad_s) {
-                *omega += self.part * (command - *omega);
-            }
-        } else {
-            self.omega = *command_rad_s;
+        for (omega, command) in self.omega.iter_mut().zip(command_rad_s) {
+            *omega = self.part * command + self.rest * *omega;
         }
+    }
+}
+
+/// What rotors do to the body by their speeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotorTorque {
+    geometry: RotorGeometry,
+    /// The sense, ±1, in which each spins about +z.
+    senses: [f32; ROTORS],
+    /// T of the reaction T U̇4 to spinning up ([`Airframe::spin_up_lead_s`]), over a tick.
+    lead_ticks: f32,
+}
+
+impl RotorTorque {
+    /// Of an airframe.
+    pub fn new(airframe: &Airframe) -> Self {
+        let lead_ticks = airframe.spin_up_lead_s() / TICK_S;
+        Self { geometry: airframe.geometry, senses: airframe.rotor_senses(), lead_ticks }
+    }
+
+    /// At speeds (rad/s) that do not change.
+    pub fn steady(&self, omega_rad_s: &[f32; ROTORS]) -> RotorEffect {
+        let torque = self.geometry.torque(omega_rad_s);
+        RotorEffect { torque, yaw_n_m: torque.z, spin_rad_s: self.spin(omega_rad_s) }
+    }
+
+    /// At these speeds, a tick after they had the effect `before`.
+    #[inline]
+    pub fn after(&self, before: &RotorEffect, omega_rad_s: &[f32; ROTORS]) -> RotorEffect {
+        let mut torque = self.geometry.torque(omega_rad_s);
+        let yaw_n_m = torque.z;
+        torque.z += self.lead_ticks * (yaw_n_m - before.yaw_n_m);
+        RotorEffect { torque, yaw_n_m, spin_rad_s: self.spin(omega_rad_s) }
+    }
+
+    #[inline]
+    fn spin(&self, omega_rad_s: &[f32; ROTORS]) -> f32 {
+        let spins = self.senses.iter().zip(omega_rad_s).map(|(sense, omega)| sense * omega);
+        spins.reduce(|a, b| a + b).unwrap_or(0.0)
     }
 }
 

@@ -82,7 +82,7 @@ fn torque_for<A: AttitudeLaw>(
         rates: &along(axis, on(AttitudeChannel::Rate)),
         target: &target,
         rotor_speeds: &rotor_speeds,
-        rotors: &RotorEffect { torque: along(axis, on(AttitudeChannel::Torque)), spin_rad_s: 0.0 },
+        rotors: &RotorEffect { torque: along(axis, on(AttitudeChannel::Torque)), yaw_n_m: 0.0, spin_rad_s: 0.0 },
         saturated: false,
     });
     f64::from(demand.torque[axis])

@@ -41,6 +41,8 @@ struct BelievedRotor {
     lead: f64,
     /// Part of the way from the yaw torque that is to the one wanted for which the rotors are told to go.
     yaw: f64,
+    /// How far the reaction to spinning up is believed to be ahead of the yaw torque, ticks.
+    reaction_ticks: f64,
 }
 
 impl BelievedRotor {
@@ -48,7 +50,12 @@ impl BelievedRotor {
         let (lag, wanted) = (f64::from(config.airframe.rotor_lag_s), f64::from(config.rotor_answer_s()));
         let part = |time_s: f64| if time_s > 0.0 { 1.0 - libm::exp(-TICK_S_EXACT / time_s) } else { 1.0 };
         let lead = if wanted < lag { part(wanted) / part(lag) } else { 1.0 };
-        Self { part: lead * part(lag), lead, yaw: f64::from(config.yaw_inversion().demand(0.0, 1.0)) }
+        Self {
+            part: lead * part(lag),
+            lead,
+            yaw: f64::from(config.yaw_inversion().demand(0.0, 1.0)),
+            reaction_ticks: f64::from(config.airframe.spin_up_lead_s()) / TICK_S_EXACT,
+        }
     }
 }
 
@@ -137,7 +144,14 @@ impl Vehicle {
         let plain = self.actuation(omega_rad_s);
         let one = Complex::new(1.0, 0.0);
         let told = if axis == 2 { one * self.rotor.yaw / (one - plain.believed * (1.0 - self.rotor.yaw)) } else { one };
-        Actuation { believed: plain.believed * told, command: plain.command * told, delayed: plain.delayed * told }
+        // U4 with the reaction to its change since the last tick.
+        let change = one - turned(-omega_rad_s * TICK_S_EXACT);
+        let reaction = if axis == 2 { one + change * self.rotor.reaction_ticks } else { one };
+        Actuation {
+            believed: plain.believed * told * reaction,
+            command: plain.command * told,
+            delayed: plain.delayed * told,
+        }
     }
 
     /// What becomes of a thrust at ω, rad/s.

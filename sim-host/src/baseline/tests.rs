@@ -11,7 +11,7 @@ use crate::record::Row;
 use crate::scenario::Scenario;
 
 /// No baseline looks at it: INDI filters the speeds and makes its own.
-const UNUSED: RotorEffect = RotorEffect { torque: Vector3::new(0.0, 0.0, 0.0), spin_rad_s: 0.0 };
+const UNUSED: RotorEffect = RotorEffect { torque: Vector3::new(0.0, 0.0, 0.0), yaw_n_m: 0.0, spin_rad_s: 0.0 };
 
 const TUNINGS: [&str; 3] = ["x500-pid", "x500-geometric", "x500-indi"];
 
