@@ -176,6 +176,30 @@ fn a_limited_approach_is_a_constant_rate() {
 }
 
 #[test]
+fn a_large_error_is_braked_by_what_the_braking_says() {
+    // From rest, 10 away: K = 20 accelerates it onto the parabola, from which it comes down at A = 5.
+    let law = ReachingLaw::ImplicitSgn { horizon_s: 0.01 };
+    let gains = AxisGains { braking: 5.0, ..AxisGains::new(20.0, 4.0, law) };
+    let (mut axis, mut e, mut rate) = (SlidingAxis::new(&gains, H), 10.0_f64, 0.0_f64);
+    let mut arrived = None;
+    for step in 0..6_000 {
+        let acceleration = -f64::from(axis.correction(e as f32, rate as f32, false).acceleration);
+        // On the parabola, once it has come through the layer, and not yet where the surface is linear: A/λ² = 0.31.
+        if (0.5..6.0).contains(&e) {
+            assert!((acceleration - 5.0).abs() < 0.2, "{acceleration} at {e}");
+        }
+        rate += acceleration * f64::from(H);
+        e += rate * f64::from(H);
+        if e < 0.05 {
+            arrived.get_or_insert(f64::from(step) * f64::from(H));
+        }
+        assert!(e > -0.01, "{e}");
+    }
+    // Bang-bang with 20 and 5 over 10: v = √(2·10/(1/20 + 1/5)) = 8.9, after v/20 + v/5 = 2.24 s; the end is linear.
+    assert!(arrived.is_some_and(|t| (2.2..3.0).contains(&t)), "{arrived:?}");
+}
+
+#[test]
 fn the_corrections_rate_is_its_derivative() {
     for (reaching, surface) in [
         (ReachingLaw::Sat { rho: 0.9 }, Surface::Linear),
@@ -201,6 +225,15 @@ fn the_corrections_rate_is_its_derivative() {
             assert!((numeric - analytic).abs() < 2e-2 * (1.0 + analytic.abs()), "{gains:?}: {numeric} {analytic}");
         }
     }
+    // On the parabola, inside the layer.
+    let law = ReachingLaw::ImplicitSgn { horizon_s: 0.3 };
+    let mut axis = SlidingAxis::new(&AxisGains { braking: 1.0, ..AxisGains::new(10.0, 2.0, law) }, H);
+    let (e, rate, acceleration, h) = (2.0_f32, -1.5_f32, 0.7_f32, 2e-3_f32);
+    let mut at = |t: f32| axis.correction(e + rate * t + 0.5 * acceleration * t * t, rate + acceleration * t, true);
+    let (before, now, after) = (at(-h), at(0.0), at(h));
+    let numeric = (after.acceleration - before.acceleration) / (2.0 * h);
+    let analytic = axis.correction_rate(now.s, e, rate, acceleration);
+    assert!((numeric - analytic).abs() < 1e-2, "{numeric} {analytic}");
 }
 
 #[test]
@@ -214,6 +247,7 @@ fn gains_with_which_a_law_is_not_defined_are_refused() {
         axis(1.0, ReachingLaw::ImplicitSuperTwisting { twist: 1.0, horizon_s: f32::INFINITY }),
         axis(1.0, ReachingLaw::Exponential { rate: 0.0, rho: 1.0 }),
         AxisGains { approach_max: 0.0, ..axis(1.0, ReachingLaw::Sgn) },
+        AxisGains { braking: f32::NAN, ..axis(1.0, ReachingLaw::Sgn) },
     ] {
         assert!(bad.validate("k").is_err(), "{bad:?}");
     }

@@ -13,7 +13,7 @@
 //! ```text
 //! K = A                 all of the authority: an implicit law does not chatter by it (needs K > D)
 //! ρ = K T               for the layers that are given by their width
-//! approach_max = (A − D)/λ    the rate from which the disturbed axis can still brake along the surface
+//! braking = A − D       what is left to brake a large error with
 //! k2 = 1.1 L, K = 1.5 √L      super-twisting (Levant 1998), L a bound on the disturbance's rate
 //! ```
 
@@ -90,8 +90,8 @@ impl AxisBounds {
             Design::SuperTwisting => (root_gain, ReachingLaw::SuperTwisting { twist }),
             Design::ImplicitSuperTwisting => (root_gain, ReachingLaw::ImplicitSuperTwisting { twist, horizon_s }),
         };
-        let approach_max = (authority - self.disturbance) / lambda;
-        Ok(AxisGains { lambda, gain, reaching, surface: self.surface, approach_max })
+        let braking = authority - self.disturbance;
+        Ok(AxisGains { surface: self.surface, braking, ..AxisGains::new(gain, lambda, reaching) })
     }
 }
 

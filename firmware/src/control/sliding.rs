@@ -100,9 +100,14 @@ pub struct AxisGains {
     #[cfg_attr(feature = "serde", serde(default))]
     pub surface: Surface,
     /// On a linear surface, λ e is limited to this: the greatest rate at which a large error is taken back, in
-    /// units of s. With an authority of A, A/λ is the rate from which it can still brake along the surface.
+    /// units of s.
     #[cfg_attr(feature = "serde", serde(default = "unlimited"))]
     pub approach_max: f32,
+    /// On a linear surface, the greatest deceleration A along it, in units of s a second: from |e| = A/λ² on, λ|e| gives
+    /// way to the parabola √(2A|e| − (A/λ)²), on which the error is braked by A until it is small, as on the switching
+    /// curve of the time-optimal double integrator.
+    #[cfg_attr(feature = "serde", serde(default = "unlimited"))]
+    pub braking: f32,
 }
 
 /// No error is taken back faster than this.
@@ -113,7 +118,7 @@ const fn unlimited() -> f32 {
 impl AxisGains {
     /// Gains with a reaching law of one's own, on a linear surface without a limit.
     pub const fn new(gain: f32, lambda: f32, reaching: ReachingLaw) -> Self {
-        Self { lambda, gain, reaching, surface: Surface::Linear, approach_max: unlimited() }
+        Self { lambda, gain, reaching, surface: Surface::Linear, approach_max: unlimited(), braking: unlimited() }
     }
 
     /// Gains with the boundary layer `sat(s/ρ)`, in the order of the paper's Table 1.
@@ -129,6 +134,7 @@ impl AxisGains {
         let positive = |value| ConfigError::require_positive(name, value);
         positive(self.lambda)?;
         positive(self.approach_max)?;
+        positive(self.braking)?;
         ConfigError::require_not_negative(name, self.gain)?;
         match self.reaching {
             ReachingLaw::Sgn => Ok(()),
@@ -200,6 +206,13 @@ impl Twist {
     }
 }
 
+/// The rate at which a large error is approached, as a function of the error, with two derivatives.
+struct Approach {
+    rate: f32,
+    slope: f32,
+    curvature: f32,
+}
+
 /// What a sliding mode law asks for beyond its equivalent control.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
@@ -214,7 +227,10 @@ pub struct Correction {
 pub struct SlidingAxis {
     lambda: f32,
     gain: f32,
+    /// Greatest λ|e| that is taken as it is.
+    linear_max: f32,
     approach_max: f32,
+    braking: f32,
     reach: Reach,
     surface: Surface,
     /// Slope of a layer on a linear surface: with [`ReachingLaw::ImplicitSgn`] or [`ReachingLaw::Sat`].
@@ -249,12 +265,25 @@ impl SlidingAxis {
                 })
             }
         };
-        let AxisGains { lambda, gain, approach_max, surface, .. } = *gains;
+        let AxisGains { lambda, gain, approach_max, braking, surface, .. } = *gains;
+        let linear_max = math::min(approach_max, braking / lambda);
         let layer = match (surface, reach) {
             (Surface::Linear, Reach::Layer { slope }) => Some(slope),
             _ => None,
         };
-        Self { lambda, gain, approach_max, reach, surface, layer, step_s, twist: 0.0, integral: None }
+        Self {
+            lambda,
+            gain,
+            linear_max,
+            approach_max,
+            braking,
+            reach,
+            surface,
+            layer,
+            step_s,
+            twist: 0.0,
+            integral: None,
+        }
     }
 
     /// Forgets what has been integrated.
@@ -296,12 +325,29 @@ impl SlidingAxis {
     #[inline]
     fn linear_surface(&self, error: f32, error_rate: f32, velocity_error: f32) -> (f32, f32) {
         let approach = self.lambda * error;
-        if math::abs(approach) <= self.approach_max {
+        if math::abs(approach) <= self.linear_max {
             (approach + velocity_error, self.lambda * error_rate)
         } else {
-            // Limited, it does not change.
-            (bound(approach, self.approach_max) + velocity_error, 0.0)
+            let Approach { rate, slope, .. } = self.approach(error);
+            (rate + velocity_error, slope * error_rate)
         }
+    }
+
+    /// The approach to a large error. A call of its own, or the compiler would have it computed every time.
+    #[cold]
+    #[inline(never)]
+    fn approach(&self, error: f32) -> Approach {
+        let (a, e) = (self.braking, math::abs(error));
+        let sign = sgn(error);
+        let from_linear = a / self.lambda;
+        let square = 2.0 * a * e - from_linear * from_linear;
+        // Short of the parabola, or above the limit, the limit is what acts: it does not change.
+        if e * self.lambda < from_linear || square >= self.approach_max * self.approach_max {
+            return Approach { rate: sign * self.approach_max, slope: 0.0, curvature: 0.0 };
+        }
+        let rate = math::sqrt(square);
+        let slope = a / rate;
+        Approach { rate: sign * rate, slope, curvature: -sign * slope * slope / rate }
     }
 
     fn integral_surface(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> (f32, f32) {
@@ -373,17 +419,15 @@ impl SlidingAxis {
 
     #[inline]
     fn linear_rate(&self, slope: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
-        // Limited, the approach is constant.
-        let lambda = if math::abs(self.lambda * error) <= self.approach_max { self.lambda } else { 0.0 };
-        lambda * error_acceleration + slope * (lambda * error_rate + error_acceleration)
+        if math::abs(self.lambda * error) <= self.linear_max {
+            let lambda = self.lambda;
+            return lambda * error_acceleration + slope * (lambda * error_rate + error_acceleration);
+        }
+        let approach = self.approach(error);
+        approach.slope * error_acceleration
+            + approach.curvature * error_rate * error_rate
+            + slope * (approach.slope * error_rate + error_acceleration)
     }
-}
-
-/// ±`most`, on the side of `x`. A call of its own, or the compiler would have both sides computed every time.
-#[cold]
-#[inline(never)]
-fn bound(x: f32, most: f32) -> f32 {
-    if x > 0.0 { most } else { -most }
 }
 
 /// Eq. 17: 1, 0 or −1.
