@@ -113,11 +113,13 @@ impl Airframe {
     }
 
     /// How far the reaction to spinning the rotors up is ahead of the yaw torque for which they are spun up, s: around
-    /// hover, the two together are U4 + T U̇4 with T = Jr/(2 d ω). 0 where there is no such reaction.
+    /// hover, the two together are U4 + T U̇4 with T = Jr/(2 d ω). 0 where there is no such reaction: rotors that
+    /// follow at once are taken to have none.
     pub fn spin_up_lead_s(&self) -> f32 {
         let yaw: f32 = self.geometry.yaw.iter().map(|d| math::abs(*d)).sum::<f32>() / ROTORS as f32;
         let per_speed = 2.0 * yaw * self.omega_for_thrust_to_weight(1.0);
-        if self.spin_up_reaction && per_speed > 0.0 { self.rotor_inertia_kg_m2 / per_speed } else { 0.0 }
+        let reacts = self.spin_up_reaction && self.rotor_lag_s > 0.0;
+        if reacts && per_speed > 0.0 { self.rotor_inertia_kg_m2 / per_speed } else { 0.0 }
     }
 
     /// Greatest thrust of all rotors together, N.

@@ -86,10 +86,13 @@ impl<A: AttitudeLaw> InnerTask<A> {
             thrust_n: config.airframe.weight_n(),
             flight_start: commander.flight_start,
         };
+        let first = outer.step(0_u32.wrapping_sub(OUTER.offset), &before);
+        // That job was none: nothing is to remain of it in the law.
+        outer.reset();
         Self {
             tick: 0,
             inner,
-            outer: outer.step(0_u32.wrapping_sub(OUTER.offset), &before),
+            outer: first,
             commander,
             commands: Commands::new(),
             replies: Replies::new(),

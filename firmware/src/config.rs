@@ -69,15 +69,18 @@ impl FlightConfig {
         self.trajectory.validate()
     }
 
+    fn leads(&self) -> bool {
+        self.rotor_time_constant_s > 0.0 && self.rotor_time_constant_s < self.airframe.rotor_lag_s
+    }
+
     /// Time constant with which the rotors answer, s: their lag, or what lead brings it down to.
     pub fn rotor_answer_s(&self) -> f32 {
-        let (lag, lead) = (self.airframe.rotor_lag_s, self.rotor_time_constant_s);
-        if lead > 0.0 && lead < lag { lead } else { lag }
+        if self.leads() { self.rotor_time_constant_s } else { self.airframe.rotor_lag_s }
     }
 
     /// How the torque about yaw is asked for; rotors that nothing is led for are not led in yaw either.
     pub fn yaw_inversion(&self) -> YawInversion {
-        let lead_s = if self.rotor_time_constant_s > 0.0 { self.airframe.spin_up_lead_s() } else { 0.0 };
+        let lead_s = if self.leads() { self.airframe.spin_up_lead_s() } else { 0.0 };
         YawInversion::new(lead_s, self.rotor_answer_s())
     }
 

@@ -104,6 +104,8 @@ impl<A: AttitudeLaw> Inner<A> {
             }
             other => {
                 self.stale_ticks = self.stale_ticks.saturating_add(1);
+                // The law is about to see a motion that stands still: what integrates is to hold.
+                self.output.saturated = true;
                 self.refused_samples = self.refused_samples.saturating_add(u32::from(other.is_some()));
             }
         }

@@ -11,8 +11,8 @@ use crate::control::law::{PositionDemand, PositionInput, PositionLaw};
 use crate::control::position::{ForceLimits, SlidingPosition, Translation};
 use crate::guidance::Guidance;
 use crate::math;
-use crate::schedule::OUTER;
-use crate::signals::{AttitudeReference, FlatReference, NavState, TICK_S, Tick};
+use crate::schedule::{OUTER, OUTER_AHEAD_S};
+use crate::signals::{AttitudeReference, FlatReference, NavState, Tick};
 use crate::validate::ConfigError;
 
 /// Snapshot for the outer partition.
@@ -56,9 +56,6 @@ struct Predicted {
     thrust_axis: Vector3<f32>,
 }
 
-/// From the release to the publication, s.
-const AHEAD_S: f32 = OUTER.offset as f32 * TICK_S;
-
 impl<P: PositionLaw> Outer<P> {
     /// Ready to run with a valid configuration.
     ///
@@ -75,12 +72,17 @@ impl<P: PositionLaw> Outer<P> {
         })
     }
 
+    /// Forgets what the law has made of earlier jobs.
+    pub fn reset(&mut self) {
+        self.law.reset();
+        self.limited = false;
+    }
+
     /// One job, released at `released`.
     pub fn step(&mut self, released: Tick, input: &OuterInput) -> OuterOutput {
         let effective = released.wrapping_add(OUTER.offset);
         let Some(start) = input.flight_start else {
-            self.law.reset();
-            self.limited = false;
+            self.reset();
             let attitude = AttitudeReference::idle(input.nav.attitude);
             return OuterOutput { attitude, s: Vector3::zeros(), limited: false };
         };
@@ -92,17 +94,17 @@ impl<P: PositionLaw> Outer<P> {
     #[inline]
     pub fn follow(&mut self, effective: Tick, input: &OuterInput, reference: &FlatReference) -> OuterOutput {
         let now = self.predict(input);
-        let PositionDemand { s, mut profile } = self.law.step(&PositionInput {
+        let PositionDemand { mut s, mut profile } = self.law.step(&PositionInput {
             reference,
             position: &now.position,
             velocity: &now.velocity,
             acceleration: &now.acceleration,
             limited: self.limited,
         });
-        if !math::all_finite(profile.force.as_slice()) {
+        if !profile.is_finite() {
             // A motion so wild that a product overflowed: what the law has made of it is not to stay.
             self.law.reset();
-            profile = ForceProfile::hover(self.model.gravity);
+            (s, profile) = (Vector3::zeros(), ForceProfile::hover(self.model.gravity));
         }
         self.limited = self.limits.apply(&mut profile);
         let heading =
@@ -120,7 +122,7 @@ impl<P: PositionLaw> Outer<P> {
         }
     }
 
-    /// The motion [`AHEAD_S`] after the snapshot, by Eq. 2 with the thrust that the rotors are believed to give.
+    /// The motion [`OUTER_AHEAD_S`] after the snapshot, by Eq. 2 with the thrust that the rotors are believed to give.
     #[inline]
     fn predict(&self, input: &OuterInput) -> Predicted {
         let nav = &input.nav;
@@ -128,10 +130,12 @@ impl<P: PositionLaw> Outer<P> {
         let axis_rate = nav.attitude * Vector3::new(nav.rates.y, -nav.rates.x, 0.0);
         let acceleration = self.model.acceleration(&(axis * (input.thrust_n / self.mass_kg)), &nav.velocity);
         Predicted {
-            position: nav.position + nav.velocity * AHEAD_S + acceleration * (0.5 * AHEAD_S * AHEAD_S),
-            velocity: nav.velocity + acceleration * AHEAD_S,
+            position: nav.position
+                + nav.velocity * OUTER_AHEAD_S
+                + acceleration * (0.5 * OUTER_AHEAD_S * OUTER_AHEAD_S),
+            velocity: nav.velocity + acceleration * OUTER_AHEAD_S,
             acceleration,
-            thrust_axis: axis + axis_rate * AHEAD_S,
+            thrust_axis: axis + axis_rate * OUTER_AHEAD_S,
         }
     }
 }

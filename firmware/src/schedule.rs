@@ -5,7 +5,7 @@
 //! flight does not depend on how long a job takes, as long as it takes less than D; a job that takes longer is an
 //! overrun: its output is dropped, the old one stays, and it is counted.
 
-use crate::signals::Tick;
+use crate::signals::{TICK_S, Tick};
 
 /// Period and output offset of a partition, in ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +18,8 @@ pub struct Timing {
 
 /// Guidance and position control: 250 Hz.
 pub const OUTER: Timing = Timing { period: 4, offset: 2 };
+/// From the snapshot of the outer partition to its output, s.
+pub const OUTER_AHEAD_S: f32 = OUTER.offset as f32 * TICK_S;
 /// Arming: 50 Hz.
 pub const COMMANDER: Timing = Timing { period: 20, offset: 4 };
 /// MAVLink: 100 Hz.

@@ -157,7 +157,6 @@ fn hover_asks_for_the_weight() {
     assert!(output.motors.omega_rad_s.iter().all(|w| near(*w, hover, 1e-4)), "{output:?}");
 }
 
-/// MAVLink 2 `COMMAND_LONG` 400 (arm or disarm), by hand: from system 255, component 190, to system 1, component 1.
 /// Ticks without the outer partition's jobs being run.
 fn fly_without_outer(pilot: &mut Autopilot, sample: &SensorFrame, ticks: u32) {
     for _ in 0..ticks {
@@ -184,6 +183,7 @@ fn an_outer_loop_that_stops_answering_is_not_extrapolated_for_ever() {
     assert!(pilot.mail.overruns()[0] > 0, "and it is counted");
 }
 
+/// MAVLink 2 `COMMAND_LONG` 400 (arm or disarm), by hand: from system 255, component 190, to system 1, component 1.
 fn command_arm(arm: bool, force: bool) -> Vec<u8> {
     let mut payload = Vec::new();
     let magic = if force { 21_196.0_f32 } else { 0.0 };

@@ -50,6 +50,12 @@ impl ForceProfile {
         Self { force: Vector3::new(0.0, 0.0, g), rate: zero, acceleration: zero }
     }
 
+    /// True if every number of it is finite.
+    #[inline]
+    pub fn is_finite(&self) -> bool {
+        [&self.force, &self.rate, &self.acceleration].iter().all(|v| math::all_finite(v.as_slice()))
+    }
+
     /// n = f/|f| with ṅ and n̈ (from f = |f| n).
     fn direction(&self) -> Direction {
         let magnitude = math::max(math::sqrt(self.force.norm_squared()), FORCE_MIN);

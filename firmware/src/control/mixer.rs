@@ -266,10 +266,10 @@ fn is_possible(speed: f32, limit: f32) -> bool {
     speed.to_bits() <= limit.to_bits()
 }
 
-/// The speed nearest to the given one that is from 0 to its limit, by the same order of bits; the limit for no number.
+/// The speed nearest to the given one that is from 0 to its limit; 0 for no number, whatever its sign is.
 #[inline]
 fn possible(speed: f32, limit: f32) -> f32 {
-    f32::from_bits(speed.to_bits().cast_signed().max(0).min(limit.to_bits().cast_signed()).cast_unsigned())
+    if is_possible(speed, limit) { speed } else { math::clamp(speed, 0.0, limit) }
 }
 
 /// True if a number is no longer what it was.

@@ -31,10 +31,9 @@ pub struct PointingError {
     twice: Vector3<f32>,
 }
 
-/// Below this N the thrust axis points the wrong way so exactly that every way back is as short: the vehicle rolls.
-const INVERTED: f32 = 1e-6;
-/// 1/√N at that N.
-const PER_ROOT_MAX: f32 = 1e3;
+/// Below this N, within 3.6° of it, the thrust axis points the wrong way so exactly that every way back is as short: the
+/// vehicle rolls, and its error does not change.
+const INVERTED: f32 = 1e-3;
 
 impl PointingError {
     /// Of the attitude `is` towards `ought`, both body to world.
@@ -50,7 +49,7 @@ impl PointingError {
         let tilt = (w * x - y * z, w * y + x * z);
         let square = w * w + z * z;
         let upright = square > INVERTED;
-        let per_root = if upright { 1.0 / math::sqrt(square) } else { PER_ROOT_MAX };
+        let per_root = if upright { 1.0 / math::sqrt(square) } else { 0.0 };
         // Products of two components do not know the sign of the quaternion; what turns about the axis does.
         let signed_per_root = if w < 0.0 { -per_root } else { per_root };
         let error = if upright {
@@ -163,5 +162,12 @@ mod tests {
         let error = PointingError::between(&Q::identity(), &inverted).error;
         assert!((error.xy().norm() - 2.0).abs() < 1e-5, "{error}");
         assert!(PointingError::between(&inverted, &inverted).error.norm() < 1e-6);
+        // Near it the error neither changes nor is said to, and further off its rate is bounded: 1/√N there.
+        let rates = Vector3::new(1.0, 1.0, 1.0);
+        for i in 0..600 {
+            let is = Q::from_axis_angle(&Vector3::x_axis(), 0.001 * i as f32);
+            let pointing = PointingError::between(&is, &inverted);
+            assert!(pointing.rate(&rates).norm() < 120.0, "{i}: {}", pointing.rate(&rates));
+        }
     }
 }

@@ -12,7 +12,7 @@ use crate::control::law::{PositionDemand, PositionInput, PositionLaw};
 use crate::control::observer::{DisturbanceObserver, ObserverGains, ThrustEffectiveness};
 use crate::control::sliding::{AxisGains, Correction, SlidingAxis};
 use crate::math;
-use crate::schedule::OUTER;
+use crate::schedule::{OUTER, OUTER_AHEAD_S};
 use crate::signals::{FlatReference, TICK_S};
 use crate::validate::ConfigError;
 
@@ -103,30 +103,32 @@ impl SlidingPosition {
         }
     }
 
-    /// The vehicle's acceleration, m/s², as far as it is known, and d̂ in it.
+    /// What the vehicle is accelerated by beyond the model, m/s², and d̂ in it: the rest is wrong thrust.
     #[inline]
     fn observe(&mut self, input: &PositionInput) -> (Vector3<f32>, Vector3<f32>) {
-        let Some(observer) = &mut self.observer else { return (*input.acceleration, Vector3::zeros()) };
+        let Some(observer) = &mut self.observer else { return (Vector3::zeros(), Vector3::zeros()) };
         let force = self.model.force(input.acceleration, input.velocity);
-        let model = input.acceleration + force * (self.effectiveness.value() - 1.0);
-        let disturbance = observer.step(input.velocity, &model);
+        let wrong_thrust = force * (self.effectiveness.value() - 1.0);
+        let beyond = wrong_thrust + observer.step(input.velocity, &(input.acceleration + wrong_thrust));
         self.effectiveness.adapt(&force, observer);
-        (model + disturbance, disturbance)
+        (beyond, observer.disturbance())
     }
 }
 
 impl PositionLaw for SlidingPosition {
     /// Eq. 28, 30, 31 as a specific force, less the disturbance, with its derivatives: ḟ is exact but for the motion
-    /// of the disturbance; f̈ holds the reference's snap and drag only, since the feedback's second derivative would
-    /// need the jerk.
+    /// of the disturbance, of v of super-twisting, and of drag off the reference; f̈ holds the reference's snap and drag
+    /// only, since the feedback's second derivative would need the jerk.
     #[inline]
     fn step(&mut self, input: &PositionInput) -> PositionDemand {
         let reference = input.reference;
-        let (acceleration, disturbance) = self.observe(input);
-        let demand = demand(&mut self.axes, &self.model, reference, input.position, input.velocity, input.limited);
+        let (beyond, disturbance) = self.observe(input);
+        // The motion was carried forward by the model alone.
+        let velocity = input.velocity + beyond * OUTER_AHEAD_S;
+        let demand = demand(&mut self.axes, &self.model, reference, input.position, &velocity, input.limited);
         let error = reference.position - input.position;
-        let error_rate = reference.velocity - input.velocity;
-        let error_acceleration = reference.acceleration - acceleration;
+        let error_rate = reference.velocity - velocity;
+        let error_acceleration = reference.acceleration - (input.acceleration + beyond);
         let rate = |i: usize, axis: &SlidingAxis| {
             axis.correction_rate(demand.s[i], error[i], error_rate[i], error_acceleration[i])
         };

@@ -81,15 +81,16 @@ pub struct RotorTorque {
     geometry: RotorGeometry,
     /// The sense, ±1, in which each spins about +z.
     senses: [f32; ROTORS],
-    /// T of the reaction T U̇4 to spinning up ([`Airframe::spin_up_lead_s`]), over a tick.
-    lead_ticks: f32,
+    /// Jr over a tick, N m for each rad/s that Ωr changes by; 0 where there is no reaction.
+    reaction: f32,
 }
 
 impl RotorTorque {
     /// Of an airframe.
     pub fn new(airframe: &Airframe) -> Self {
-        let lead_ticks = airframe.spin_up_lead_s() / TICK_S;
-        Self { geometry: airframe.geometry, senses: airframe.rotor_senses(), lead_ticks }
+        let reacts = airframe.spin_up_lead_s() > 0.0;
+        let reaction = if reacts { airframe.rotor_inertia_kg_m2 / TICK_S } else { 0.0 };
+        Self { geometry: airframe.geometry, senses: airframe.rotor_senses(), reaction }
     }
 
     /// At speeds (rad/s) that do not change.
@@ -103,8 +104,10 @@ impl RotorTorque {
     pub fn after(&self, before: &RotorEffect, omega_rad_s: &[f32; ROTORS]) -> RotorEffect {
         let mut torque = self.geometry.torque(omega_rad_s);
         let yaw_n_m = torque.z;
-        torque.z += self.lead_ticks * (yaw_n_m - before.yaw_n_m);
-        RotorEffect { torque, yaw_n_m, spin_rad_s: self.spin(omega_rad_s) }
+        let spin_rad_s = self.spin(omega_rad_s);
+        // −Jr Ω̇r.
+        torque.z -= self.reaction * (spin_rad_s - before.spin_rad_s);
+        RotorEffect { torque, yaw_n_m, spin_rad_s }
     }
 
     #[inline]

@@ -206,6 +206,13 @@ impl Twist {
     }
 }
 
+/// ±`most`, on the side of `x`. A call of its own, or the compiler would have both sides computed every time.
+#[cold]
+#[inline(never)]
+fn bound(x: f32, most: f32) -> f32 {
+    if x > 0.0 { most } else { -most }
+}
+
 /// The rate at which a large error is approached, as a function of the error, with two derivatives.
 struct Approach {
     rate: f32,
@@ -231,6 +238,8 @@ pub struct SlidingAxis {
     linear_max: f32,
     approach_max: f32,
     braking: f32,
+    /// Whether there is a parabola below the limit.
+    brakes: bool,
     reach: Reach,
     surface: Surface,
     /// Slope of a layer on a linear surface: with [`ReachingLaw::ImplicitSgn`] or [`ReachingLaw::Sat`].
@@ -277,6 +286,7 @@ impl SlidingAxis {
             linear_max,
             approach_max,
             braking,
+            brakes: linear_max < approach_max,
             reach,
             surface,
             layer,
@@ -327,9 +337,12 @@ impl SlidingAxis {
         let approach = self.lambda * error;
         if math::abs(approach) <= self.linear_max {
             (approach + velocity_error, self.lambda * error_rate)
-        } else {
+        } else if self.brakes {
             let Approach { rate, slope, .. } = self.approach(error);
             (rate + velocity_error, slope * error_rate)
+        } else {
+            // Limited, it does not change.
+            (bound(approach, self.approach_max) + velocity_error, 0.0)
         }
     }
 
