@@ -1,4 +1,6 @@
-//! What each reaching law promises, on the axis that it is made for: ë = d − (λ ė + u_r), sampled.
+//! What each reaching law promises, on the axis that it is made for: `ë = −d − (λ ė + u_r)`, sampled.
+
+#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 
 use firmware::control::sliding::{AxisGains, ReachingLaw, SlidingAxis, Surface};
 
@@ -8,7 +10,7 @@ fn axis(gain: f32, reaching: ReachingLaw) -> AxisGains {
     AxisGains::new(gain, 1.0, reaching)
 }
 
-/// s and u_r, step by step, of ṡ = −u_r − d(t) from s0: the error is held at zero, so that s is the rate alone.
+/// s and `u_r`, step by step, of `ṡ = −u_r − d(t)` from s0: the error is held at zero, so that s is the rate alone.
 fn reach(gains: &AxisGains, s0: f32, steps: usize, h: f32, d: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     let mut axis = SlidingAxis::new(gains, h);
     let mut s = f64::from(s0);

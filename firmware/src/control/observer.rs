@@ -88,8 +88,9 @@ impl DisturbanceObserver {
         let error = measured - self.rate;
         let mut disturbance = self.disturbance + error * self.disturbance_gain;
         let square = disturbance.norm_squared();
-        // So that what is not a number does not stay.
-        if !(square <= self.square_max) {
+        // False for no number too, so that none stays.
+        let believable = square <= self.square_max;
+        if !believable {
             disturbance = shortened(&disturbance, square, self.disturbance_max);
         }
         self.rate = self.rate + (model + disturbance) * self.step_s + error * self.rate_gain;
