@@ -16,6 +16,7 @@ use firmware::pil::Cause;
 use firmware::signals::{NavState, SensorFrame, TICK_S};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use sim_host::pil::{BusyWait, Difference, Fault, Overrun, Pil, PilOptions, Stopped, compare};
+use sim_host::scenario::Scenario;
 
 const TICKS: u32 = 20_000;
 
@@ -65,6 +66,9 @@ fn lockstep_with(options: &PilOptions, ticks: u32, disturb: fn(u32, &mut SensorF
 fn twenty_thousand_ticks_are_the_same_bit_for_bit() {
     let config = config();
     lockstep(&PilOptions::new(image("mps2-pil"), &config), TICKS).expect("the same");
+    // Observers, lead, inversion of yaw, and what adapts.
+    let x500 = Scenario::load("x500-helix", &[]).expect("valid").flight_config();
+    lockstep(&PilOptions::new(image("mps2-pil"), &x500), TICKS / 2).expect("the same");
 }
 
 /// Or the test above could not fail.
