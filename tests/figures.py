@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The README's figures are the program's own output: flies the cases and compares, digit by digit.
 
-`tests/figures.py --write` puts the figures of this build into the README and its picture into docs/images. A flight is
+`tests/figures.py --write` puts the figures of this build into the README and docs/comparison.md, and the pictures into
+docs/images. A flight is
 the same bit for bit everywhere, so there is nothing to tolerate.
 """
 
@@ -17,7 +18,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SIMULATOR = Path(os.environ.get("GLISSADE_SIM", ROOT / "target" / "release" / "sim-host"))
 README = ROOT / "README.md"
-PICTURE = ROOT / "docs" / "images" / "helix.svg"
+COMPARISON = ROOT / "docs" / "comparison.md"
+IMAGES = ROOT / "docs" / "images"
 
 
 def simulate(command, scenario, *arguments):
@@ -107,18 +109,53 @@ def flights_table():
     )
 
 
-def picture():
+def helix_picture():
     with tempfile.TemporaryDirectory() as folder:
         fly("helix", "--out", folder)
         return (Path(folder) / "fig7-helix.svg").read_text(encoding="utf-8")
 
 
-def updated(text):
+def compare():
+    """The comparison as JSON, as the text for its own page, and its picture."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [str(SIMULATOR), "compare", "x500", "--json", "--out", folder]
+        result = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+        read = lambda name: (Path(folder) / name).read_text(encoding="utf-8")
+        return result, read("compare.md"), read("compare-ratio.svg")
+
+
+def comparison_row(overall, first):
+    median = lambda key: overall["medians"][key]["median"]
+    millimetres = lambda key: "lost" if median(key) is None else f"{1e3 * median(key):.1f}"
+    against = "" if overall is first else f"{overall['worse_cells']} of {overall['cells']}"
+    medians = overall["medians"]
+    return [
+        f"`{overall['controller']}`",
+        millimetres("rms_m"),
+        f"{overall['rms_ratio']:.2f}",
+        millimetres("max_m"),
+        f"{medians['survived']} of {medians['flights']}",
+        against,
+    ]
+
+
+def comparison_table(result):
+    first, *_ = result["overall"]
+    for overall in result["overall"]:
+        overall["cells"] = len(result["cells"])
+        # What is better or worse is told of the first controller against this one.
+    return table(
+        ["tuning", "RMS, mm", "its ratio to the first's", "maximum, mm", "survived", "cells in which its RMS is the greater"],
+        [comparison_row(overall, first) for overall in result["overall"]],
+    )
+
+
+def updated(text, parts):
     """The text with each generated part made anew."""
-    for name, make in (("paper", paper_table), ("flights", flights_table)):
+    for name, now in parts.items():
         part = re.compile(rf"(<!-- begin: {name} -->\n).*?(<!-- end: {name} -->)", re.DOTALL)
-        assert part.search(text), f"README.md has no part `{name}`"
-        text = part.sub(lambda match: f"{match[1]}{make()}\n{match[2]}", text)
+        assert part.search(text), f"there is no part `{name}`"
+        text = part.sub(lambda match, now=now: f"{match[1]}{now.strip()}\n{match[2]}", text)
     return text
 
 
@@ -138,9 +175,13 @@ def check(path, is_now, write):
 def main():
     write = sys.argv[1:] == ["--write"]
     assert "TODO" not in README.read_text(encoding="utf-8"), "README.md has a figure that nobody has filled in"
+    result, page, ratios = compare()
+    readme = {"paper": paper_table(), "flights": flights_table(), "comparison": comparison_table(result)}
     good = [
-        check(README, updated(README.read_text(encoding="utf-8")), write),
-        check(PICTURE, picture(), write),
+        check(README, updated(README.read_text(encoding="utf-8"), readme), write),
+        check(COMPARISON, updated(COMPARISON.read_text(encoding="utf-8"), {"comparison": page}), write),
+        check(IMAGES / "helix.svg", helix_picture(), write),
+        check(IMAGES / "compare-ratio.svg", ratios, write),
     ]
     return 0 if all(good) else 1
 
