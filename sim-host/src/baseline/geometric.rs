@@ -222,13 +222,24 @@ impl AttitudeLaw for GeometricAttitude {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::baseline::tests::{airframe, attitudes, hover_speeds, input, tuning};
-    use crate::controller::Controller;
+    use crate::baseline::tests::{airframe, attitudes, hover_speeds, input};
     use firmware::signals::FlatReference;
 
+    /// By hand for the x500.
     fn gains() -> Geometric {
-        let Controller::Geometric(gains) = tuning("x500-geometric") else { panic!("another controller") };
-        gains
+        Geometric {
+            tilt_max_rad: 1.2,
+            position_1_s2: AxisPair { xy: 8.0, z: 12.0 },
+            velocity_1_s: AxisPair { xy: 5.0, z: 6.0 },
+            position_integral_1_s2: AxisPair { xy: 1.5, z: 3.0 },
+            position_integral_c1_1_s: 1.5,
+            position_integral_max_m_s2: AxisPair { xy: 4.0, z: 4.0 },
+            attitude_1_s2: AxisPair { xy: 250.0, z: 12.0 },
+            rate_1_s: AxisPair { xy: 25.0, z: 6.0 },
+            attitude_integral_1_s2: AxisPair { xy: 20.0, z: 2.0 },
+            attitude_integral_c2_1_s: 3.0,
+            attitude_integral_max_rad_s2: AxisPair { xy: 40.0, z: 4.0 },
+        }
     }
 
     fn without_integrals() -> Geometric {
