@@ -187,7 +187,7 @@ pub fn analyse(scenario: &Scenario, seed: u64) -> Result<Analysis> {
 ///
 /// # Errors
 /// What of the scenario the firmware refuses.
-pub fn of_laws<A, P>(scenario: &Scenario, seed: u64, attitude: &A, position: &P) -> Result<Analysis>
+fn of_laws<A, P>(scenario: &Scenario, seed: u64, attitude: &A, position: &P) -> Result<Analysis>
 where
     A: AttitudeLaw + Clone + Sync,
     P: PositionLaw + Clone + Sync,
