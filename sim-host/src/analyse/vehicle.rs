@@ -1,6 +1,6 @@
 //! The vehicle about hover: what the laws see there, and what their demands do.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use firmware::airframe::ROTORS;
 use firmware::config::{FlightConfig, Start};
 use firmware::control::rotor::RotorTorque;
@@ -93,7 +93,7 @@ impl Vehicle {
     /// Of a scenario.
     ///
     /// # Errors
-    /// A rotor geometry that cannot be inverted.
+    /// A rotor geometry that cannot be inverted; a vehicle that cannot hover, for it has no loops about hover.
     pub(super) fn new(scenario: &Scenario) -> Result<Self> {
         let (truth, believed) = (scenario.constants(), scenario.airframe.constants());
         let inverse = believed.geometry.try_inverse().context("`rotors`: the four cannot be mixed")?;
@@ -101,6 +101,14 @@ impl Vehicle {
         let given: Matrix4<f64> = truth.geometry * inverse;
         let thrust = truth.mass * truth.gravity / given[(0, 0)];
         let omega = (inverse.column(0) * thrust).map(|square: f64| square.max(0.0).sqrt());
+        let omega_max = scenario.airframe.omega_max();
+        ensure!(
+            omega.min() > 0.0 && omega.max() < omega_max,
+            "the vehicle cannot hover: that takes rotors between {:.0} and {:.0} rad/s, and theirs is 0 to {omega_max:.0}: \
+             change `truth` or `thrust_to_weight`",
+            omega.min(),
+            omega.max()
+        );
         let per_torque = |axis: usize| inverse.column(axis + 1).component_div(&(omega * 2.0));
         let omega_per_torque = core::array::from_fn(per_torque);
         let reacts = truth.spin_up_reaction && truth.rotor_lag > 0.0;
@@ -184,5 +192,28 @@ impl Vehicle {
             }
         }
         sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vehicle_that_cannot_hover_has_no_loops_about_it() {
+        let vehicle = |settings: &[&str]| {
+            let settings: Vec<String> = settings.iter().map(|s| (*s).to_owned()).collect();
+            Vehicle::new(&hovering(&Scenario::load("x500-hover", &settings).expect("valid")))
+        };
+        // Hover takes √(mass factor/thrust to weight) of the greatest speed.
+        assert!(vehicle(&["thrust_to_weight=2.0", "truth.mass_factor=1.9"]).is_ok());
+        for settings in [
+            &["thrust_to_weight=2.0", "truth.mass_factor=2.1"][..],
+            &["thrust_to_weight=2.0", "truth.rotor_effectiveness=[0.4,0.4,0.4,0.4]"],
+        ] {
+            let error = format!("{:#}", vehicle(settings).expect_err("too heavy"));
+            let names = error.contains("`truth`") && error.contains("`thrust_to_weight`");
+            assert!(names && !error.contains('\n'), "{error}");
+        }
     }
 }
