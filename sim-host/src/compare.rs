@@ -1,5 +1,7 @@
 //! Controllers compared: each in every cell of a matrix, under the same seeds.
 
+use std::collections::BTreeSet;
+
 use anyhow::{Result, ensure};
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
@@ -238,15 +240,13 @@ impl<'a> Contest<'a> {
     /// Loads every scenario and every controller of a matrix.
     ///
     /// # Errors
-    /// One line that names the scenario or tuning, the key, and what is wrong with it; or that no cell is left.
+    /// One line that names the scenario or tuning, the key, and what is wrong with it; two scenarios or two controllers of
+    /// one name; or that no cell is left.
     pub fn new(matrix: &'a Matrix) -> Result<Self> {
-        let mut controllers: Vec<(String, Controller)> = Vec::new();
-        for name in &matrix.file.controllers {
-            let controller = scenario::tuning(name)?.controller;
-            let short = short_name(name);
-            ensure!(!controllers.iter().any(|(known, _)| known == short), "two controllers are called `{short}`");
-            controllers.push((short.to_owned(), controller));
-        }
+        require_told_apart("controllers", &matrix.file.controllers)?;
+        require_told_apart("scenarios", &matrix.file.scenarios)?;
+        let load = |name: &String| Ok((short_name(name).to_owned(), scenario::tuning(name)?.controller));
+        let controllers = matrix.file.controllers.iter().map(load).collect::<Result<_>>()?;
         let cases = matrix.cases()?;
         ensure!(!cases.is_empty(), "no disturbance applies to any scenario: nothing to fly");
         Ok(Self { matrix, cases, controllers })
@@ -317,6 +317,16 @@ impl<'a> Contest<'a> {
 fn short_name(name: &str) -> &str {
     let file = name.rsplit('/').next().unwrap_or(name);
     file.strip_suffix(".toml").unwrap_or(file)
+}
+
+/// Refuses paths whose files have one name: in tables and files they would be one.
+fn require_told_apart(key: &str, names: &[String]) -> Result<()> {
+    let mut seen = BTreeSet::new();
+    for name in names {
+        let short = short_name(name);
+        ensure!(seen.insert(short), "two of `{key}` are called `{short}`: rename a file");
+    }
+    Ok(())
 }
 
 fn overall(cells: &[Cell], index: usize, name: &str) -> Overall {
@@ -442,6 +452,19 @@ mod tests {
         let cell = cell(&[&[Some(6e-8); 8], &[Some(9e-6); 8], &[Some(2e-5); 8]]);
         assert_eq!(cell.rms_ratios[1].median, 1.0);
         assert!((cell.rms_ratios[2].median - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_would_have_one_name_is_refused() {
+        let refusal = |spoil: &dyn Fn(&mut Matrix)| {
+            let mut matrix = Matrix::load("x500", &[]).expect("valid");
+            spoil(&mut matrix);
+            Contest::new(&matrix).expect_err("must be refused").to_string()
+        };
+        let error = refusal(&|matrix| matrix.file.scenarios.push("mine/x500-hover.toml".to_owned()));
+        assert!(error.contains("`scenarios`") && error.contains("`x500-hover`"), "{error}");
+        let error = refusal(&|matrix| matrix.file.controllers.push("mine/x500-smc.toml".to_owned()));
+        assert!(error.contains("`controllers`") && error.contains("`x500-smc`"), "{error}");
     }
 
     #[test]

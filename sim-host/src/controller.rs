@@ -1,13 +1,14 @@
 //! Controllers that can be flown, with their gains, as they stand in a tuning file.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 use firmware::config::FlightConfig;
 use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
 
 use crate::baseline::geometric::Geometric;
 use crate::baseline::indi::Indi;
 use crate::baseline::pid::Pid;
-use crate::scenario::Control;
+use crate::scenario::{self, Control};
 
 /// A controller and its gains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,8 +24,9 @@ pub enum Controller {
     Indi(Indi),
 }
 
-/// A tuning file.
+/// A tuning file: a summary, one controller's table, and nothing else.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Table")]
 pub struct TuningFile {
     /// Where the gains come from.
     pub summary: String,
@@ -33,7 +35,31 @@ pub struct TuningFile {
     pub controller: Controller,
 }
 
+impl TryFrom<Table> for TuningFile {
+    type Error = anyhow::Error;
+
+    // By hand, for a flattened enumeration takes the first table that it knows and drops every other key unread.
+    fn try_from(mut table: Table) -> Result<Self> {
+        let choices = Controller::NAMES.join(", ");
+        let Some(Value::String(summary)) = table.remove("summary") else {
+            bail!("`summary` is missing, or no text: say in a line where the gains come from")
+        };
+        if let Some(stray) = table.keys().find(|key| !Controller::NAMES.contains(&key.as_str())) {
+            bail!("unknown key `{stray}`: beside `summary` there is one controller's table, of {choices}");
+        }
+        ensure!(!table.is_empty(), "there is no controller: give the gains in a table of {choices}");
+        if let Some(second) = table.keys().nth(1) {
+            bail!("`{second}` is a second controller: keep one table of {choices}");
+        }
+        let controller = Controller::deserialize(Value::Table(table)).map_err(|error| scenario::one_line(&error))?;
+        Ok(Self { summary, controller })
+    }
+}
+
 impl Controller {
+    /// The names of all.
+    const NAMES: [&str; 4] = ["smc", "pid", "geometric", "indi"];
+
     /// Its name in a file.
     pub fn name(&self) -> &'static str {
         match self {
@@ -83,6 +109,51 @@ impl Controller {
                 config.tilt_max_rad = *tilt_max_rad;
                 config.rotor_time_constant_s = 0.0;
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const INDI: &str = include_str!("../tunings/x500-indi.toml");
+
+    fn refusal(text: &str) -> String {
+        let table: Table = text.parse().expect("TOML");
+        let error = TuningFile::try_from(table).expect_err("must be refused").to_string();
+        assert!(!error.contains('\n'), "{error}");
+        error
+    }
+
+    #[test]
+    fn a_tuning_file_is_a_summary_and_one_controller() {
+        let read: TuningFile = toml::from_str(INDI).expect("a tuning");
+        let again: TuningFile = toml::from_str(&toml::to_string(&read).expect("TOML")).expect("a tuning");
+        assert_eq!((read.controller.name(), &again), ("indi", &read));
+    }
+
+    #[test]
+    fn what_is_no_part_of_a_tuning_file_is_refused_by_its_key() {
+        let second = "\n[smc]\ntilt_max_rad = 1.0\n";
+        for (text, culprits) in [
+            (format!("colour = 1\n{INDI}"), ["`colour`", "smc, pid, geometric, indi"]),
+            (format!("{INDI}\n[lqr]\nq = 1.0\n"), ["`lqr`", "smc, pid, geometric, indi"]),
+            (format!("{INDI}{second}"), ["`smc`", "second"]),
+            ("summary = \"nothing\"".to_owned(), ["no controller", "smc, pid, geometric, indi"]),
+            (INDI.replace("summary", "sumary"), ["`summary`", "missing"]),
+            (INDI.replace("feedback_rate", "feedback_rat"), ["feedback_rat", "unknown field"]),
+        ] {
+            let error = refusal(&text);
+            assert!(culprits.iter().all(|culprit| error.contains(culprit)), "{error}");
+        }
+    }
+
+    #[test]
+    fn every_controller_is_known_by_its_name() {
+        for name in ["x500-smc", "x500-pid", "x500-geometric", "x500-indi"] {
+            let controller = scenario::tuning(name).expect("built in").controller;
+            assert!(Controller::NAMES.contains(&controller.name()) && name.ends_with(controller.name()), "{name}");
         }
     }
 }

@@ -6,6 +6,7 @@ use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 
 use crate::scenario::{self, Scenario, built_in};
+use crate::score::counts_from_s;
 use crate::seeds::Seeds;
 
 /// Matrices that come with the binary.
@@ -120,7 +121,8 @@ impl Matrix {
     /// Its cells: for each scenario in turn, the disturbances that apply to it.
     ///
     /// # Errors
-    /// One line that names the disturbance, the scenario, the key, and what is wrong with it.
+    /// One line that names the disturbance, the scenario, the key, and what is wrong with it; a flight that ends before
+    /// anything of it counts has no figures.
     pub fn cases(&self) -> Result<Vec<Case>> {
         let cells = self.file.scenarios.iter().flat_map(|scenario| {
             let applies = |disturbance: &&DisturbanceEntry| disturbance.applies_to(scenario);
@@ -131,8 +133,9 @@ impl Matrix {
 
     fn case(&self, scenario: &str, disturbance: &DisturbanceEntry) -> Result<Case> {
         let settings = [self.settings.as_slice(), &disturbance.set].concat();
-        let loaded = Scenario::load(scenario, &settings)
-            .with_context(|| format!("matrix `{}`, disturbance `{}`", self.name, disturbance.name))?;
+        let context = || format!("matrix `{}`, disturbance `{}`", self.name, disturbance.name);
+        let loaded = Scenario::load(scenario, &settings).with_context(context)?;
+        require_counted(&loaded).with_context(context)?;
         Ok(Case { scenario: loaded, scenario_name: scenario.to_owned(), disturbance_name: disturbance.name.clone() })
     }
 }
@@ -157,6 +160,18 @@ impl MatrixFile {
         );
         Ok(())
     }
+}
+
+/// Refuses a flight of which nothing counts.
+fn require_counted(scenario: &Scenario) -> Result<()> {
+    let (from_s, duration_s) = (counts_from_s(scenario), scenario.file.duration_s);
+    ensure!(
+        from_s < duration_s,
+        "scenario `{}`: `duration_s` is {duration_s}, and it counts from {from_s} s on (`join.duration_s`, or a step's \
+         `at_s`): nothing would count",
+        scenario.name
+    );
+    Ok(())
 }
 
 /// Refuses a list that is empty, or names something twice.
@@ -216,6 +231,19 @@ mod tests {
             let flown = if random { matrix.file.seeds.count() } else { 1 };
             assert_eq!(case.seeds(matrix.file.seeds).count() as u64, flown);
         }
+    }
+
+    #[test]
+    fn a_flight_that_ends_before_it_counts_is_refused() {
+        // The step is at 1 s.
+        let refusal = |setting: &str| {
+            let mut matrix = Matrix::load("x500", &[setting.to_owned()]).expect("valid");
+            matrix.select(Some(&["x500-step".to_owned()]), None).expect("known");
+            matrix.cases().err().map(|error| format!("{error:#}"))
+        };
+        let error = refusal("duration_s=1").expect("must be refused");
+        assert!(error.contains("`duration_s`") && error.contains("x500-step") && !error.contains('\n'), "{error}");
+        assert_eq!(refusal("duration_s=1.1"), None);
     }
 
     #[test]

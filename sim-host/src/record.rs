@@ -30,7 +30,7 @@ pub struct Row {
 }
 
 /// A vehicle further than this from where it ought to be is lost, m.
-const LOST_M: f64 = 50.0;
+pub(crate) const LOST_M: f64 = 50.0;
 
 impl Row {
     /// The true motion at `t` (s), and nothing else yet.

@@ -74,6 +74,7 @@ impl Tune {
         let space = Space::new(&file.base, base, file.parameters).with_context(context)?;
         let course = Course::load(&file.course).with_context(context)?;
         course.require_flyable(&space.base_controller()?).with_context(context)?;
+        require_ends(&space, &course).with_context(context)?;
         Ok(Self { name: name.to_owned(), space, course })
     }
 
@@ -88,6 +89,20 @@ impl Tune {
     }
 }
 
+/// Refuses a range of whose ends the controller refuses one: part of the search would be spent on nothing.
+fn require_ends(space: &Space, course: &Course) -> Result<()> {
+    for (index, parameter) in space.parameters().iter().enumerate() {
+        for (end, x) in [("low", 0.0), ("high", 1.0)] {
+            let flyable = space.with_one(index, x).and_then(|controller| course.require_flyable(&controller));
+            flyable.with_context(|| {
+                let keys = parameter.keys.join(", ");
+                format!("parameter `{keys}`: the controller refuses its `{end}`, {}", parameter.value(x))
+            })?;
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,6 +112,23 @@ mod tests {
         for (name, _) in TUNES {
             let tune = Tune::load(name).unwrap_or_else(|error| panic!("{error:#}"));
             assert!(tune.space.base_controller().is_ok(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_range_that_the_controller_refuses_is_refused_by_its_keys() {
+        let course = Course::load("x500").expect("valid");
+        let base = include_str!("../tunings/x500-pid.toml");
+        let refusal = |key: &str, low: f64, high: f64| {
+            let one = Parameter { keys: vec![key.to_owned()], factors: None, low, high, scale: Scale::Linear };
+            let space = Space::new("x500-pid", base.parse().expect("TOML"), vec![one]).expect("a space");
+            require_ends(&space, &course).err().map(|error| format!("{error:#}"))
+        };
+        assert_eq!(refusal("pid.yaw_weight", 0.0, 1.0), None);
+        for (key, low, high, end) in [("pid.yaw_weight", 0.1, 1.2, "high"), ("pid.rate_p_1_s.xy", -1.0, 60.0, "low")] {
+            let error = refusal(key, low, high).expect("must be refused");
+            assert!(error.contains(&format!("`{key}`")) && error.contains(&format!("`{end}`")), "{error}");
+            assert!(!error.contains('\n'), "{error}");
         }
     }
 }

@@ -44,6 +44,17 @@ fn a_vehicle_with_delay_lead_and_observers_does() {
     holds(&analysed("x500-hover", &[]));
 }
 
+/// INDI makes its torque of the rotors' speeds, so the belief of it that others read must not be in its loop.
+#[test]
+fn a_law_that_inverts_increments_does() {
+    holds(&analysed("x500-hover", &["tuning=x500-indi"]));
+}
+
+#[test]
+fn a_cascade_that_looks_at_no_rotor_does() {
+    holds(&analysed("x500-hover", &["tuning=x500-pid"]));
+}
+
 /// Without lag the attitude loop is λ and K/ρ on a double integrator whose torque is held for a tick.
 #[test]
 fn the_attitude_loop_is_the_sampled_double_integrators() {

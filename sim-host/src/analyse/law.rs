@@ -1,7 +1,6 @@
 //! The linear response of a control law, measured on the law itself: a sinusoid of small amplitude on one of its inputs,
 //! the others at rest, once up and once down.
 
-use firmware::airframe::ROTORS;
 use firmware::control::law::{AttitudeInput, AttitudeLaw, AttitudeTarget, PositionInput, PositionLaw, RotorEffect};
 use firmware::signals::{FlatReference, TICK_S_EXACT};
 use nalgebra::{Complex, Quaternion, UnitQuaternion, Vector3};
@@ -28,7 +27,7 @@ const ACCELERATION_M_S2: f64 = 1e-2;
 pub(super) enum AttitudeChannel {
     Angle,
     Rate,
-    /// Rotor speeds, as the torque that they are believed to give.
+    /// Rotor speeds, as the torque that they are believed to give; what spinning up adds to it is the law's to see.
     Torque,
     TargetAngle,
     TargetRate,
@@ -50,42 +49,53 @@ pub(super) fn attitude<A: AttitudeLaw + Clone>(
         AttitudeChannel::TargetAcceleration => ACCELERATION_RAD_S2,
         AttitudeChannel::Torque => torque,
     };
-    let mut laws = [law.clone(), law.clone()];
+    let probe = || Probe { law: law.clone(), vehicle, axis, channel, rotors: None };
+    let (mut up, mut down) = (probe(), probe());
     let schedule = Schedule::new(omega_rad_s, TICK_S_EXACT, ATTITUDE_SETTLE_S);
     let answer = |step: u32| {
         let value = amplitude * schedule.cos(step);
-        let [up, down] = &mut laws;
-        let [up, down] = [(up, value), (down, -value)].map(|(law, v)| torque_for(law, vehicle, axis, channel, v));
-        [0.5 * (up - down) / amplitude]
+        [0.5 * (up.torque(value) - down.torque(-value)) / amplitude]
     };
     schedule.amplitudes((0..schedule.steps()).map(answer))[0]
 }
 
-/// One step of an attitude law with a value on one input.
-fn torque_for<A: AttitudeLaw>(
-    law: &mut A,
-    vehicle: &Vehicle,
+/// An attitude law with one input that moves.
+struct Probe<'a, A> {
+    law: A,
+    vehicle: &'a Vehicle,
     axis: usize,
     channel: AttitudeChannel,
-    value: f64,
-) -> f64 {
-    let on = |wanted: AttitudeChannel| if channel == wanted { value } else { 0.0 };
-    let target = AttitudeTarget {
-        attitude: turn(axis, on(AttitudeChannel::TargetAngle)),
-        rates: along(axis, on(AttitudeChannel::TargetRate)),
-        accelerations: along(axis, on(AttitudeChannel::TargetAcceleration)),
-    };
-    let speeds = vehicle.omega + vehicle.omega_per_torque[axis] * on(AttitudeChannel::Torque);
-    let rotor_speeds: [f32; ROTORS] = speeds.map(|omega| omega as f32).into();
-    let demand = law.step(&AttitudeInput {
-        attitude: &turn(axis, on(AttitudeChannel::Angle)),
-        rates: &along(axis, on(AttitudeChannel::Rate)),
-        target: &target,
-        rotor_speeds: &rotor_speeds,
-        rotors: &RotorEffect { torque: along(axis, on(AttitudeChannel::Torque)), yaw_n_m: 0.0, spin_rad_s: 0.0 },
-        saturated: false,
-    });
-    f64::from(demand.torque[axis])
+    /// What the rotors did a tick ago.
+    rotors: Option<RotorEffect>,
+}
+
+impl<A: AttitudeLaw> Probe<'_, A> {
+    /// The law's torque, a tick on, with a value on the input.
+    fn torque(&mut self, value: f64) -> f64 {
+        let axis = self.axis;
+        let on = |wanted: AttitudeChannel| if self.channel == wanted { value } else { 0.0 };
+        let target = AttitudeTarget {
+            attitude: turn(axis, on(AttitudeChannel::TargetAngle)),
+            rates: along(axis, on(AttitudeChannel::TargetRate)),
+            accelerations: along(axis, on(AttitudeChannel::TargetAcceleration)),
+        };
+        let rotor_speeds = self.vehicle.speeds(axis, on(AttitudeChannel::Torque));
+        let model = &self.vehicle.rotor_torque;
+        let rotors = match &self.rotors {
+            Some(before) => model.after(before, &rotor_speeds),
+            None => model.steady(&rotor_speeds),
+        };
+        self.rotors = Some(rotors);
+        let demand = self.law.step(&AttitudeInput {
+            attitude: &turn(axis, on(AttitudeChannel::Angle)),
+            rates: &along(axis, on(AttitudeChannel::Rate)),
+            target: &target,
+            rotor_speeds: &rotor_speeds,
+            rotors: &rotors,
+            saturated: false,
+        });
+        f64::from(demand.torque[axis])
+    }
 }
 
 /// A turn by an angle (rad) about a body axis.

@@ -8,7 +8,7 @@
 //! others at rest, and the least-squares fit of its output. Where a law is not linear that is its describing function.
 //! **The vehicle** is analytic, in f64 ([`chain`], [`vehicle`]): rotor lag, rigid body and drag with the command held for a
 //! tick; D is the command for a demand (the firmware's lead) with the actuation delay, R what the firmware believes the
-//! rotors to do, X the motion for a torque.
+//! rotors' speeds to give (that spinning them up turns the body is Cω's), X the motion for a torque.
 //!
 //! ```text
 //! attitude    L = −(Cθ Xθ D + CΩ XΩ D + Cω R)
@@ -183,24 +183,23 @@ pub fn analyse(scenario: &Scenario, seed: u64) -> Result<Analysis> {
     }
 }
 
-/// The same with laws of one's own on the scenario's vehicle. The laws are to be fresh; clones of them are flown.
+/// The same for a scenario that hovers, with its laws. They are to be fresh; clones of them are flown.
 ///
 /// # Errors
 /// What of the scenario the firmware refuses.
-pub fn of_laws<A, P>(scenario: &Scenario, seed: u64, attitude: &A, position: &P) -> Result<Analysis>
+fn of_laws<A, P>(hover: &Scenario, seed: u64, attitude: &A, position: &P) -> Result<Analysis>
 where
     A: AttitudeLaw + Clone + Sync,
     P: PositionLaw + Clone + Sync,
 {
-    let hover = vehicle::hovering(scenario);
-    let vehicle = Vehicle::new(&hover)?;
-    let rig = Rig { scenario: &hover, vehicle: &vehicle, laws: (attitude, position) };
+    let vehicle = Vehicle::new(hover)?;
+    let rig = Rig { scenario: hover, vehicle: &vehicle, laws: (attitude, position) };
     let attitude: Vec<_> = [0, 1, 2].into_par_iter().map(|axis| attitude_of(&rig, axis)).collect::<Result<_>>()?;
     let (attitude, variances): (Vec<Attitude>, Vec<f64>) = attitude.into_iter().unzip();
     let per_sample = variances.iter().sum::<f64>().sqrt();
     Ok(Analysis {
-        scenario: scenario.name.clone(),
-        controller: scenario.controller.name(),
+        scenario: hover.name.clone(),
+        controller: hover.controller.name(),
         loops: Which::ALL.into_par_iter().map(|which| loop_of(&rig, which)).collect::<Result<_>>()?,
         attitude,
         noise: Noise {

@@ -1,7 +1,9 @@
 //! The vehicle about hover: what the laws see there, and what their demands do.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
+use firmware::airframe::ROTORS;
 use firmware::config::{FlightConfig, Start};
+use firmware::control::rotor::RotorTorque;
 use firmware::guidance::Trajectory;
 use firmware::schedule::OUTER;
 use firmware::signals::TICK_S_EXACT;
@@ -41,8 +43,6 @@ struct BelievedRotor {
     lead: f64,
     /// Part of the way from the yaw torque that is to the one wanted for which the rotors are told to go.
     yaw: f64,
-    /// How far the reaction to spinning up is believed to be ahead of the yaw torque, ticks.
-    reaction_ticks: f64,
 }
 
 impl BelievedRotor {
@@ -50,19 +50,15 @@ impl BelievedRotor {
         let (lag, wanted) = (f64::from(config.airframe.rotor_lag_s), f64::from(config.rotor_answer_s()));
         let part = |time_s: f64| if time_s > 0.0 { 1.0 - libm::exp(-TICK_S_EXACT / time_s) } else { 1.0 };
         let lead = if wanted < lag { part(wanted) / part(lag) } else { 1.0 };
-        Self {
-            part: lead * part(lag),
-            lead,
-            yaw: f64::from(config.yaw_inversion().demand(0.0, 1.0)),
-            reaction_ticks: f64::from(config.airframe.spin_up_lead_s()) / TICK_S_EXACT,
-        }
+        Self { part: lead * part(lag), lead, yaw: f64::from(config.yaw_inversion().demand(0.0, 1.0)) }
     }
 }
 
 /// What becomes of a demand, by frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Actuation {
-    /// What the firmware believes that the rotors give, before it has computed this tick's command.
+    /// What the firmware believes that the rotors give, before it has computed this tick's command; about yaw by their
+    /// speeds alone.
     pub(super) believed: Complex<f64>,
     /// What they are told.
     pub(super) command: Complex<f64>,
@@ -74,6 +70,8 @@ pub(super) struct Actuation {
 #[derive(Clone, Debug)]
 pub(super) struct Vehicle {
     rotor: BelievedRotor,
+    /// What the firmware believes its rotors' speeds to do.
+    pub(super) rotor_torque: RotorTorque,
     delay_s: f64,
     /// Rotor speeds, rad/s.
     pub(super) omega: Vector4<f64>,
@@ -95,7 +93,7 @@ impl Vehicle {
     /// Of a scenario.
     ///
     /// # Errors
-    /// A rotor geometry that cannot be inverted.
+    /// A rotor geometry that cannot be inverted; a vehicle that cannot hover, for it has no loops about hover.
     pub(super) fn new(scenario: &Scenario) -> Result<Self> {
         let (truth, believed) = (scenario.constants(), scenario.airframe.constants());
         let inverse = believed.geometry.try_inverse().context("`rotors`: the four cannot be mixed")?;
@@ -103,6 +101,14 @@ impl Vehicle {
         let given: Matrix4<f64> = truth.geometry * inverse;
         let thrust = truth.mass * truth.gravity / given[(0, 0)];
         let omega = (inverse.column(0) * thrust).map(|square: f64| square.max(0.0).sqrt());
+        let omega_max = scenario.airframe.omega_max();
+        ensure!(
+            omega.min() > 0.0 && omega.max() < omega_max,
+            "the vehicle cannot hover: that takes rotors between {:.0} and {:.0} rad/s, and theirs is 0 to {omega_max:.0}: \
+             change `truth` or `thrust_to_weight`",
+            omega.min(),
+            omega.max()
+        );
         let per_torque = |axis: usize| inverse.column(axis + 1).component_div(&(omega * 2.0));
         let omega_per_torque = core::array::from_fn(per_torque);
         let reacts = truth.spin_up_reaction && truth.rotor_lag > 0.0;
@@ -125,8 +131,10 @@ impl Vehicle {
             rate_drag: truth.drag.z / truth.mass,
             ..Chain::default()
         };
+        let config = scenario.flight_config();
         Ok(Self {
-            rotor: BelievedRotor::new(&scenario.flight_config()),
+            rotor: BelievedRotor::new(&config),
+            rotor_torque: RotorTorque::new(&config.airframe),
             delay_s: scenario.actuation_delay_ticks() as f64 * TICK_S_EXACT,
             omega,
             omega_per_torque,
@@ -138,20 +146,18 @@ impl Vehicle {
         })
     }
 
+    /// Rotor speeds (rad/s) that are believed to give a torque (N m) about an axis beside hover's thrust.
+    pub(super) fn speeds(&self, axis: usize, torque: f64) -> [f32; ROTORS] {
+        (self.omega + self.omega_per_torque[axis] * torque).map(|omega| omega as f32).into()
+    }
+
     /// What becomes of a torque about an axis at ω, rad/s. About yaw the rotors are told u = B + p (demand − B), B being
     /// what they are believed to give: u = p demand/(1 − (1 − p) b), with B = b u.
     pub(super) fn turning(&self, axis: usize, omega_rad_s: f64) -> Actuation {
         let plain = self.actuation(omega_rad_s);
         let one = Complex::new(1.0, 0.0);
         let told = if axis == 2 { one * self.rotor.yaw / (one - plain.believed * (1.0 - self.rotor.yaw)) } else { one };
-        // U4 with the reaction to its change since the last tick.
-        let change = one - turned(-omega_rad_s * TICK_S_EXACT);
-        let reaction = if axis == 2 { one + change * self.rotor.reaction_ticks } else { one };
-        Actuation {
-            believed: plain.believed * told * reaction,
-            command: plain.command * told,
-            delayed: plain.delayed * told,
-        }
+        Actuation { believed: plain.believed * told, command: plain.command * told, delayed: plain.delayed * told }
     }
 
     /// What becomes of a thrust at ω, rad/s.
@@ -186,5 +192,28 @@ impl Vehicle {
             }
         }
         sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vehicle_that_cannot_hover_has_no_loops_about_it() {
+        let vehicle = |settings: &[&str]| {
+            let settings: Vec<String> = settings.iter().map(|s| (*s).to_owned()).collect();
+            Vehicle::new(&hovering(&Scenario::load("x500-hover", &settings).expect("valid")))
+        };
+        // Hover takes √(mass factor/thrust to weight) of the greatest speed.
+        assert!(vehicle(&["thrust_to_weight=2.0", "truth.mass_factor=1.9"]).is_ok());
+        for settings in [
+            &["thrust_to_weight=2.0", "truth.mass_factor=2.1"][..],
+            &["thrust_to_weight=2.0", "truth.rotor_effectiveness=[0.4,0.4,0.4,0.4]"],
+        ] {
+            let error = format!("{:#}", vehicle(settings).expect_err("too heavy"));
+            let names = error.contains("`truth`") && error.contains("`thrust_to_weight`");
+            assert!(names && !error.contains('\n'), "{error}");
+        }
     }
 }

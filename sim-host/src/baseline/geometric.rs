@@ -17,6 +17,7 @@ use firmware::control::flatness::ForceProfile;
 use firmware::control::law::{
     AttitudeDemand, AttitudeInput, AttitudeLaw, AttitudeTarget, PositionDemand, PositionInput, PositionLaw,
 };
+use firmware::math;
 use firmware::signals::TICK_S;
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
@@ -82,6 +83,7 @@ impl Geometric {
 /// An integral whose contribution is bounded, kept in the units of what it is added to.
 #[derive(Clone, Debug)]
 struct BoundedIntegral {
+    gain: Vector3<f32>,
     per_step: Vector3<f32>,
     most: Vector3<f32>,
     value: Vector3<f32>,
@@ -89,15 +91,20 @@ struct BoundedIntegral {
 
 impl BoundedIntegral {
     fn new(gain: AxisPair, most: AxisPair, step_s: f32) -> Self {
-        Self { per_step: gain.vector() * step_s, most: most.vector(), value: Vector3::zeros() }
+        let (gain, most) = (gain.vector(), most.vector());
+        Self { gain, per_step: gain * step_s, most, value: Vector3::zeros() }
     }
 
-    /// The contribution, after another step unless it is to hold.
-    fn step(&mut self, integrand: &Vector3<f32>, hold: bool) -> Vector3<f32> {
-        if !hold {
-            self.value = clamp_each(&(self.value + self.per_step.component_mul(integrand)), &self.most);
+    /// The contribution after another step, unless it is to hold; and the gain with which each axis integrates there,
+    /// none where it holds or is at its bound.
+    fn step(&mut self, integrand: &Vector3<f32>, hold: bool) -> (Vector3<f32>, Vector3<f32>) {
+        if hold {
+            return (self.value, Vector3::zeros());
         }
-        self.value
+        let free = self.value + self.per_step.component_mul(integrand);
+        self.value = clamp_each(&free, &self.most);
+        let moves = free.zip_map(&self.most, |free, most| if math::abs(free) <= most { 1.0 } else { 0.0 });
+        (self.value, self.gain.component_mul(&moves))
     }
 }
 
@@ -107,7 +114,6 @@ pub struct GeometricPosition {
     gravity: f32,
     kx: Vector3<f32>,
     kv: Vector3<f32>,
-    ki: Vector3<f32>,
     c1: f32,
     integral: BoundedIntegral,
     jerk: Difference,
@@ -121,7 +127,6 @@ impl GeometricPosition {
             gravity: airframe.gravity_m_s2,
             kx: gains.position_1_s2.vector(),
             kv: gains.velocity_1_s.vector(),
-            ki: ki.vector(),
             c1: gains.position_integral_c1_1_s,
             integral: BoundedIntegral::new(ki, most, OUTER_STEP_S),
             jerk: Difference::new(OUTER_STEP_S),
@@ -143,15 +148,15 @@ impl PositionLaw for GeometricPosition {
             feedback(&error_acceleration, &error_jerk),
         );
         let integrand = error_rate + error * self.c1;
-        let integral = self.integral.step(&integrand, input.limited);
-        let integral_rate = self.ki.component_mul(&integrand);
+        let integrand_rate = error_acceleration + error_rate * self.c1;
+        let (integral, ki) = self.integral.step(&integrand, input.limited);
         let gravity = Vector3::new(0.0, 0.0, self.gravity);
         PositionDemand {
             s: Vector3::zeros(),
             profile: ForceProfile {
                 force: reference.acceleration + gravity + value + integral,
-                rate: reference.jerk + rate + integral_rate,
-                acceleration: reference.snap + acceleration,
+                rate: reference.jerk + rate + ki.component_mul(&integrand),
+                acceleration: reference.snap + acceleration + ki.component_mul(&integrand_rate),
             },
         }
     }
@@ -207,7 +212,7 @@ impl GeometricAttitude {
 impl AttitudeLaw for GeometricAttitude {
     fn step(&mut self, input: &AttitudeInput) -> AttitudeDemand {
         let e = errors(input.attitude, input.rates, input.target);
-        let integral = self.integral.step(&(e.rate + e.rotation * self.c2), input.saturated);
+        let (integral, _) = self.integral.step(&(e.rate + e.rotation * self.c2), input.saturated);
         let feedback = self.kr.component_mul(&e.rotation) + self.kw.component_mul(&e.rate) + integral;
         let acceleration = e.feedforward - feedback;
         let gyroscopic = input.rates.cross(&self.inertia.component_mul(input.rates));
@@ -222,13 +227,24 @@ impl AttitudeLaw for GeometricAttitude {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::baseline::tests::{airframe, attitudes, hover_speeds, input, tuning};
-    use crate::controller::Controller;
+    use crate::baseline::tests::{airframe, attitudes, hover_speeds, input};
     use firmware::signals::FlatReference;
 
+    /// By hand for the x500.
     fn gains() -> Geometric {
-        let Controller::Geometric(gains) = tuning("x500-geometric") else { panic!("another controller") };
-        gains
+        Geometric {
+            tilt_max_rad: 1.2,
+            position_1_s2: AxisPair { xy: 8.0, z: 12.0 },
+            velocity_1_s: AxisPair { xy: 5.0, z: 6.0 },
+            position_integral_1_s2: AxisPair { xy: 1.5, z: 3.0 },
+            position_integral_c1_1_s: 1.5,
+            position_integral_max_m_s2: AxisPair { xy: 4.0, z: 4.0 },
+            attitude_1_s2: AxisPair { xy: 250.0, z: 12.0 },
+            rate_1_s: AxisPair { xy: 25.0, z: 6.0 },
+            attitude_integral_1_s2: AxisPair { xy: 20.0, z: 2.0 },
+            attitude_integral_c2_1_s: 3.0,
+            attitude_integral_max_rad_s2: AxisPair { xy: 40.0, z: 4.0 },
+        }
     }
 
     fn without_integrals() -> Geometric {
@@ -298,26 +314,38 @@ mod tests {
         (reference.cast(), is.cast())
     }
 
-    fn profile_at(law: &mut GeometricPosition, t: f64) -> ForceProfile {
+    fn profile_at(law: &mut GeometricPosition, t: f64, limited: bool) -> ForceProfile {
         let [(r, x), (r1, v), (r2, a), (r3, _), (r4, _)] = [0, 1, 2, 3, 4].map(|k| motion(t, k));
         let standing = FlatReference::standing(r, 0.0);
         let reference = FlatReference { velocity: r1, acceleration: r2, jerk: r3, snap: r4, ..standing };
-        let input =
-            PositionInput { reference: &reference, position: &x, velocity: &v, acceleration: &a, limited: false };
+        let input = PositionInput { reference: &reference, position: &x, velocity: &v, acceleration: &a, limited };
         law.step(&input).profile
     }
 
     #[test]
     fn the_derivatives_of_the_force_are_its_derivatives() {
-        for start in [0.3, 2.0, 7.0] {
-            let mut law = GeometricPosition::new(&airframe(), &without_integrals());
-            let h = f64::from(OUTER_STEP_S);
-            let [before, now, after] = [-h, 0.0, h].map(|dt| profile_at(&mut law, start + dt));
-            let rate = (after.force - before.force) / (2.0 * OUTER_STEP_S);
-            let acceleration = (after.rate - before.rate) / (2.0 * OUTER_STEP_S);
-            // f32: 2e-6 of 20 m/s² over 8 ms; the jerk is a difference, half a job late: kv·snap·2 ms = 0.05.
-            assert!((rate - now.rate).norm() < 1e-2, "{rate} {}", now.rate);
-            assert!((acceleration - now.acceleration).norm() < 0.1, "{acceleration} {}", now.acceleration);
+        let quick = AxisPair { xy: 6.0, z: 12.0 };
+        let bounded = AxisPair { xy: 1e-3, z: 4.0 };
+        let with_integrals = Geometric { position_integral_1_s2: quick, ..gains() };
+        let some_at_their_bounds = Geometric { position_integral_max_m_s2: bounded, ..with_integrals };
+        for (gains, limited) in [
+            (without_integrals(), false),
+            (with_integrals, false),
+            (with_integrals, true),
+            (some_at_their_bounds, false),
+        ] {
+            for start in [0.3, 2.0, 7.0] {
+                let mut law = GeometricPosition::new(&airframe(), &gains);
+                let h = f64::from(OUTER_STEP_S);
+                let [_, before, now, after] =
+                    [-2.0 * h, -h, 0.0, h].map(|dt| profile_at(&mut law, start + dt, limited));
+                let rate = (after.force - before.force) / (2.0 * OUTER_STEP_S);
+                let acceleration = (after.rate - before.rate) / (2.0 * OUTER_STEP_S);
+                // f32: 2e-6 of 20 m/s² over 8 ms; the integral is a sum, half a job ahead: ki (ë + c1 ė)·2 ms = 0.03;
+                // the jerk is a difference, half a job late: kv·snap·2 ms = 0.05.
+                assert!((rate - now.rate).norm() < 0.04, "{rate} {}", now.rate);
+                assert!((acceleration - now.acceleration).norm() < 0.1, "{acceleration} {}", now.acceleration);
+            }
         }
     }
 
@@ -330,10 +358,13 @@ mod tests {
         }
         assert!((integral.value - Vector3::new(0.2, -0.2, 0.05)).norm() < 1e-5, "{}", integral.value);
         let before = integral.value;
-        assert_eq!(integral.step(&integrand, true), before);
+        assert_eq!(integral.step(&integrand, true), (before, Vector3::zeros()));
         for _ in 0..1_000 {
             integral.step(&integrand, false);
         }
         assert_eq!(integral.value.xy(), nalgebra::Vector2::new(0.5, -0.5));
+        // At its bound it moves no further, and moves back at once.
+        assert_eq!(integral.step(&integrand, false).1, Vector3::new(0.0, 0.0, 1.0));
+        assert_eq!(integral.step(&-integrand, false).1, Vector3::new(2.0, 2.0, 1.0));
     }
 }

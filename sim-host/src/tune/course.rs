@@ -8,7 +8,7 @@ use super::COURSES;
 use crate::controller::Controller;
 use crate::flight;
 use crate::matrix::{Case, Matrix};
-use crate::record::{Recorder, Row};
+use crate::record::{LOST_M, Recorder, Row};
 use crate::report::measures::Size;
 use crate::report::metrics::errors;
 use crate::scenario::{self, Scenario};
@@ -62,7 +62,7 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// The distance at which a vehicle is lost bounds a survived flight's cost; so does a floor its gain.
+    /// Refuses what is no weight, and a lost flight that is cheaper than one that survives may be.
     fn validate(&self) -> Result<()> {
         for (key, weight) in [
             ("rms", self.rms),
@@ -75,7 +75,23 @@ impl Weights {
             ensure!(weight.is_finite() && weight >= 0.0, "`cost.{key}` must be a number not below 0, not {weight}");
         }
         ensure!((1e-6..=1.0).contains(&self.floor), "`cost.floor` must be between 1e-6 and 1, not {}", self.floor);
+        let most = self.survived_max();
+        ensure!(
+            self.lost > most,
+            "`cost.lost` must be above {most:.2}, what the other weights can make of a survived flight, not {}",
+            self.lost
+        );
         Ok(())
+    }
+
+    /// The most that a survived flight can cost: as far away as a vehicle gets before it is lost (a heading is never as
+    /// wrong in rad), never settled, always saturated, and worse chattering than any rotor's.
+    fn survived_max(&self) -> f64 {
+        const VARIATION_MAX: f64 = 1e9;
+        (self.rms + self.yaw) * libm::log(LOST_M * 3.0_f64.sqrt() + self.floor)
+            + self.settling
+            + self.saturation
+            + self.chattering * libm::log1p(VARIATION_MAX)
     }
 
     /// Cost of gains that the controller refuses.
@@ -269,6 +285,21 @@ mod tests {
         assert_eq!([0.0, 5.0, 10.0].map(lost), [20.0, 15.0, 10.0]);
         assert!(WEIGHTS.of(&score(50.0), 0.0, &TIMING) < lost(10.0));
         assert_eq!(WEIGHTS.of(&score(1e300), 0.0, &TIMING), 10.0);
+    }
+
+    #[test]
+    fn a_loss_that_may_be_cheaper_than_a_survival_is_refused() {
+        // ln(50 √3) = 4.46; ln 1e9 = 20.7.
+        for (weights, most) in [
+            (WEIGHTS, 4.46),
+            (Weights { yaw: 1.0, ..WEIGHTS }, 8.92),
+            (Weights { settling: 2.0, saturation: 1.0, ..WEIGHTS }, 7.46),
+            (Weights { chattering: 0.2, ..WEIGHTS }, 8.61),
+        ] {
+            assert!(Weights { lost: most + 0.01, ..weights }.validate().is_ok(), "{most}");
+            let error = Weights { lost: most - 0.01, ..weights }.validate().expect_err("too cheap").to_string();
+            assert!(error.contains("`cost.lost`") && error.contains(&format!("{most}")), "{error}");
+        }
     }
 
     #[test]

@@ -152,6 +152,16 @@ impl Space {
         controller(self.table(point)?)
     }
 
+    /// The base's controller with one parameter, of number `index`, at `x` in 0 ..= 1 and the others left as they are.
+    ///
+    /// # Errors
+    /// None for a parameter of the space.
+    pub fn with_one(&self, index: usize, x: f64) -> Result<Controller> {
+        let mut table = self.base.clone();
+        self.parameters.iter().skip(index).take(1).try_for_each(|parameter| set(&mut table, parameter, x))?;
+        controller(table)
+    }
+
     /// The tuning file at a point, with another summary.
     ///
     /// # Errors
@@ -164,13 +174,17 @@ impl Space {
 
     fn table(&self, point: &[f64]) -> Result<Table> {
         let mut table = self.base.clone();
-        for (parameter, x) in self.parameters.iter().zip(point) {
-            for (key, value) in parameter.settings(*x) {
-                *number(&mut table, key)? = Value::Float(value);
-            }
-        }
+        self.parameters.iter().zip(point).try_for_each(|(parameter, x)| set(&mut table, parameter, *x))?;
         Ok(table)
     }
+}
+
+/// Puts a parameter's value at `x` into all its keys.
+fn set(table: &mut Table, parameter: &Parameter, x: f64) -> Result<()> {
+    parameter.settings(x).try_for_each(|(key, value)| {
+        *number(table, key)? = Value::Float(value);
+        Ok(())
+    })
 }
 
 fn controller(table: Table) -> Result<Controller> {
