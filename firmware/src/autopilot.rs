@@ -265,7 +265,7 @@ impl Autopilot {
     /// The first field of the configuration that is out of its range.
     pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
         config.validate()?;
-        let attitude = SlidingAttitude::new(config);
+        let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
         let position = SlidingPosition::new(&config.airframe, &config.position);
         Self::with_laws(config, attitude, position)
     }

@@ -5,7 +5,6 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
-use crate::control::law::AttitudeTarget;
 use crate::math;
 
 /// Number of the inner loop's tick, [`TICK_US`] apart, counted from boot.
@@ -108,6 +107,17 @@ impl FlatReference {
             yaw_acceleration: 0.0,
         }
     }
+}
+
+/// The attitude to follow, now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AttitudeTarget {
+    /// Desired body to world.
+    pub attitude: UnitQuaternion<f32>,
+    /// Desired Ωd, in the desired body's frame, rad/s.
+    pub rates: Vector3<f32>,
+    /// Its derivative in the same frame, Ω̇d, rad/s².
+    pub accelerations: Vector3<f32>,
 }
 
 /// What the outer loop asks of the inner: an attitude with two derivatives, and the thrust.

@@ -39,7 +39,7 @@ pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
 pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Flight<P>> {
     scenario.controller.require_smc("this command")?;
     let config = scenario.flight_config();
-    let attitude = SlidingAttitude::new(&config);
+    let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
     let position = SlidingPosition::new(&config.airframe, &config.position);
     with_laws(scenario, seed, plant, attitude, position)
 }

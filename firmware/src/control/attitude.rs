@@ -10,14 +10,13 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::airframe::Airframe;
-use crate::config::FlightConfig;
 use crate::control::euler::{Euler, EulerReference};
-use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, AttitudeTarget};
+use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw};
 use crate::control::observer::{DisturbanceObserver, ObserverGains};
 use crate::control::pointing::PointingError;
 use crate::control::sliding::{AxisGains, SlidingAxis};
 use crate::math;
-use crate::signals::TICK_S;
+use crate::signals::{AttitudeTarget, TICK_S};
 use crate::validate::ConfigError;
 
 /// In which coordinates the surfaces are.
@@ -68,9 +67,8 @@ pub struct SlidingAttitude {
 }
 
 impl SlidingAttitude {
-    /// With the gains and the airframe of a valid configuration.
-    pub fn new(config: &FlightConfig) -> Self {
-        let (airframe, gains) = (&config.airframe, &config.attitude);
+    /// With valid gains.
+    pub fn new(airframe: &Airframe, gains: &AttitudeGains) -> Self {
         let observer = gains.observer;
         Self {
             airframe: *airframe,

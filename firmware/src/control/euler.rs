@@ -5,8 +5,8 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use crate::control::law::AttitudeTarget;
 use crate::math;
+use crate::signals::AttitudeTarget;
 
 /// Euler angles φ, θ, ψ, with `R = Rz(ψ)·Ry(θ)·Rx(φ)`, as the sines and cosines that the laws need.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,8 +8,8 @@
 use nalgebra::Vector3;
 
 use crate::control::euler::Euler;
-use crate::control::law::AttitudeTarget;
 use crate::math;
+use crate::signals::AttitudeTarget;
 
 /// A specific force, m/s², with two derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]

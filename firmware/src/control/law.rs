@@ -8,18 +8,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
 use crate::control::flatness::ForceProfile;
-use crate::signals::FlatReference;
-
-/// The attitude to follow, now.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AttitudeTarget {
-    /// Desired body to world.
-    pub attitude: UnitQuaternion<f32>,
-    /// Desired Ωd, in the desired body's frame, rad/s.
-    pub rates: Vector3<f32>,
-    /// Its derivative in the same frame, Ω̇d, rad/s².
-    pub accelerations: Vector3<f32>,
-}
+use crate::signals::{AttitudeTarget, FlatReference};
 
 /// What rotors do to the body by their speeds, and by changing them.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! The linear response of a control law, measured on the law itself: a sinusoid of small amplitude on one of its inputs,
 //! the others at rest, once up and once down.
 
-use firmware::control::law::{AttitudeInput, AttitudeLaw, AttitudeTarget, PositionInput, PositionLaw, RotorEffect};
-use firmware::signals::{FlatReference, TICK_S_EXACT};
+use firmware::control::law::{AttitudeInput, AttitudeLaw, PositionInput, PositionLaw, RotorEffect};
+use firmware::signals::{AttitudeTarget, FlatReference, TICK_S_EXACT};
 use nalgebra::{Complex, Quaternion, UnitQuaternion, Vector3};
 
 use super::sine::Schedule;

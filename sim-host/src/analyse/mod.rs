@@ -167,7 +167,7 @@ pub fn analyse(scenario: &Scenario, seed: u64) -> Result<Analysis> {
     let (config, airframe) = (hover.flight_config(), hover.airframe.flight());
     match &hover.controller {
         Controller::Smc(_) => {
-            let attitude = SlidingAttitude::new(&config);
+            let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
             of_laws(&hover, seed, &attitude, &SlidingPosition::new(&airframe, &config.position))
         }
         Controller::Pid(gains) => {

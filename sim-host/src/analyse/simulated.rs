@@ -3,7 +3,8 @@
 use std::cell::RefCell;
 
 use anyhow::Result;
-use firmware::control::law::{AttitudeLaw, AttitudeTarget, PositionLaw};
+use firmware::control::law::{AttitudeLaw, PositionLaw};
+use firmware::signals::AttitudeTarget;
 use nalgebra::{Complex, Vector3, Vector4};
 
 use super::law::turn;

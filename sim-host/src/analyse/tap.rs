@@ -3,9 +3,8 @@
 use std::cell::RefCell;
 use std::collections::VecDeque;
 
-use firmware::control::law::{
-    AttitudeDemand, AttitudeInput, AttitudeLaw, AttitudeTarget, PositionDemand, PositionInput, PositionLaw,
-};
+use firmware::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, PositionDemand, PositionInput, PositionLaw};
+use firmware::signals::AttitudeTarget;
 
 use crate::noise::White;
 

@@ -14,11 +14,9 @@
 use anyhow::Result;
 use firmware::airframe::Airframe;
 use firmware::control::flatness::ForceProfile;
-use firmware::control::law::{
-    AttitudeDemand, AttitudeInput, AttitudeLaw, AttitudeTarget, PositionDemand, PositionInput, PositionLaw,
-};
+use firmware::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, PositionDemand, PositionInput, PositionLaw};
 use firmware::math;
-use firmware::signals::TICK_S;
+use firmware::signals::{AttitudeTarget, TICK_S};
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,8 @@
 //! What the tests of the three controllers share, and their flights.
 
 use firmware::airframe::{Airframe, ROTORS};
-use firmware::control::law::{AttitudeInput, AttitudeTarget, RotorEffect};
+use firmware::control::law::{AttitudeInput, RotorEffect};
+use firmware::signals::AttitudeTarget;
 use nalgebra::UnitQuaternion;
 
 use super::*;

@@ -150,7 +150,7 @@ impl Flight {
         Ok(Self {
             counter,
             counts: Counts::default(),
-            inner: Inner::new(&config, SlidingAttitude::new(&config))?,
+            inner: Inner::new(&config, SlidingAttitude::new(&config.airframe, &config.attitude))?,
             outer: Outer::new(&config, SlidingPosition::new(airframe, &config.position))?,
             guidance: Guidance::new(config.trajectory, config.join.as_ref(), config.start_position())?,
             mixer: Mixer::new(&airframe.geometry.rows(), airframe.omega_max_rad_s)
