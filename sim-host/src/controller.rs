@@ -1,5 +1,9 @@
 //! Controllers that can be flown, with their gains, as they stand in a tuning file.
 
+mod smc;
+
+pub use smc::Control;
+
 use anyhow::{Result, bail, ensure};
 use firmware::config::FlightConfig;
 use serde::{Deserialize, Serialize};
@@ -8,7 +12,7 @@ use toml::{Table, Value};
 use crate::baseline::geometric::Geometric;
 use crate::baseline::indi::Indi;
 use crate::baseline::pid::Pid;
-use crate::scenario::{self, Control};
+use crate::files::one_line;
 
 /// A controller and its gains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,7 +55,7 @@ impl TryFrom<Table> for TuningFile {
         if let Some(second) = table.keys().nth(1) {
             bail!("`{second}` is a second controller: keep one table of {choices}");
         }
-        let controller = Controller::deserialize(Value::Table(table)).map_err(|error| scenario::one_line(&error))?;
+        let controller = Controller::deserialize(Value::Table(table)).map_err(|error| one_line(&error))?;
         Ok(Self { summary, controller })
     }
 }
@@ -152,7 +156,7 @@ mod tests {
     #[test]
     fn every_controller_is_known_by_its_name() {
         for name in ["x500-smc", "x500-pid", "x500-geometric", "x500-indi"] {
-            let controller = scenario::tuning(name).expect("built in").controller;
+            let controller = crate::scenario::tuning(name).expect("built in").controller;
             assert!(Controller::NAMES.contains(&controller.name()) && name.ends_with(controller.name()), "{name}");
         }
     }

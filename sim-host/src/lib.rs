@@ -12,6 +12,7 @@ pub mod cli;
 pub mod compare;
 pub mod controller;
 pub mod decoupled;
+mod files;
 pub mod flight;
 pub mod link;
 pub mod matrix;

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 
-use crate::scenario::{self, Scenario, built_in};
+use crate::files::{self, built_in};
+use crate::scenario::Scenario;
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
 
@@ -96,7 +97,7 @@ impl Matrix {
     /// # Errors
     /// One line that names the matrix or file, the key, and what is wrong with it.
     pub fn load(name: &str, settings: &[String]) -> Result<Self> {
-        let file: MatrixFile = scenario::read(name, "matrix", &MATRICES)?;
+        let file: MatrixFile = files::read(name, "matrix", &MATRICES)?;
         file.validate().with_context(|| format!("matrix `{name}`"))?;
         Ok(Self { name: name.to_owned(), file, settings: settings.to_vec() })
     }

@@ -1,30 +1,17 @@
 //! Scenarios: what to fly, typed. Built into the binary, or read from a file; every key can be set from outside.
 
-mod control;
 mod validate;
 mod world;
-
-pub use control::Control;
-
-use std::path::Path;
 
 use anyhow::{Context, Result, anyhow, bail};
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::{JoinPlan, Trajectory};
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::airframe::AirframeFile;
-use crate::controller::{Controller, TuningFile};
+use crate::controller::{Control, Controller, TuningFile};
+use crate::files::{built_in, one_line, parse, read, source};
 pub use world::{Truth, Tumble, Wind};
-
-/// Files of a folder that are built in, by name.
-macro_rules! built_in {
-    ($folder:literal: $($name:literal),+ $(,)?) => {
-        [$(($name, include_str!(concat!("../", $folder, "/", $name, ".toml")))),+]
-    };
-}
-pub(crate) use built_in;
 
 /// Scenarios that come with the binary, in the order in which they are listed.
 const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
@@ -281,13 +268,6 @@ pub fn tuning(name: &str) -> Result<TuningFile> {
     read(name, "tuning", &TUNINGS)
 }
 
-/// A built-in file, or the file at a path, as what it describes.
-pub(crate) fn read<T: DeserializeOwned>(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<T> {
-    let context = || format!("{kind} `{name}`");
-    let table = parse(&source(name, kind, built_in)?).with_context(context)?;
-    table.try_into().map_err(|error| one_line(&error)).with_context(context)
-}
-
 /// The controller that a scenario asks for.
 fn controller(file: &ScenarioFile) -> Result<Controller> {
     let own = format!("{}-smc", file.airframe);
@@ -305,30 +285,6 @@ fn moves_the_bound(setting: &str) -> bool {
     let key = setting.split(['=', '.']).next().unwrap_or_default();
     let start = key.starts_with("start_") || key == "tumble";
     start || matches!(key, "airframe" | "thrust_to_weight" | "truth" | "wind" | "trajectory" | "plant")
-}
-
-/// Text of a built-in file, or of the file at a path.
-fn source(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String> {
-    if let Some((_, text)) = built_in.iter().find(|(known, _)| *known == name) {
-        return Ok((*text).to_owned());
-    }
-    if name.contains('/') || Path::new(name).extension().is_some_and(|extension| extension == "toml") {
-        return std::fs::read_to_string(name).with_context(|| format!("cannot read {kind} file `{name}`"));
-    }
-    let known: Vec<&str> = built_in.iter().map(|(name, _)| *name).collect();
-    bail!("unknown {kind} `{name}`: use one of {}, or a file's path", known.join(", "))
-}
-
-fn parse(text: &str) -> Result<toml::Table> {
-    text.parse::<toml::Table>().map_err(|error| {
-        let line = error.span().map_or(0, |span| text[..span.start].lines().count().max(1));
-        anyhow!("line {line}: {}", error.message().replace('\n', " "))
-    })
-}
-
-/// A TOML error in one line, with the key it is about.
-pub(crate) fn one_line(error: &toml::de::Error) -> anyhow::Error {
-    anyhow!("{}", error.to_string().trim().replace('\n', ", "))
 }
 
 fn split_setting(setting: &str) -> Result<(&str, toml::Value)> {

@@ -29,7 +29,8 @@ pub use space::{Parameter, Scale, Space};
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 
-use crate::scenario::{self, TUNINGS, built_in};
+use crate::files::{self, built_in};
+use crate::scenario::TUNINGS;
 
 /// Tunes that come with the binary.
 const TUNES: [(&str, &str); 4] = built_in!("tunes": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
@@ -69,8 +70,8 @@ impl Tune {
     /// One line that names the file, the key, and what is wrong with it.
     pub fn load(name: &str) -> Result<Self> {
         let context = || format!("tune `{name}`");
-        let file: TuneFile = scenario::read(name, "tune", &TUNES)?;
-        let base = scenario::read(&file.base, "tuning", &TUNINGS).with_context(context)?;
+        let file: TuneFile = files::read(name, "tune", &TUNES)?;
+        let base = files::read(&file.base, "tuning", &TUNINGS).with_context(context)?;
         let space = Space::new(&file.base, base, file.parameters).with_context(context)?;
         let course = Course::load(&file.course).with_context(context)?;
         course.require_flyable(&space.base_controller()?).with_context(context)?;

@@ -6,12 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use super::COURSES;
 use crate::controller::Controller;
+use crate::files;
 use crate::flight;
 use crate::matrix::{Case, Matrix};
 use crate::record::{LOST_M, Recorder, Row};
 use crate::report::measures::Size;
 use crate::report::metrics::errors;
-use crate::scenario::{self, Scenario};
+use crate::scenario::Scenario;
 use crate::score::{Score, Scorer, counts_from_s};
 use crate::seeds::Seeds;
 
@@ -190,7 +191,7 @@ impl Course {
     /// One line that names the file, the key, and what is wrong with it: a scenario or a disturbance that the matrix does
     /// not have, or a seed that it judges with.
     pub fn load(name: &str) -> Result<Self> {
-        let file: CourseFile = scenario::read(name, "course", &COURSES)?;
+        let file: CourseFile = files::read(name, "course", &COURSES)?;
         let context = || format!("course `{name}`");
         file.cost.validate().with_context(context)?;
         let sorties = file.sorties().with_context(context)?;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use crate::controller::{Controller, TuningFile};
-use crate::scenario;
+use crate::files;
 
 /// How a range is divided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -188,7 +188,7 @@ fn set(table: &mut Table, parameter: &Parameter, x: f64) -> Result<()> {
 }
 
 fn controller(table: Table) -> Result<Controller> {
-    let file: TuningFile = table.try_into().map_err(|error| scenario::one_line(&error))?;
+    let file: TuningFile = table.try_into().map_err(|error| files::one_line(&error))?;
     Ok(file.controller)
 }
 
@@ -218,7 +218,7 @@ mod tests {
         Space::new("x500-smc", BASE.parse().expect("TOML"), parameters)
     }
 
-    fn smc(space: &Space, point: &[f64]) -> scenario::Control {
+    fn smc(space: &Space, point: &[f64]) -> crate::controller::Control {
         match space.controller(point).expect("a controller") {
             Controller::Smc(control) => control,
             other => panic!("{}", other.name()),
