@@ -322,7 +322,7 @@ mod tests {
 
     #[test]
     fn gains_that_are_refused_cost_more_than_any_flight() {
-        let Controller::Smc(mut control) = scenario::tuning("x500-smc").expect("built in").controller else {
+        let Controller::Smc(mut control) = crate::scenario::tuning("x500-smc").expect("built in").controller else {
             panic!("another controller")
         };
         control.x.lambda = -1.0;
