@@ -97,11 +97,11 @@ fn a_gaussian_disturbance_of_the_papers_kind_is_out_of_the_band_for_less_than_20
         for recovery in [recovery.x, recovery.y, recovery.z, recovery.yaw] {
             assert!(recovery.is_some_and(|seconds| seconds < 0.2), "seed {seed}: {recovery:?}");
         }
-        // Roll and pitch follow what the position loop makes of the noise: never 10° off, and within 2° 0.2 s after it.
+        // Roll and pitch follow what the position loop makes of the noise: never 10° off, and within 3° 0.2 s after it.
         let off = |row: &Row| angle_errors(row)[..2].iter().fold(0.0_f64, |most, e| most.max(e.abs())).to_degrees();
         let worst = rows.iter().map(off).fold(0.0, f64::max);
         let after = rows.iter().filter(|row| row.t > 7.2).map(off).fold(0.0, f64::max);
-        assert!(worst < 10.0 && after < 2.0, "seed {seed}: {worst} {after}");
+        assert!(worst < 10.0 && after < 3.0, "seed {seed}: {worst} {after}");
     }
 }
 

@@ -21,7 +21,8 @@ pub enum ReachingLaw {
     /// remaining error. Sampled every h seconds it chatters by K h.
     Sgn,
     /// `K sat(s/ρ)`: sgn outside a boundary layer of half-width ρ, linear inside. K > D: V̇ < 0 for |s| > ρ D/K, which is
-    /// the error that remains. Sampled every h seconds it needs ρ ≥ K h, or it chatters as sgn does.
+    /// the error that remains. Sampled every h seconds it needs ρ ≥ K h not to overshoot, and ρ > K h/2 not to chatter as
+    /// sgn does.
     Sat {
         /// Half-width ρ of the boundary layer, in units of s.
         rho: f32,
@@ -32,7 +33,8 @@ pub enum ReachingLaw {
         rho: f32,
     },
     /// `K |s|^α sgn(s)`, 0 < α < 1 (the power-rate law): reaches s = 0 in |s0|^(1−α)/((1−α)K) without a jump; V̇ < 0 for
-    /// |s| > (D/K)^(1/α). Its power is good to 12 %, which moves these figures by as much.
+    /// |s| > (D/K)^(1/α). Its power is good to 12 %, which moves the time by as much and the
+    /// error by 12 %/α.
     Power {
         /// Exponent α.
         alpha: f32,
