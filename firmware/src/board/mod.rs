@@ -5,7 +5,8 @@
 //! still, `host` for processor in the loop. Each drivers module has the same items: `start`, `answer` and `stopped`,
 //! and the types `Imu`, `Rotors` and `Diagnostics`. [`fault`] stops the rotors when nothing else is sure.
 //!
-//! The only module of the crate with `unsafe` code; each block says why it is sound.
+//! Beside the square root's instruction in `math`, the only module of the crate with `unsafe` code; each block says why
+//! it is sound.
 
 #[cfg(feature = "pil")]
 pub mod counter;
