@@ -4,9 +4,9 @@
 //! and z at the specific force with its two derivatives, between position law and flatness, the attitude loops closed. All
 //! is sampled: z = e^(jωh) with h = 1 ms, and 4 ms for the position laws.
 //!
-//! **The law** is the one that flies. Its gains C at ω are measured on it ([`law`]): a small sinusoid on one input, the
+//! **The law** is the one that flies. Its gains C at ω are measured on it (`law`): a small sinusoid on one input, the
 //! others at rest, and the least-squares fit of its output. Where a law is not linear that is its describing function.
-//! **The vehicle** is analytic, in f64 ([`chain`], [`vehicle`]): rotor lag, rigid body and drag with the command held for a
+//! **The vehicle** is analytic, in f64 (`chain`, `vehicle`): rotor lag, rigid body and drag with the command held for a
 //! tick; D is the command for a demand (the firmware's lead) with the actuation delay, R what the firmware believes the
 //! rotors' speeds to give (that spinning them up turns the body is Cω's), X the motion for a torque.
 //!
@@ -23,7 +23,7 @@
 //! such products, a 3 × 3 matrix, and L its largest eigenvalue: near the crossover the only one that is not zero. What
 //! couples the axes is left out: about a level hover it is of second order, unless the rotors are not alike.
 //!
-//! **The simulation** is the whole firmware on the nonlinear plant ([`simulated`]), with a [tap](tap) on the law: a
+//! **The simulation** is the whole firmware on the nonlinear plant (`simulated`), with a tap on the law: a
 //! sinusoid there measures L, a gain or a delay there shows where the loop really becomes unstable.
 
 pub mod chain;
