@@ -76,10 +76,16 @@ impl RotorGeometry {
     }
 }
 
-/// A row of B times squared speeds.
+/// The sum of one number a rotor times another.
 #[inline]
-fn product(row: &[f32; ROTORS], square: &[f32; ROTORS]) -> f32 {
-    row.iter().zip(square).map(|(b, square)| b * square).reduce(|a, b| a + b).unwrap_or(0.0)
+fn product(one: &[f32; ROTORS], other: &[f32; ROTORS]) -> f32 {
+    one.iter().zip(other).map(|(a, b)| a * b).reduce(|a, b| a + b).unwrap_or(0.0)
+}
+
+/// Ωr (rad/s) of rotors that spin in these senses at these speeds.
+#[inline]
+pub fn spin_rad_s(senses: &[f32; ROTORS], omega_rad_s: &[f32; ROTORS]) -> f32 {
+    product(senses, omega_rad_s)
 }
 
 impl Airframe {
@@ -131,7 +137,7 @@ impl Airframe {
     /// Ωr, the sum of the rotors' spins about +z (Eq. 2): −ω1 + ω2 − ω3 + ω4 on the plus layout.
     #[inline]
     pub fn rotor_spin_rad_s(&self, omega_rad_s: &[f32; ROTORS]) -> f32 {
-        self.rotor_senses().iter().zip(omega_rad_s).map(|(sense, omega)| sense * omega).sum()
+        spin_rad_s(&self.rotor_senses(), omega_rad_s)
     }
 
     /// The sense, ±1, in which each rotor spins about +z: one that pushes the body towards +ψ spins the other way.

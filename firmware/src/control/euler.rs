@@ -146,14 +146,4 @@ impl EulerReference {
         let accelerations = euler.accelerations(&rates, &target.accelerations);
         Self { angles: euler.angles(), rates, accelerations }
     }
-
-    /// As a target on the rotation group; for |φ|, |θ| < 90°.
-    pub fn to_target(&self) -> AttitudeTarget {
-        let euler = Euler::from_angles(self.angles);
-        AttitudeTarget {
-            attitude: euler.to_quaternion(math::sin_cos(0.5 * self.angles.z)),
-            rates: euler.body_rates(&self.rates),
-            accelerations: euler.body_acceleration(&self.rates, &self.accelerations),
-        }
-    }
 }

@@ -189,8 +189,7 @@ where
     ///
     /// # Errors
     /// [`MixerError::NonFinite`] with the demand's field; nothing is allocated then.
-    // A call would put the demand and the speeds into memory.
-    #[allow(clippy::inline_always)]
+    #[expect(clippy::inline_always, reason = "measured: a call would put the demand and the speeds into memory")]
     #[inline(always)]
     pub fn allocate(&self, demand: &ControlInput) -> Result<Allocation<N>, MixerError> {
         let omega_sq = self.speeds(demand);

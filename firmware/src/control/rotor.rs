@@ -12,7 +12,7 @@
 //! The model is fed with the limited command, so nothing winds up. [`YawInversion`] does the same for the torque with
 //! which rotors that spin up turn the body.
 
-use crate::airframe::{Airframe, ROTORS, RotorGeometry};
+use crate::airframe::{Airframe, ROTORS, RotorGeometry, spin_rad_s};
 use crate::control::law::RotorEffect;
 use crate::math;
 use crate::signals::TICK_S;
@@ -96,7 +96,7 @@ impl RotorTorque {
     /// At speeds (rad/s) that do not change.
     pub fn steady(&self, omega_rad_s: &[f32; ROTORS]) -> RotorEffect {
         let torque = self.geometry.torque(omega_rad_s);
-        RotorEffect { torque, yaw_n_m: torque.z, spin_rad_s: self.spin(omega_rad_s) }
+        RotorEffect { torque, yaw_n_m: torque.z, spin_rad_s: spin_rad_s(&self.senses, omega_rad_s) }
     }
 
     /// At these speeds, a tick after they had the effect `before`.
@@ -104,16 +104,10 @@ impl RotorTorque {
     pub fn after(&self, before: &RotorEffect, omega_rad_s: &[f32; ROTORS]) -> RotorEffect {
         let mut torque = self.geometry.torque(omega_rad_s);
         let yaw_n_m = torque.z;
-        let spin_rad_s = self.spin(omega_rad_s);
+        let spin_rad_s = spin_rad_s(&self.senses, omega_rad_s);
         // −Jr Ω̇r.
         torque.z -= self.reaction * (spin_rad_s - before.spin_rad_s);
         RotorEffect { torque, yaw_n_m, spin_rad_s }
-    }
-
-    #[inline]
-    fn spin(&self, omega_rad_s: &[f32; ROTORS]) -> f32 {
-        let spins = self.senses.iter().zip(omega_rad_s).map(|(sense, omega)| sense * omega);
-        spins.reduce(|a, b| a + b).unwrap_or(0.0)
     }
 }
 
