@@ -98,8 +98,8 @@ impl<A: AttitudeLaw> Inner<A> {
     #[inline]
     pub fn sense(&mut self, sample: Option<&SensorFrame>) {
         match sample {
-            Some(frame) if frame.nav.is_valid() => {
-                self.nav = frame.nav;
+            Some(SensorFrame::Motion(nav)) if nav.is_valid() => {
+                self.nav = *nav;
                 self.stale_ticks = 0;
             }
             other => {
@@ -124,7 +124,7 @@ impl<A: AttitudeLaw> Inner<A> {
         if armed {
             let age = tick.wrapping_sub(reference.valid_at).min(EXTRAPOLATED_AT_MOST);
             let nav = match sample {
-                Some(frame) if self.stale_ticks == 0 => &frame.nav,
+                Some(SensorFrame::Motion(nav)) if self.stale_ticks == 0 => nav,
                 _ => &self.nav,
             };
             let (attitude, rates) = (nav.attitude, nav.rates);

@@ -37,5 +37,6 @@ pub mod pil;
 pub mod rotors;
 pub mod schedule;
 pub mod selftest;
+pub mod sensors;
 pub mod signals;
 pub mod validate;

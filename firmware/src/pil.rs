@@ -140,7 +140,7 @@ impl Request {
     pub fn encode(&self) -> [u8; REQUEST_BYTES] {
         let mut words = Writer { words: [0; REQUEST_WORDS], at: 0 };
         match self {
-            Self::Sample(SensorFrame { nav }) => {
+            Self::Sample(SensorFrame::Motion(nav)) => {
                 let q = nav.attitude.quaternion();
                 words.put(0);
                 words.put_all(nav.position.as_ref());
@@ -148,7 +148,8 @@ impl Request {
                 words.put_all(&[q.w, q.i, q.j, q.k]);
                 words.put_all(nav.rates.as_ref());
             }
-            Self::Missing => words.put(1),
+            // Not yet flown with the processor in the loop.
+            Self::Sample(SensorFrame::Measured(_)) | Self::Missing => words.put(1),
             Self::Exit => words.put(2),
         }
         to_bytes(&words.words)
@@ -164,7 +165,7 @@ impl Request {
                 let [w, i, j, k] = words.numbers()?;
                 let attitude = UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k));
                 let rates = words.numbers::<3>()?.into();
-                Some(Self::Sample(SensorFrame { nav: NavState { position, velocity, attitude, rates } }))
+                Some(Self::Sample(SensorFrame::Motion(NavState { position, velocity, attitude, rates })))
             }
             1 => Some(Self::Missing),
             2 => Some(Self::Exit),
@@ -397,7 +398,7 @@ mod tests {
             attitude: UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k)),
             rates: numbers::<3>(4.0).into(),
         };
-        let bytes = Request::Sample(SensorFrame { nav }).encode();
+        let bytes = Request::Sample(SensorFrame::Motion(nav)).encode();
         // Compared as bytes: the sample holds a NaN.
         assert_eq!(Request::decode(&bytes).map(|request| request.encode()), Some(bytes));
         for request in [Request::Missing, Request::Exit] {

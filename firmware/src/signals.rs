@@ -6,6 +6,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
 use crate::math;
+use crate::sensors::Measurements;
 
 /// Number of the inner loop's tick, [`TICK_US`] apart, counted from boot.
 pub type Tick = u32;
@@ -52,11 +53,14 @@ impl NavState {
     }
 }
 
-/// What the sensors deliver for one tick. The ideal sensor delivers the state itself.
+/// What is delivered for one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SensorFrame {
-    /// The vehicle's motion at this tick.
-    pub nav: NavState,
+#[expect(clippy::large_enum_variant, reason = "one a tick, handed on by reference; there is no heap to put it on")]
+pub enum SensorFrame {
+    /// The vehicle's motion at this tick: what an ideal sensor gives, for comparing control laws.
+    Motion(NavState),
+    /// What sensors have measured.
+    Measured(Measurements),
 }
 
 /// Speeds the rotors are to turn at.

@@ -26,7 +26,7 @@ fn autopilot(config: &FlightConfig) -> Autopilot {
 }
 
 fn at(position: [f32; 3]) -> SensorFrame {
-    SensorFrame { nav: NavState { position: position.into(), ..NavState::at_rest() } }
+    SensorFrame::Motion(NavState { position: position.into(), ..NavState::at_rest() })
 }
 
 /// A sample for each number in it, spoilt by `bad`.
@@ -35,7 +35,7 @@ fn spoilt(bad: f32) -> Vec<SensorFrame> {
     let spoil = |f: &dyn Fn(&mut NavState)| {
         let mut nav = good;
         f(&mut nav);
-        SensorFrame { nav }
+        SensorFrame::Motion(nav)
     };
     let mut all = Vec::new();
     for i in 0..3 {
@@ -55,13 +55,11 @@ fn spoilt(bad: f32) -> Vec<SensorFrame> {
 
 #[test]
 fn a_sample_that_is_not_finite_is_refused_and_the_last_good_one_held() {
-    let tilted = SensorFrame {
-        nav: NavState {
-            attitude: UnitQuaternion::from_euler_angles(0.1, -0.05, 0.2),
-            rates: Vector3::new(0.3, 0.2, -0.1),
-            ..NavState::at_rest()
-        },
-    };
+    let tilted = SensorFrame::Motion(NavState {
+        attitude: UnitQuaternion::from_euler_angles(0.1, -0.05, 0.2),
+        rates: Vector3::new(0.3, 0.2, -0.1),
+        ..NavState::at_rest()
+    });
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for sample in spoilt(bad) {
             let (mut refusing, mut missing) = (autopilot(&in_flight()), autopilot(&in_flight()));
@@ -88,7 +86,7 @@ fn an_attitude_that_is_no_rotation_is_refused() {
         };
         let (mut refusing, mut missing) = (autopilot(&in_flight()), autopilot(&in_flight()));
         for _ in 0..10 {
-            assert_eq!(refusing.tick(Some(&SensorFrame { nav })), missing.tick(None));
+            assert_eq!(refusing.tick(Some(&SensorFrame::Motion(nav))), missing.tick(None));
         }
     }
 }
@@ -136,9 +134,10 @@ fn the_outer_loops_output_takes_effect_exactly_its_offset_after_its_release() {
 #[test]
 fn the_inner_loop_answers_in_the_same_tick() {
     let (mut moved, mut still) = (autopilot(&in_flight()), autopilot(&in_flight()));
-    let tilted = SensorFrame {
-        nav: NavState { attitude: UnitQuaternion::from_euler_angles(0.01, 0.0, 0.0), ..NavState::at_rest() },
-    };
+    let tilted = SensorFrame::Motion(NavState {
+        attitude: UnitQuaternion::from_euler_angles(0.01, 0.0, 0.0),
+        ..NavState::at_rest()
+    });
     let (with, without) = (*moved.tick(Some(&tilted)), *still.tick(Some(&at([0.0; 3]))));
     // Rolled by +0.01 (left side up): U2 turns it back, rotor 2 (right) over rotor 4 (left).
     assert!(with.demand.roll_n_m < 0.0 && without.demand.roll_n_m == 0.0);
@@ -169,8 +168,11 @@ fn an_outer_loop_that_stops_answering_is_not_extrapolated_for_ever() {
     // On the helix and with its velocity, the attitude reference has rates and accelerations.
     let helix = FlightConfig { trajectory: Trajectory::PAPER_HELIX, ..in_flight() };
     let mut pilot = autopilot(&helix);
-    let mut sample = at([0.0, 5.0, 2.0]);
-    sample.nav.velocity = Vector3::new(4.0, 0.0, 1.0);
+    let sample = SensorFrame::Motion(NavState {
+        position: Vector3::new(0.0, 5.0, 2.0),
+        velocity: Vector3::new(4.0, 0.0, 1.0),
+        ..NavState::at_rest()
+    });
     for _ in 0..8 {
         pilot.tick(Some(&sample));
     }
@@ -239,7 +241,7 @@ fn a_disarm_in_the_air_is_refused_unless_forced() {
     let replies = vehicle.commander.step(
         0,
         &firmware::commander::CommanderInput {
-            nav: high.nav,
+            nav: NavState { position: Vector3::new(0.0, 0.0, 20.0), ..NavState::at_rest() },
             nav_fresh: true,
             commands: [firmware::commander::Command { request: Request::Disarm { force: false }, sender: (255, 190) }]
                 .into_iter()

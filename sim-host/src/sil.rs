@@ -224,7 +224,7 @@ fn time(tick: Tick) -> f64 {
 #[inline]
 fn sense(motion: &Motion, disturbed: &Disturbed) -> SensorFrame {
     let nav = if disturbed.is_on_outputs() { falsified(motion, disturbed).as_nav() } else { motion.as_nav() };
-    SensorFrame { nav }
+    SensorFrame::Motion(nav)
 }
 
 /// The motion as a disturbed sensor sees it.

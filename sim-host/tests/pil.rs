@@ -33,12 +33,20 @@ fn motion(tick: u32) -> SensorFrame {
     let position = Vector3::new(4.0 * t.sin() + wobble(3.0, 0.1), 5.0 * t.cos() + wobble(2.0, 0.1), 2.0 + t);
     let velocity = Vector3::new(4.0 * t.cos(), -5.0 * t.sin(), 1.0 + wobble(2.5, 0.3));
     let rates = Vector3::new(wobble(5.0, 0.5), wobble(6.0, 0.4), wobble(4.0, 2.0));
-    SensorFrame { nav: NavState { position, velocity, attitude, rates } }
+    SensorFrame::Motion(NavState { position, velocity, attitude, rates })
 }
 
 /// Flies the made-up motion on both sides.
 fn lockstep(options: &PilOptions, ticks: u32) -> anyhow::Result<()> {
     lockstep_with(options, ticks, |_, _| {})
+}
+
+/// The motion in a frame that is one.
+fn nav_of(sample: &mut SensorFrame) -> &mut NavState {
+    match sample {
+        SensorFrame::Motion(nav) => nav,
+        SensorFrame::Measured(_) => panic!("made of motions"),
+    }
 }
 
 /// The same, with something done to the image's samples.
@@ -49,7 +57,7 @@ fn lockstep_with(options: &PilOptions, ticks: u32, disturb: fn(u32, &mut SensorF
     for tick in 0..ticks {
         let mut sample = motion(tick);
         if tick == 5_000 {
-            sample.nav.rates.x = f32::NAN;
+            nav_of(sample).rates.x = f32::NAN;
         }
         let missing = tick % 997 == 500;
         sil.tick((!missing).then_some(&sample));
@@ -79,7 +87,8 @@ fn a_sample_that_is_a_little_off_is_found_and_named() {
     let error = lockstep_with(&PilOptions::new(image("mps2-pil"), &config), 100, |tick, sample| {
         if tick == 50 {
             // 3e-5 of it: the last bits would be lost in the sum that makes s1.
-            sample.nav.rates.x = f32::from_bits(sample.nav.rates.x.to_bits() ^ (1 << 8));
+            let nav = nav_of(sample);
+            nav.rates.x = f32::from_bits(nav.rates.x.to_bits() ^ (1 << 8));
         }
     });
     let error = error.expect_err("it is off");

@@ -16,7 +16,7 @@ mod image {
         let Ok(Autopilot { mut inner, mut mail, .. }) = Autopilot::new(&black_box(FlightConfig::default())) else {
             end()
         };
-        let mut sample = Some(SensorFrame { nav: NavState::at_rest() });
+        let mut sample = Some(SensorFrame::Motion(NavState::at_rest()));
         loop {
             black_box(inner.tick(black_box(&mut mail), black_box(&mut sample).as_ref()));
         }

@@ -54,7 +54,7 @@ pub fn start(pwm: [RecordingPwm; ROTORS], _clock: FreeRunning) -> Result<Start<I
     let mut nav = NavState::at_rest();
     nav.position = config.start_position();
     let rotors = Rotors { pwm: PwmRotors::new(pwm, config.airframe.omega_max_rad_s) };
-    Ok(Start { config, imu: Imu { sample: SensorFrame { nav } }, rotors, diagnostics: Diagnostics })
+    Ok(Start { config, imu: Imu { sample: SensorFrame::Motion(nav) }, rotors, diagnostics: Diagnostics })
 }
 
 /// Nobody asked.

@@ -386,7 +386,7 @@ fn fields_to_come_are_ignored_and_absurd_lengths_are_no_frame() {
 #[test]
 fn the_whole_autopilot_arms_on_command() {
     let mut autopilot = Autopilot::new(&FlightConfig::default()).expect("valid");
-    let sample = SensorFrame { nav: NavState::at_rest() };
+    let sample = SensorFrame::Motion(NavState::at_rest());
     let mut messages = Vec::new();
     let mut sequence = 0;
     for tick in 0..1500 {

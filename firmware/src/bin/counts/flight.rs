@@ -196,7 +196,7 @@ impl Flight {
     /// Attitude control and mixer, then the mixer once more by itself.
     #[inline(never)]
     fn inner_step(&mut self, tick: Tick) {
-        let sample = SensorFrame { nav: self.plant.nav };
+        let sample = SensorFrame::Motion(self.plant.nav);
         self.inner.sense(Some(&sample));
         let (inner, sample, reference) = black_box((&mut self.inner, &sample, &self.reference));
         let armed = black_box(true);

@@ -1,0 +1,137 @@
+//! What sensors deliver: samples in SI units, body frame FLU, each with the tick at which it was true.
+//!
+//! A driver stamps a sample with the time of the measurement, not of its arrival: what comes late is fused at its own
+//! time (see `estimator`). Nothing here is trusted: samples may be missing, repeated, out of order, stuck or not finite.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::math;
+use crate::signals::Tick;
+
+/// Angular rate and specific force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImuSample {
+    /// When it was measured.
+    pub at: Tick,
+    /// Ω + bias, rad/s.
+    pub gyro: Vector3<f32>,
+    /// Rᵀ(v̇ + g e3) + bias, m/s²: (0, 0, g) at rest and level.
+    pub accel: Vector3<f32>,
+}
+
+/// Magnetic field in the body's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MagSample {
+    /// When it was measured.
+    pub at: Tick,
+    /// µT.
+    pub field_ut: Vector3<f32>,
+}
+
+/// Static pressure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BaroSample {
+    /// When it was measured.
+    pub at: Tick,
+    /// Pa.
+    pub pressure_pa: f32,
+}
+
+/// A place on the WGS-84 ellipsoid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Geodetic {
+    /// Latitude, 1e-7°.
+    pub latitude_e7: i32,
+    /// Longitude, 1e-7°.
+    pub longitude_e7: i32,
+    /// Height above the ellipsoid, mm.
+    pub height_mm: i32,
+}
+
+/// A solution of a satellite receiver.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GnssSample {
+    /// When it was true; it arrives 100–200 ms later.
+    pub at: Tick,
+    /// Whether the receiver claims a three-dimensional fix.
+    pub has_fix: bool,
+    /// Place.
+    pub place: Geodetic,
+    /// Velocity in the world (NWU), m/s.
+    pub velocity: Vector3<f32>,
+    /// The receiver's own estimate of its standard deviation, m: each horizontal axis.
+    pub horizontal_accuracy_m: f32,
+    /// The same of the height, m.
+    pub vertical_accuracy_m: f32,
+    /// The same of each component of the velocity, m/s.
+    pub speed_accuracy_m_s: f32,
+}
+
+/// Position and attitude by motion capture, in the local frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoseSample {
+    /// When it was true.
+    pub at: Tick,
+    /// m.
+    pub position: Vector3<f32>,
+    /// Body to world.
+    pub attitude: UnitQuaternion<f32>,
+}
+
+/// Battery monitor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BatterySample {
+    /// At the terminals, V.
+    pub voltage_v: f32,
+    /// A.
+    pub current_a: f32,
+}
+
+/// What the sensors have delivered in a tick: each its sample, if one has arrived.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Measurements {
+    /// Every tick, on a sound vehicle.
+    pub imu: Option<ImuSample>,
+    /// Magnetometer.
+    pub mag: Option<MagSample>,
+    /// Barometer.
+    pub baro: Option<BaroSample>,
+    /// Satellite receiver.
+    pub gnss: Option<GnssSample>,
+    /// Motion capture.
+    pub pose: Option<PoseSample>,
+    /// Battery monitor.
+    pub battery: Option<BatterySample>,
+}
+
+impl ImuSample {
+    /// True if every number of it is finite.
+    #[inline]
+    pub fn is_finite(&self) -> bool {
+        let (g, a) = (&self.gyro, &self.accel);
+        math::all_finite(&[g.x, g.y, g.z, a.x, a.y, a.z])
+    }
+}
+
+impl GnssSample {
+    /// True if every number of it is finite.
+    pub fn is_finite(&self) -> bool {
+        let v = &self.velocity;
+        math::all_finite(&[
+            v.x,
+            v.y,
+            v.z,
+            self.horizontal_accuracy_m,
+            self.vertical_accuracy_m,
+            self.speed_accuracy_m_s,
+        ])
+    }
+}
+
+impl PoseSample {
+    /// True if every number of it is finite and the attitude is of unit size, within 1 %.
+    pub fn is_valid(&self) -> bool {
+        let norm = self.attitude.quaternion().norm_squared();
+        math::all_finite(self.position.as_slice()) && norm > 0.98 && norm < 1.02
+    }
+}
