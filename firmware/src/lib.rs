@@ -26,6 +26,7 @@ pub mod board;
 pub mod commander;
 pub mod config;
 pub mod control;
+pub mod estimator;
 pub mod frames;
 pub mod guidance;
 pub mod inner;

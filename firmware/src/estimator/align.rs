@@ -1,0 +1,190 @@
+//! The first second: where is down, where is north, what do the gyroscopes read at rest.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::models::MagneticNorth;
+use super::predictor::Span;
+use crate::math;
+use crate::sensors::{MagSample, PoseSample};
+use crate::signals::{TICK_S, Tick};
+
+/// Averaged over this long, ticks.
+const WINDOW: Tick = 1_000;
+/// A vehicle that does not come to rest is taken as it moves after this long, ticks.
+const PATIENCE: Tick = 5_000;
+
+/// At rest the mean of the gyroscopes is their bias, within what one may have been turned on with, rad/s.
+const TURN_ON_BIAS_MAX: f32 = 0.06;
+/// Jobs' means (4 ms) scatter at rest by noise, and by rotors that idle: rad/s and m/s².
+const GYRO_SCATTER_MAX: f32 = 0.05;
+const ACCEL_SCATTER_MAX: f32 = 0.8;
+/// How far the mean of the accelerometers may be off g, as a part of it.
+const GRAVITY_OFF_MAX: f32 = 0.05;
+
+/// What the first second has shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alignment {
+    /// Body to world.
+    pub attitude: UnitQuaternion<f32>,
+    /// Mean of the gyroscopes, if the vehicle stood still, rad/s.
+    pub gyro_bias: Option<Vector3<f32>>,
+    /// Whether north is known.
+    pub has_heading: bool,
+}
+
+/// Sums over the window.
+#[derive(Clone, Debug, Default)]
+pub struct Aligner {
+    ticks: Tick,
+    waited: Tick,
+    jobs: f32,
+    samples: f32,
+    gyro: Vector3<f32>,
+    accel: Vector3<f32>,
+    gyro_square: f32,
+    accel_square: f32,
+    field: Vector3<f32>,
+    fields: f32,
+}
+
+impl Aligner {
+    /// One job's sums and samples. None until the window is full; then what it has shown, or nothing if the vehicle moved
+    /// and there is patience left.
+    pub fn step(
+        &mut self,
+        span: &Span,
+        mag: Option<&MagSample>,
+        pose: Option<&PoseSample>,
+        north: Option<&MagneticNorth>,
+        gravity: f32,
+    ) -> Option<Alignment> {
+        self.waited = self.waited.saturating_add(span.ticks);
+        if span.samples == 0 {
+            return None;
+        }
+        self.add(span, mag, north);
+        if self.ticks < WINDOW {
+            return None;
+        }
+        let still = self.is_still(gravity);
+        let has_heading = pose.is_some() || self.fields > 0.0;
+        let patient = self.waited < PATIENCE;
+        // A pose need not come with the very job that ends the window.
+        if patient && !(still && has_heading) {
+            if !still {
+                *self = Self { waited: self.waited, ..Self::default() };
+            }
+            return None;
+        }
+        let attitude = pose.map_or_else(|| self.attitude(north), |pose| pose.attitude);
+        let gyro_bias = still.then(|| self.gyro / self.samples);
+        Some(Alignment { attitude, gyro_bias, has_heading })
+    }
+
+    fn add(&mut self, span: &Span, mag: Option<&MagSample>, north: Option<&MagneticNorth>) {
+        let samples = span.samples as f32;
+        let (gyro, accel) = (span.gyro / samples, span.accel / samples);
+        self.ticks += span.ticks;
+        self.jobs += 1.0;
+        self.samples += samples;
+        self.gyro += span.gyro;
+        self.accel += span.accel;
+        self.gyro_square += gyro.norm_squared();
+        self.accel_square += accel.norm_squared();
+        if let (Some(mag), Some(north)) = (mag, north)
+            && north.is_plausible(&mag.field_ut)
+        {
+            self.field += mag.field_ut;
+            self.fields += 1.0;
+        }
+    }
+
+    fn is_still(&self, gravity: f32) -> bool {
+        let (gyro, accel) = (self.gyro / self.samples, self.accel / self.samples);
+        let gyro_scatter = self.gyro_square / self.jobs - gyro.norm_squared();
+        let accel_scatter = self.accel_square / self.jobs - accel.norm_squared();
+        let size = math::sqrt(accel.norm_squared());
+        gyro.norm_squared() < TURN_ON_BIAS_MAX * TURN_ON_BIAS_MAX
+            && gyro_scatter < GYRO_SCATTER_MAX * GYRO_SCATTER_MAX
+            && accel_scatter < ACCEL_SCATTER_MAX * ACCEL_SCATTER_MAX
+            && math::abs(size - gravity) < GRAVITY_OFF_MAX * gravity
+    }
+
+    /// Roll and pitch by gravity, heading by the field: f = Rᵀ g e3 = g (−sθ, cθ sφ, cθ cφ).
+    fn attitude(&self, north: Option<&MagneticNorth>) -> UnitQuaternion<f32> {
+        let f = &self.accel;
+        let level = math::sqrt(f.y * f.y + f.z * f.z);
+        let (roll, pitch) = (math::atan2(f.y, f.z), math::atan2(-f.x, level));
+        let tilt = about(&Vector3::y(), pitch) * about(&Vector3::x(), roll);
+        let heading = north.filter(|_| self.fields > 0.0).map_or(0.0, |north| north.heading(&(tilt * self.field)));
+        about(&Vector3::z(), heading) * tilt
+    }
+}
+
+/// A turn about a unit vector, rad.
+fn about(axis: &Vector3<f32>, angle: f32) -> UnitQuaternion<f32> {
+    let (sin, cos) = math::sin_cos(0.5 * angle);
+    UnitQuaternion::new_unchecked(nalgebra::Quaternion::from_parts(cos, axis * sin))
+}
+
+/// Standard deviation of a mean of accelerometers over the window while the vehicle is moved about by hand, as a tilt,
+/// rad; and of one that stands still, for an accelerometer whose bias has this deviation.
+pub fn tilt_sigma(still: bool, accel_bias_sigma: f32, gravity: f32) -> f32 {
+    if still { accel_bias_sigma / gravity } else { 0.15 }
+}
+
+/// How long the window is, s.
+pub const WINDOW_S: f32 = WINDOW as f32 * TICK_S;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const G: f32 = 9.81;
+
+    fn align(
+        jobs: u32,
+        imu: impl Fn(u32) -> (Vector3<f32>, Vector3<f32>),
+        field: Vector3<f32>,
+    ) -> Option<(u32, Alignment)> {
+        let north = MagneticNorth::new(Vector3::new(21.0, -1.3, -43.0));
+        let mut aligner = Aligner::default();
+        (0..jobs).find_map(|job| {
+            let (gyro, accel) = imu(job);
+            let span = Span { ticks: 4, samples: 4, gyro: gyro * 4.0, accel: accel * 4.0, ..Span::default() };
+            let mag = MagSample { at: job * 4, field_ut: field };
+            aligner.step(&span, Some(&mag), None, north.as_ref(), G).map(|a| (job, a))
+        })
+    }
+
+    #[test]
+    fn a_vehicle_at_rest_finds_its_attitude_and_its_gyroscopes_bias() {
+        let truth = UnitQuaternion::from_euler_angles(0.1, -0.15, 2.1);
+        let bias = Vector3::new(0.01, -0.02, 0.005);
+        let field = truth.inverse() * Vector3::new(21.0, -1.3, -43.0);
+        let (job, alignment) =
+            align(1_000, |_| (bias, truth.inverse() * Vector3::new(0.0, 0.0, G)), field).expect("aligned");
+        assert_eq!(job, 249, "after a second");
+        assert!(alignment.attitude.angle_to(&truth) < 1e-5, "{}", alignment.attitude.angle_to(&truth));
+        assert!((alignment.gyro_bias.expect("still") - bias).norm() < 1e-6);
+    }
+
+    #[test]
+    fn a_vehicle_that_is_carried_is_aligned_as_well_as_it_can_be() {
+        let rocking = |job: u32| {
+            let s = (job as f32 * 0.05).sin();
+            (Vector3::new(0.5 * s, 0.2, -0.3 * s), Vector3::new(1.5 * s, -1.0 * s, G))
+        };
+        let (job, alignment) = align(2_000, rocking, Vector3::new(21.0, -1.3, -43.0)).expect("aligned");
+        assert!(job >= PATIENCE / 4 - 1, "not before it has waited: {job}");
+        assert!(alignment.gyro_bias.is_none());
+        assert!(alignment.attitude.angle_to(&UnitQuaternion::identity()) < 2.0 * tilt_sigma(false, 0.0, G));
+    }
+
+    #[test]
+    fn a_constant_turn_is_no_bias() {
+        let turning = |_| (Vector3::new(0.0, 0.0, 0.5), Vector3::new(0.0, 0.0, G));
+        let (_, alignment) = align(2_000, turning, Vector3::new(21.0, -1.3, -43.0)).expect("aligned");
+        assert!(alignment.gyro_bias.is_none());
+    }
+}

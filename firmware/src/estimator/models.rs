@@ -1,0 +1,249 @@
+//! How each sensor's reading depends on the error state, at the time it was true.
+//!
+//! With d the age of a reading, S1 and S2 the first and second integrals of R f from then to now, and the attitude's
+//! error constant in the world over so short a time, what was wrong then follows from what is wrong now:
+//!
+//! ```text
+//! θ(t−d) = θ      v(t−d) = v + S1 × θ      p(t−d) = p − d v − (d S1 − S2) × θ
+//! ```
+//!
+//! so a reading of the past is a reading of the present state with a row of its own, and nothing has to be run again.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::covariance::{ErrorState, Row, index};
+use super::history::{Moved, Past, Snapshot};
+use crate::math;
+use crate::signals::TICK_S;
+
+/// A reading's past, as the rows need it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Age {
+    /// What was believed then.
+    pub then: Snapshot,
+    /// Corrections since, as an error state.
+    pub since: ErrorState,
+    /// d, s.
+    age_s: f32,
+    /// S1, m/s.
+    first: Vector3<f32>,
+    /// d S1 − S2, m.
+    lever: Vector3<f32>,
+}
+
+impl Age {
+    /// Of a reading's past, seen from the newest snapshot.
+    pub fn new(past: &Past, now: &Snapshot, gravity: f32) -> Self {
+        let Past { snapshot: then, since } = past;
+        let age_s = now.at.wrapping_sub(then.at) as f32 * TICK_S;
+        let mut first = now.velocity - then.velocity - since.velocity;
+        let mut second = now.position - then.position - since.position - then.velocity * age_s;
+        first.z += gravity * age_s;
+        second.z += 0.5 * gravity * age_s * age_s;
+        Self { then: *then, since: error_of(since), age_s, first, lever: first * age_s - second }
+    }
+
+    /// Row of the velocity along an axis (0 to 2).
+    pub fn velocity(&self, axis: usize) -> Row {
+        Row { theta: across(axis, &self.first), entries: [(index::VELOCITY + axis, 1.0), NONE, NONE] }
+    }
+
+    /// Row of the position along an axis, read with `offset` of another state in it.
+    pub fn position(&self, axis: usize, offset: (usize, f32)) -> Row {
+        let entries = [(index::POSITION + axis, 1.0), (index::VELOCITY + axis, -self.age_s), offset];
+        Row { theta: -across(axis, &self.lever), entries }
+    }
+}
+
+/// No third or second state.
+pub const NONE: (usize, f32) = (0, 0.0);
+
+/// The unit vector along an axis.
+pub fn axis_vector(axis: usize) -> Vector3<f32> {
+    match axis {
+        0 => Vector3::x(),
+        1 => Vector3::y(),
+        _ => Vector3::z(),
+    }
+}
+
+/// e × v, with which (v × θ) along e is (e × v)·θ.
+fn across(axis: usize, v: &Vector3<f32>) -> Vector3<f32> {
+    axis_vector(axis).cross(v)
+}
+
+/// Row of the attitude's error about an axis of the world.
+pub fn attitude_row(axis: usize) -> Row {
+    Row { theta: axis_vector(axis), entries: [NONE; 3] }
+}
+
+fn error_of(moved: &Moved) -> ErrorState {
+    let mut error = ErrorState::zeros();
+    for (start, part) in
+        [(index::THETA, moved.theta), (index::VELOCITY, moved.velocity), (index::POSITION, moved.position)]
+    {
+        for (to, from) in error.iter_mut().skip(start).zip(part.iter()) {
+            *to = *from;
+        }
+    }
+    error
+}
+
+/// The earth's magnetic field where the vehicle flies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MagneticNorth {
+    /// Unit vector to magnetic north, and the one to the left of it.
+    north: Vector3<f32>,
+    left: Vector3<f32>,
+    /// Horizontal part, µT.
+    horizontal_ut: f32,
+    /// Upward over horizontal part: minus the tangent of the inclination.
+    slope: f32,
+    /// Size, µT.
+    strength_ut: f32,
+}
+
+/// A magnetic heading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeadingReading {
+    /// How far the heading is to the left of the believed one by it, rad.
+    pub turn: f32,
+    /// How it depends on the error.
+    pub row: Row,
+    /// Horizontal part of the field that was measured, µT.
+    pub horizontal_ut: f32,
+}
+
+impl MagneticNorth {
+    /// Of a field in the world, µT; none if it has no horizontal part by which to tell north.
+    pub fn new(field_ut: Vector3<f32>) -> Option<Self> {
+        /// Within some 5° of a pole; also refuses what is no number.
+        const LEAST_UT: f32 = 4.0;
+        let horizontal_ut = math::sqrt(field_ut.x * field_ut.x + field_ut.y * field_ut.y);
+        if !(horizontal_ut > LEAST_UT) {
+            return None;
+        }
+        let north = Vector3::new(field_ut.x, field_ut.y, 0.0) / horizontal_ut;
+        let left = Vector3::new(-north.y, north.x, 0.0);
+        let strength_ut = math::sqrt(field_ut.norm_squared());
+        Some(Self { north, left, horizontal_ut, slope: field_ut.z / horizontal_ut, strength_ut })
+    }
+
+    /// Whether a field can be the earth's: within 35 % of its size.
+    pub fn is_plausible(&self, field_ut: &Vector3<f32>) -> bool {
+        let part = math::sqrt(field_ut.norm_squared()) / self.strength_ut;
+        part > 0.65 && part < 1.35
+    }
+
+    /// The heading ψ in which a field, measured level at heading 0, is the earth's.
+    pub fn heading(&self, level_ut: &Vector3<f32>) -> f32 {
+        math::wrap_angle(math::atan2(self.north.y, self.north.x) - math::atan2(level_ut.y, level_ut.x))
+    }
+
+    /// The heading by a field (body, µT) in the believed attitude. With m the field in the world, what is measured turns
+    /// to R̂ Rᵀ m = m − θ × m: left of north by −(θz − (mz/mh) θn), so a tilt towards north reads as a heading too.
+    pub fn read(&self, field_ut: &Vector3<f32>, attitude: &UnitQuaternion<f32>) -> HeadingReading {
+        let m = attitude * field_ut;
+        let (along, across) = (m.dot(&self.north), m.dot(&self.left));
+        let theta = Vector3::z() - self.north * self.slope;
+        HeadingReading {
+            turn: -math::atan2(across, along),
+            row: Row { theta, entries: [(index::HEADING_OFFSET, 1.0), NONE, NONE] },
+            horizontal_ut: self.horizontal_ut,
+        }
+    }
+}
+
+/// Rotation vector (world, rad) that takes `from` to `to`, for up to half a turn.
+pub fn turn_between(from: &UnitQuaternion<f32>, to: &UnitQuaternion<f32>) -> Vector3<f32> {
+    let q = to.quaternion() * from.quaternion().conjugate();
+    let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
+    let vector = Vector3::new(q.i, q.j, q.k) * sign;
+    let sine = math::sqrt(vector.norm_squared());
+    // 2 atan(sine/w)/sine, which is 2 for a small turn.
+    if sine < 1e-4 { vector * 2.0 } else { vector * (2.0 * math::atan2(sine, q.w * sign) / sine) }
+}
+
+/// Height above where the pressure was `reference_pa`, m: the standard atmosphere's troposphere (ISO 2533), for a
+/// temperature of 15 °C there.
+pub fn pressure_height(pressure_pa: f32, reference_pa: f32) -> f32 {
+    44_330.77 * (1.0 - math::powf(pressure_pa / reference_pa, 0.190_263))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_field_measured_in_any_attitude_gives_its_heading_error_and_the_row_is_its_derivative() {
+        let field = Vector3::new(21.0, -1.3, -43.0);
+        let north = MagneticNorth::new(field).expect("horizontal");
+        for i in 0..40 {
+            let t = i as f32;
+            let truth = UnitQuaternion::from_euler_angles(0.4 * (t * 0.7).sin(), 0.4 * (t * 1.3).cos(), t * 0.5);
+            let measured = truth.inverse() * field;
+            let error = Vector3::new((t * 1.1).sin(), (t * 0.9).cos(), (t * 1.7).sin()) * 0.01;
+            // R = Exp(θ) R̂.
+            let believed = UnitQuaternion::new(-error) * truth;
+            let reading = north.read(&measured, &believed);
+            let linear = reading.row.theta.dot(&error);
+            // Second order: 2e-4 times the slope of the field, 2.
+            assert!((reading.turn - linear).abs() < 6e-4, "{i}: {} {linear}", reading.turn);
+        }
+    }
+
+    #[test]
+    fn a_level_field_gives_the_heading() {
+        let north = MagneticNorth::new(Vector3::new(21.0, -1.3, -43.0)).expect("horizontal");
+        for heading in [-3.0_f32, -1.0, 0.0, 0.5, 2.0] {
+            let attitude = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), heading);
+            let level = attitude.inverse() * Vector3::new(21.0, -1.3, -43.0);
+            assert!((north.heading(&level) - heading).abs() < 1e-5);
+        }
+        assert!(MagneticNorth::new(Vector3::new(0.5, 0.5, -60.0)).is_none());
+        assert!(MagneticNorth::new(Vector3::new(f32::NAN, 0.5, -60.0)).is_none());
+    }
+
+    #[test]
+    fn a_turn_between_attitudes_is_their_rotation_vector() {
+        let from = UnitQuaternion::from_euler_angles(0.3, -0.2, 1.0);
+        for turn in [Vector3::new(1e-6, 0.0, 0.0), Vector3::new(0.1, -0.2, 0.3), Vector3::new(-1.5, 2.0, 1.0)] {
+            let to = UnitQuaternion::new(turn) * from;
+            assert!((turn_between(&from, &to) - turn).norm() < 1e-5);
+            assert!((turn_between(&from, &UnitQuaternion::new_unchecked(-to.into_inner())) - turn).norm() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn pressure_heights_are_the_standard_atmospheres() {
+        // ISO 2533: 1000 m at 89 874.6 Pa, 500 m at 95 460.8 Pa, over 101 325 Pa.
+        assert!((pressure_height(89_874.6, 101_325.0) - 1_000.0).abs() < 0.3);
+        assert!((pressure_height(95_460.8, 101_325.0) - 500.0).abs() < 0.2);
+        assert_eq!(pressure_height(101_325.0, 101_325.0), 0.0);
+    }
+
+    /// Motion under a constant force and attitude, seen from now, with errors put in then.
+    #[test]
+    fn rows_of_the_past_are_derivatives() {
+        let (gravity, d) = (9.81_f32, 0.2_f32);
+        let force = Vector3::new(2.0_f32, -1.0, 11.0);
+        let attitude = UnitQuaternion::from_euler_angles(0.2, 0.3, -0.7);
+        let run = |q: UnitQuaternion<f32>, v: Vector3<f32>, p: Vector3<f32>| {
+            let a = q * force - Vector3::z() * gravity;
+            (v + a * d, p + v * d + a * (0.5 * d * d))
+        };
+        let (v, p) = (Vector3::new(3.0, 1.0, -0.5), Vector3::new(10.0, 20.0, 5.0));
+        let (v_now, p_now) = run(attitude, v, p);
+        let past = Past { snapshot: Snapshot { at: 0, attitude, velocity: v, position: p }, since: Moved::default() };
+        let now = Snapshot { at: 200, attitude, velocity: v_now, position: p_now };
+        let age = Age::new(&past, &now, gravity);
+        let theta = Vector3::new(0.002, -0.001, 0.003);
+        let (dv, dp) = (Vector3::new(0.1, -0.2, 0.05), Vector3::new(1.0, 2.0, -1.0));
+        let (v_true, p_true) = run(UnitQuaternion::new(theta) * attitude, v + dv, p + dp);
+        let error = error_of(&Moved { theta, velocity: v_true - v_now, position: p_true - p_now });
+        for axis in 0..3 {
+            assert!((age.velocity(axis).dot(&error) - dv[axis]).abs() < 2e-5);
+            assert!((age.position(axis, NONE).dot(&error) - dp[axis]).abs() < 2e-5);
+        }
+    }
+}

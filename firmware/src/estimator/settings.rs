@@ -1,0 +1,159 @@
+//! What the filter is told of its sensors.
+
+use nalgebra::Vector3;
+
+use super::covariance::{ErrorState, StepNoise, index};
+use crate::validate::ConfigError;
+
+/// Noise of the sensors and of what they stand in, one standard deviation; the defaults are those of an ICM-42688-P, an
+/// IST8310, a BMP388 and a u-blox M9, each after calibration (data sheets; see docs/estimator.md).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields, default))]
+pub struct EstimatorSettings {
+    /// White noise of the gyroscope, rad/s/√Hz.
+    pub gyro_noise: f32,
+    /// How fast its bias wanders, rad/s/√s.
+    pub gyro_bias_walk: f32,
+    /// Its bias when turned on, rad/s.
+    pub gyro_bias: f32,
+    /// What its scale and axes are off by.
+    pub gyro_scale: f32,
+    /// White noise of the accelerometer, with what vibration leaves, m/s²/√Hz.
+    pub accel_noise: f32,
+    /// How fast its bias wanders, m/s²/√s.
+    pub accel_bias_walk: f32,
+    /// Its bias when turned on, m/s².
+    pub accel_bias: f32,
+    /// Noise of the magnetometer, µT.
+    pub mag_noise_ut: f32,
+    /// What calibration leaves of the magnetic heading's error, rad.
+    pub heading_offset: f32,
+    /// Noise of the barometer, m.
+    pub baro_noise_m: f32,
+    /// How fast its reading wanders, m/√s.
+    pub baro_walk: f32,
+    /// White noise of a GNSS position, horizontal and vertical, m.
+    pub gnss_noise_m: [f32; 2],
+    /// How fast its position wanders beyond that, m/√s.
+    pub gnss_walk: f32,
+    /// Noise of a GNSS velocity, horizontal and vertical, m/s.
+    pub gnss_speed_m_s: [f32; 2],
+    /// Noise of a motion capture's position, m.
+    pub pose_position_m: f32,
+    /// And attitude, rad.
+    pub pose_attitude_rad: f32,
+    /// Earth's magnetic field in the world (NWU), µT.
+    pub magnetic_field_ut: [f32; 3],
+}
+
+impl Default for EstimatorSettings {
+    fn default() -> Self {
+        Self {
+            gyro_noise: 6e-5,
+            gyro_bias_walk: 1e-5,
+            gyro_bias: 5.5e-3,
+            gyro_scale: 4e-3,
+            accel_noise: 2e-3,
+            accel_bias_walk: 1e-4,
+            accel_bias: 0.02,
+            mag_noise_ut: 0.35,
+            heading_offset: 4e-3,
+            baro_noise_m: 0.08,
+            baro_walk: 8e-3,
+            gnss_noise_m: [0.1, 0.2],
+            gnss_walk: 0.04,
+            gnss_speed_m_s: [0.05, 0.075],
+            pose_position_m: 5e-4,
+            pose_attitude_rad: 2e-3,
+            magnetic_field_ut: [21.5, -1.3, -43.2],
+        }
+    }
+}
+
+/// Wind of a calm to fresh day, one component, m/s, and how fast it changes, m/s/√s.
+const WIND_SIGMA: f32 = 5.0;
+const WIND_WALK: f32 = 0.7;
+/// How fast the magnetic heading's error changes as the vehicle turns and draws current, rad/√s.
+const HEADING_WALK: f32 = 3e-5;
+/// A scale's error acts as noise of this correlation time, s: about as long as a manoeuvre turns one way.
+const MANOEUVRE_S: f32 = 0.5;
+
+impl EstimatorSettings {
+    /// Refuses settings with which the filter is not defined.
+    ///
+    /// # Errors
+    /// The first that is out of its range.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        let [gnss_horizontal, gnss_vertical] = self.gnss_noise_m;
+        let [speed_horizontal, speed_vertical] = self.gnss_speed_m_s;
+        for (name, value) in [
+            ("estimator.gyro_noise", self.gyro_noise),
+            ("estimator.gyro_bias_walk", self.gyro_bias_walk),
+            ("estimator.gyro_bias", self.gyro_bias),
+            ("estimator.accel_noise", self.accel_noise),
+            ("estimator.accel_bias_walk", self.accel_bias_walk),
+            ("estimator.accel_bias", self.accel_bias),
+            ("estimator.mag_noise_ut", self.mag_noise_ut),
+            ("estimator.heading_offset", self.heading_offset),
+            ("estimator.baro_noise_m", self.baro_noise_m),
+            ("estimator.gnss_noise_m", gnss_horizontal),
+            ("estimator.gnss_noise_m", gnss_vertical),
+            ("estimator.gnss_speed_m_s", speed_horizontal),
+            ("estimator.gnss_speed_m_s", speed_vertical),
+            ("estimator.pose_position_m", self.pose_position_m),
+            ("estimator.pose_attitude_rad", self.pose_attitude_rad),
+        ] {
+            ConfigError::require_positive(name, value)?;
+        }
+        for (name, value) in [
+            ("estimator.gyro_scale", self.gyro_scale),
+            ("estimator.baro_walk", self.baro_walk),
+            ("estimator.gnss_walk", self.gnss_walk),
+        ] {
+            ConfigError::require_not_negative(name, value)?;
+        }
+        if crate::math::all_finite(&self.magnetic_field_ut) {
+            Ok(())
+        } else {
+            Err(ConfigError::NonFinite("estimator.magnetic_field_ut"))
+        }
+    }
+
+    /// Process noise of a step of `step_s`, turning at `rates` (rad/s) in an attitude given as a matrix.
+    pub(super) fn step_noise(&self, step_s: f32, rates_in_world: &Vector3<f32>) -> StepNoise {
+        let square = |walk: f32| walk * walk * step_s;
+        let scale = square(self.gyro_scale) * MANOEUVRE_S;
+        let gyro = 0.5 * square(self.gyro_noise);
+        let gnss = square(self.gnss_walk);
+        StepNoise {
+            theta: rates_in_world.map(|rate| gyro + scale * rate * rate),
+            velocity: 0.5 * square(self.accel_noise),
+            gyro_bias: square(self.gyro_bias_walk),
+            accel_bias: square(self.accel_bias_walk),
+            offset: Vector3::new(gnss, gnss, square(self.baro_walk)),
+            magnetic_wind: Vector3::new(square(HEADING_WALK), square(WIND_WALK), square(WIND_WALK)),
+        }
+    }
+
+    /// Variances at the start, given those of the attitude (rad: tilt, heading) and of the velocity (m/s), and whether the
+    /// gyroscopes' bias has been seen at rest for `averaged_s`.
+    pub(super) fn initial(&self, tilt: f32, heading: f32, speed: f32, averaged_s: Option<f32>) -> ErrorState {
+        let square = |x: f32| x * x;
+        let mut p = ErrorState::zeros();
+        let mut set = |first: usize, values: [f32; 3]| {
+            for (to, from) in p.iter_mut().skip(first).zip(values) {
+                *to = square(from);
+            }
+        };
+        // A mean of white noise over a time, with what the bias itself wanders meanwhile.
+        let averaged = |time: f32| self.gyro_noise / crate::math::sqrt(2.0 * time) + self.gyro_bias_walk;
+        set(index::THETA, [tilt, tilt, heading]);
+        set(index::VELOCITY, [speed; 3]);
+        set(index::POSITION, [0.01; 3]);
+        set(index::GYRO_BIAS, [averaged_s.map_or(self.gyro_bias, averaged); 3]);
+        set(index::ACCEL_BIAS, [self.accel_bias; 3]);
+        set(index::OFFSET, [1.0, 1.0, 1.0]);
+        set(index::HEADING_OFFSET, [self.heading_offset, WIND_SIGMA, WIND_SIGMA]);
+        p
+    }
+}

@@ -1,0 +1,110 @@
+//! Whether a sensor is to be listened to: time stamps, values that stand still, innovations that are too large.
+
+use crate::signals::Tick;
+
+/// What has become of a sensor's samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Watch {
+    /// Stamp of the newest sample.
+    newest: Option<Tick>,
+    /// The numbers of the newest sample, as bits.
+    value: [u32; 3],
+    /// How often they have come in a row.
+    repeats: u32,
+    /// When a sample was last taken in.
+    accepted: Option<Tick>,
+    /// Since when all have been refused by their innovation.
+    refused_since: Option<Tick>,
+    /// Samples since boot that were not taken in.
+    refused: u32,
+}
+
+impl Watch {
+    /// Whether a sample may be used at all: newer than the last, and not the same numbers for the `most`th time in a
+    /// row. A sensor's noise is never that quiet; one that is has stopped measuring.
+    pub fn admits(&mut self, at: Tick, value: [f32; 3], most: u32) -> bool {
+        let is_new = self.newest.is_none_or(|newest| {
+            let ahead = at.wrapping_sub(newest);
+            ahead != 0 && ahead < Tick::MAX / 2
+        });
+        if !is_new {
+            self.count();
+            return false;
+        }
+        self.newest = Some(at);
+        let bits = value.map(f32::to_bits);
+        self.repeats = if bits == self.value { self.repeats.saturating_add(1) } else { 0 };
+        self.value = bits;
+        if self.repeats >= most {
+            self.count();
+            return false;
+        }
+        true
+    }
+
+    fn count(&mut self) {
+        self.refused = self.refused.saturating_add(1);
+    }
+
+    /// Notes what the gate said of a sample, at the job released at `now`.
+    pub fn note(&mut self, now: Tick, accepted: bool) {
+        if accepted {
+            self.accepted = Some(now);
+            self.refused_since = None;
+        } else {
+            self.count();
+            self.refused_since.get_or_insert(now);
+        }
+    }
+
+    /// Whether samples have been refused by their innovation, and only that, for this many ticks.
+    pub fn is_at_odds(&self, now: Tick, ticks: Tick) -> bool {
+        self.refused_since.is_some_and(|since| now.wrapping_sub(since) >= ticks)
+    }
+
+    /// Whether a sample was taken in within these ticks.
+    pub fn is_live(&self, now: Tick, ticks: Tick) -> bool {
+        self.accepted.is_some_and(|at| now.wrapping_sub(at) <= ticks)
+    }
+
+    /// Samples since boot that were not taken in.
+    pub fn refused(&self) -> u32 {
+        self.refused
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stamps_go_forward() {
+        let mut watch = Watch::default();
+        let mut value = 0.0;
+        let mut admits = |at| {
+            value += 1.0;
+            watch.admits(at, [value; 3], 5)
+        };
+        assert!(admits(10) && admits(20) && !admits(20) && !admits(15) && admits(21));
+        assert_eq!(watch.refused(), 2);
+    }
+
+    #[test]
+    fn a_value_that_stands_still_is_refused_until_it_moves() {
+        let mut watch = Watch::default();
+        assert!((0..5).all(|k| watch.admits(k, [1.0, 2.0, 3.0], 5)));
+        assert!((5..9).all(|k| !watch.admits(k, [1.0, 2.0, 3.0], 5)));
+        assert!(watch.admits(9, [1.0, 2.0, 3.5], 5));
+    }
+
+    #[test]
+    fn odds_are_counted_from_the_first_refusal_in_a_row() {
+        let mut watch = Watch::default();
+        watch.note(100, true);
+        watch.note(200, false);
+        watch.note(300, false);
+        assert!(watch.is_at_odds(300, 100) && !watch.is_at_odds(250, 100) && watch.is_live(200, 100));
+        watch.note(310, true);
+        assert!(!watch.is_at_odds(900, 0));
+    }
+}
