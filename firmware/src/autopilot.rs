@@ -11,11 +11,12 @@ use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeLaw, PositionLaw};
 use crate::control::position::SlidingPosition;
+use crate::estimator::{EstimatorSettings, Filter, FilterInput, FilterOutput};
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::outer::{Outer, OuterInput, OuterOutput};
-use crate::schedule::{COMMANDER, GROUND, Mailbox, OUTER};
-use crate::signals::{SensorFrame, Tick};
+use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
+use crate::signals::{NavHealth, SensorFrame, Tick};
 use crate::validate::ConfigError;
 
 /// All that the partitions share.
@@ -23,6 +24,8 @@ use crate::validate::ConfigError;
 pub struct Mailboxes {
     /// Inner ⇄ outer.
     pub outer: Mailbox<OuterInput, OuterOutput, { OUTER.period }, { OUTER.offset }>,
+    /// Inner ⇄ the estimator's filter.
+    pub filter: Mailbox<FilterInput, FilterOutput, { FILTER.period }, { FILTER.offset }>,
     /// Inner ⇄ commander.
     pub commander: Mailbox<CommanderInput, CommanderOutput, { COMMANDER.period }, { COMMANDER.offset }>,
     /// Inner ⇄ ground.
@@ -32,12 +35,13 @@ pub struct Mailboxes {
 impl Mailboxes {
     /// All empty.
     pub const fn new() -> Self {
-        Self { outer: Mailbox::new(), commander: Mailbox::new(), ground: Mailbox::new() }
+        Self { outer: Mailbox::new(), filter: Mailbox::new(), commander: Mailbox::new(), ground: Mailbox::new() }
     }
 
-    /// Overruns since boot of outer, commander and ground.
+    /// Overruns since boot of outer with the filter, commander and ground.
     pub fn overruns(&self) -> [u32; 3] {
-        [self.outer.overruns(), self.commander.overruns(), self.ground.overruns()]
+        let outer = self.outer.overruns().saturating_add(self.filter.overruns());
+        [outer, self.commander.overruns(), self.ground.overruns()]
     }
 }
 
@@ -50,6 +54,8 @@ impl Default for Mailboxes {
 /// Which partitions a tick has released.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Released {
+    /// The estimator's filter, in the same task as outer and before it.
+    pub filter: bool,
     /// Guidance and position control.
     pub outer: bool,
     /// Arming.
@@ -64,6 +70,7 @@ pub struct InnerTask<A = SlidingAttitude> {
     tick: Tick,
     inner: Inner<A>,
     outer: OuterOutput,
+    filter: FilterOutput,
     commander: CommanderOutput,
     /// Commands for the commander's next job, and its replies for the ground's.
     commands: Commands,
@@ -93,6 +100,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             tick: 0,
             inner,
             outer: first,
+            filter: FilterOutput::initial(),
             commander,
             commands: Commands::new(),
             replies: Replies::new(),
@@ -122,6 +130,12 @@ impl<A: AttitudeLaw> InnerTask<A> {
         if let Some(output) = mail.outer.publish(tick) {
             self.outer = output;
         }
+        if let Some(navigator) = self.inner.navigator_mut()
+            && let Some(output) = mail.filter.publish(tick)
+        {
+            navigator.inject(&output.injection);
+            self.filter = output;
+        }
         if let Some(output) = mail.commander.publish(tick) {
             self.kill &= output.flight_start.is_some();
             for reply in &output.replies {
@@ -145,10 +159,17 @@ impl<A: AttitudeLaw> InnerTask<A> {
     #[inline]
     fn release(&mut self, tick: Tick, mail: &mut Mailboxes) -> Released {
         let released = Released {
+            filter: self.inner.navigator().is_some() && mail.filter.is_due(tick),
             outer: mail.outer.is_due(tick),
             commander: mail.commander.is_due(tick),
             ground: mail.ground.is_due(tick),
         };
+        if released.filter {
+            let at_rest = self.commander.landed && !self.is_armed();
+            if let Some(navigator) = self.inner.navigator_mut() {
+                mail.filter.release(tick, navigator.release(at_rest));
+            }
+        }
         if released.outer {
             let input = OuterInput {
                 nav: *self.inner.nav(),
@@ -231,6 +252,20 @@ impl<A: AttitudeLaw> InnerTask<A> {
         &self.outer
     }
 
+    /// What the filter has found last.
+    pub fn filter_output(&self) -> &FilterOutput {
+        &self.filter
+    }
+
+    /// What of the motion may be trusted.
+    pub fn nav_health(&self) -> NavHealth {
+        match (self.inner.is_nav_fresh(), self.inner.navigator()) {
+            (false, _) => NavHealth::NONE,
+            (true, None) => NavHealth::ALL,
+            (true, Some(_)) => self.filter.health,
+        }
+    }
+
     /// The commander's output now in effect.
     pub fn commander_output(&self) -> &CommanderOutput {
         &self.commander
@@ -248,6 +283,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
 pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
     /// Runs every tick.
     pub inner: InnerTask<A>,
+    /// The estimator's covariance and late readings; idle on ideal state.
+    pub filter: Filter,
     /// Guidance and position control.
     pub outer: Outer<P>,
     /// Arming.
@@ -283,6 +320,7 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
         let inner = Inner::new(config, attitude)?;
         Ok(Self {
             inner: InnerTask::new(config, inner, &mut outer, &commander),
+            filter: filter(config),
             outer,
             commander,
             ground: Ground::default(),
@@ -294,6 +332,11 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
     #[inline]
     pub fn tick(&mut self, sample: Option<&SensorFrame>) -> &InnerOutput {
         let released = self.inner.tick(&mut self.mail, sample);
+        if released.filter
+            && let Some((tick, input)) = self.mail.filter.take()
+        {
+            self.mail.filter.finish(self.filter.step(tick, &input));
+        }
         if released.outer
             && let Some((tick, input)) = self.mail.outer.take()
         {
@@ -311,4 +354,12 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
         }
         self.inner.inner_output()
     }
+}
+
+/// The filter of a configuration; one that will not be asked, for a flight on ideal state.
+fn filter(config: &FlightConfig) -> Filter {
+    let airframe = &config.airframe;
+    let [k, _, _] = airframe.drag_n_s_m;
+    let settings = config.estimator.unwrap_or_else(EstimatorSettings::default);
+    Filter::new(&settings, airframe.gravity_m_s2, k / airframe.mass_kg)
 }

@@ -8,6 +8,7 @@ use crate::control::observer::ObserverGains;
 use crate::control::position::PositionGains;
 use crate::control::rotor::YawInversion;
 use crate::control::sliding::AxisGains;
+use crate::estimator::EstimatorSettings;
 use crate::guidance::{JoinPlan, Trajectory};
 use crate::validate::ConfigError;
 
@@ -47,6 +48,9 @@ pub struct FlightConfig {
     pub start: Start,
     /// Where the flight begins, m.
     pub start_position_m: [f32; 3],
+    /// What the filter is told of the sensors; none for a flight on ideal state.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub estimator: Option<EstimatorSettings>,
 }
 
 impl FlightConfig {
@@ -65,6 +69,9 @@ impl FlightConfig {
         ConfigError::require_not_negative("control.rotor_time_constant_s", self.rotor_time_constant_s)?;
         if !crate::math::all_finite(&self.start_position_m) {
             return Err(ConfigError::NonFinite("start_position_m"));
+        }
+        if let Some(estimator) = &self.estimator {
+            estimator.validate()?;
         }
         self.trajectory.validate()
     }
@@ -115,6 +122,7 @@ impl Default for FlightConfig {
             join: Some(JoinPlan { duration_s: 3.0, start_acceleration_m_s2: [0.0; 3], middle_m: heapless::Vec::new() }),
             start: Start::OnGround,
             start_position_m: [0.0; 3],
+            estimator: None,
         }
     }
 }

@@ -12,6 +12,8 @@ use crate::control::law::{AttitudeInput, AttitudeLaw, RotorEffect};
 use crate::control::mixer::Mixer;
 use crate::control::rotor::{RotorModel, RotorTorque, YawInversion};
 use crate::math;
+use crate::navigator::Navigator;
+use crate::sensors::Measurements;
 use crate::signals::{AttitudeReference, ControlInput, MotorCommand, NavState, SensorFrame, TICK_S, Tick};
 use crate::validate::ConfigError;
 
@@ -56,6 +58,8 @@ pub struct Inner<A = SlidingAttitude> {
     /// What they are believed to do.
     effect: RotorEffect,
     yaw: YawInversion,
+    /// None on ideal state.
+    navigator: Option<Navigator>,
     nav: NavState,
     stale_ticks: u32,
     refused_samples: u32,
@@ -86,6 +90,7 @@ impl<A: AttitudeLaw> Inner<A> {
             believed,
             rotors,
             yaw: config.yaw_inversion(),
+            navigator: Navigator::new(config),
             nav,
             stale_ticks: 0,
             refused_samples: 0,
@@ -94,21 +99,38 @@ impl<A: AttitudeLaw> Inner<A> {
     }
 
     /// Takes in this tick's sample. A missing one, or one that holds a number that is not finite, leaves the
-    /// motion as it was.
+    /// motion as it was; on sensors, it goes on as it was.
     #[inline]
     pub fn sense(&mut self, sample: Option<&SensorFrame>) {
         match sample {
-            Some(SensorFrame::Motion(nav)) if nav.is_valid() => {
+            Some(SensorFrame::Motion(nav)) if nav.is_valid() && self.navigator.is_none() => {
                 self.nav = *nav;
                 self.stale_ticks = 0;
             }
-            other => {
-                self.stale_ticks = self.stale_ticks.saturating_add(1);
-                // The law is about to see a motion that stands still: what integrates is to hold.
-                self.output.saturated = true;
-                self.refused_samples = self.refused_samples.saturating_add(u32::from(other.is_some()));
-            }
+            Some(SensorFrame::Measured(measured)) if self.navigator.is_some() => self.navigate(Some(measured)),
+            None if self.navigator.is_some() => self.navigate(None),
+            other => self.miss(other.is_some()),
         }
+    }
+
+    /// A tick of navigation on sensors.
+    fn navigate(&mut self, measured: Option<&Measurements>) {
+        let Some(navigator) = &mut self.navigator else { return };
+        let fresh = navigator.step(measured, self.rotors.omega_rad_s());
+        self.nav = navigator.nav();
+        if fresh {
+            self.stale_ticks = 0;
+        } else {
+            self.miss(measured.is_some_and(|m| m.imu.is_some()));
+        }
+    }
+
+    /// A tick without a sample, or with one that was refused.
+    fn miss(&mut self, refused: bool) {
+        self.stale_ticks = self.stale_ticks.saturating_add(1);
+        // The law is about to see a motion that stands still: what integrates is to hold.
+        self.output.saturated = true;
+        self.refused_samples = self.refused_samples.saturating_add(u32::from(refused));
     }
 
     /// One tick of control towards `reference`; rotors stopped unless `armed`. `sample` is the one that was just
@@ -182,6 +204,16 @@ impl<A: AttitudeLaw> Inner<A> {
     fn follow(&mut self, command: &MotorCommand) {
         self.rotors.follow(&command.omega_rad_s);
         self.effect = self.believed.after(&self.effect, self.rotors.omega_rad_s());
+    }
+
+    /// Navigation on sensors; none on ideal state.
+    pub fn navigator(&self) -> Option<&Navigator> {
+        self.navigator.as_ref()
+    }
+
+    /// The same, to hand on what the filter has found.
+    pub(crate) fn navigator_mut(&mut self) -> Option<&mut Navigator> {
+        self.navigator.as_mut()
     }
 
     /// The motion as last sensed.

@@ -33,6 +33,7 @@ pub mod inner;
 pub mod math;
 pub mod mavlink;
 pub mod meter;
+pub mod navigator;
 pub mod outer;
 pub mod pil;
 pub mod rotors;

@@ -20,6 +20,8 @@ pub struct Timing {
 pub const OUTER: Timing = Timing { period: 4, offset: 2 };
 /// From the snapshot of the outer partition to its output, s.
 pub const OUTER_AHEAD_S: f32 = OUTER.offset as f32 * TICK_S;
+/// The estimator's covariance and late readings, in the outer partition's task: 250 Hz.
+pub const FILTER: Timing = OUTER;
 /// Arming: 50 Hz.
 pub const COMMANDER: Timing = Timing { period: 20, offset: 4 };
 /// MAVLink: 100 Hz.

@@ -111,6 +111,7 @@ fn config() -> FlightConfig {
         join: Some(JoinPlan { duration_s: 4.0, start_acceleration_m_s2: [0.0; 3], middle_m: heapless::Vec::new() }),
         start: Start::InFlight,
         start_position_m: [0.0, 0.0, 2.0],
+        estimator: None,
     }
 }
 

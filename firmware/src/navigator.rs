@@ -1,0 +1,109 @@
+//! What the inner partition makes of sensors: the predictor, the filter ahead of the controller, and the readings that
+//! wait for the filter's next job.
+
+use nalgebra::Vector3;
+
+use crate::airframe::ROTORS;
+use crate::config::FlightConfig;
+use crate::control::gyro::GyroFilter;
+use crate::estimator::{EstimatorSettings, FilterInput, Injection, Predictor, Readings};
+use crate::math;
+use crate::sensors::{BatterySample, Measurements};
+use crate::signals::NavState;
+
+/// The inner half of navigation.
+#[derive(Clone, Debug)]
+pub struct Navigator {
+    predictor: Predictor,
+    gyro: GyroFilter,
+    /// Ω through the filter, with its bias, rad/s.
+    filtered: Vector3<f32>,
+    readings: Readings,
+    battery: Option<BatterySample>,
+    /// Whether the last job's injection has been taken in.
+    injected: bool,
+}
+
+impl Navigator {
+    /// At rest where the flight begins; none for a flight on ideal state.
+    pub fn new(config: &FlightConfig) -> Option<Self> {
+        config.estimator.as_ref().map(|_: &EstimatorSettings| Self {
+            predictor: Predictor::new(config.start_position(), config.airframe.gravity_m_s2),
+            gyro: GyroFilter::new(),
+            filtered: Vector3::zeros(),
+            readings: Readings::default(),
+            battery: None,
+            injected: false,
+        })
+    }
+
+    /// One tick with what has been measured, if anything has; true if the IMU's sample was taken in. `omega_rad_s` are
+    /// the speeds at which the rotors are believed to turn.
+    #[inline]
+    pub fn step(&mut self, measured: Option<&Measurements>, omega_rad_s: &[f32; ROTORS]) -> bool {
+        let fresh = self.predictor.step(measured.and_then(|m| m.imu.as_ref()));
+        let raw = self.predictor.rates() + self.predictor.state().gyro_bias;
+        self.filtered = self.gyro.step(&raw, omega_rad_s);
+        if let Some(measured) = measured {
+            self.keep(measured);
+        }
+        fresh
+    }
+
+    /// Keeps the newest reading of each sensor.
+    fn keep(&mut self, measured: &Measurements) {
+        let readings = &mut self.readings;
+        readings.mag = measured.mag.or(readings.mag);
+        readings.baro = measured.baro.or(readings.baro);
+        readings.gnss = measured.gnss.or(readings.gnss);
+        readings.pose = measured.pose.or(readings.pose);
+        let sound = measured.battery.filter(|b| math::all_finite(&[b.voltage_v, b.current_a]));
+        self.battery = sound.or(self.battery);
+    }
+
+    /// The motion now; its rates are the filtered ones.
+    #[inline]
+    pub fn nav(&self) -> NavState {
+        let state = self.predictor.state();
+        NavState {
+            position: state.position,
+            velocity: state.velocity,
+            attitude: state.attitude,
+            rates: self.filtered - state.gyro_bias,
+        }
+    }
+
+    /// f without its bias in the body's frame, m/s².
+    #[inline]
+    pub fn specific_force(&self) -> &Vector3<f32> {
+        self.predictor.specific_force()
+    }
+
+    /// The battery as last measured.
+    pub fn battery(&self) -> Option<BatterySample> {
+        self.battery
+    }
+
+    /// The filter's snapshot; `at_rest` if the vehicle is known to stand.
+    pub fn release(&mut self, at_rest: bool) -> FilterInput {
+        FilterInput {
+            state: *self.predictor.state(),
+            rates: *self.predictor.rates(),
+            force: *self.predictor.specific_force(),
+            span: self.predictor.take_span(),
+            injected: core::mem::take(&mut self.injected),
+            at_rest,
+            readings: core::mem::take(&mut self.readings),
+        }
+    }
+
+    /// Takes in what the filter has found.
+    pub fn inject(&mut self, injection: &Injection) {
+        self.injected = true;
+        match injection {
+            Injection::None => {}
+            Injection::Correct(correction) => self.predictor.correct(correction),
+            Injection::Start(state) => self.predictor.start(state),
+        }
+    }
+}
