@@ -21,6 +21,27 @@ pub struct Rotor {
     pub yaw_n_m_s2: f64,
 }
 
+/// How many points a battery's curve has: at 0, 10, …, 100 % of its charge.
+pub const CURVE_POINTS: usize = 11;
+
+/// A battery, and what it feeds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pack {
+    /// Open-circuit voltage at 0, 10, …, 100 % of the charge, V.
+    pub open_circuit_v: [f64; CURVE_POINTS],
+    /// Of the cells and the wires, Ω.
+    pub resistance_ohm: f64,
+    /// Charge of a full one, Ah.
+    pub capacity_ah: f64,
+    /// Voltage at the terminals at which the rotors just reach ωmax, V.
+    pub nominal_v: f64,
+    /// Mechanical power of the rotors over electrical power, of motors and their controllers together.
+    pub efficiency: f64,
+    /// What all else takes, W.
+    pub avionics_w: f64,
+}
+
 /// An airframe file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -48,8 +69,37 @@ pub struct AirframeFile {
     pub actuation_delay_s: f64,
     /// Whether spinning the rotors up turns the body.
     pub spin_up_reaction: bool,
+    /// Time constant of a rotor that slows down, s, for scenarios that ask for it.
+    pub rotor_lag_down_s: Option<f64>,
+    /// R, m, for scenarios with ground effect.
+    pub rotor_radius_m: Option<f64>,
+    /// Height of the rotors' plane above the feet, m, for scenarios with ground effect.
+    #[serde(default)]
+    pub rotor_height_m: f64,
+    /// The battery, for scenarios that fly by one.
+    pub battery: Option<Pack>,
     /// The rotors.
     pub rotors: [Rotor; ROTORS],
+}
+
+impl Pack {
+    fn validate(&self) -> Result<()> {
+        let within = |name: &str, value: f64, low: f64, high: f64| {
+            ensure!(
+                (low..=high).contains(&value),
+                "`airframe.battery.{name}` must be between {low} and {high}, not {value}"
+            );
+            Ok(())
+        };
+        let curve = &self.open_circuit_v;
+        curve.iter().try_for_each(|volts| within("open_circuit_v", *volts, 0.1, 1e3))?;
+        ensure!(curve.is_sorted(), "`airframe.battery.open_circuit_v` must rise from an empty to a full battery");
+        within("resistance_ohm", self.resistance_ohm, 0.0, 10.0)?;
+        within("capacity_ah", self.capacity_ah, 1e-3, 1e4)?;
+        within("nominal_v", self.nominal_v, 0.1, 1e3)?;
+        within("efficiency", self.efficiency, 0.01, 1.0)?;
+        within("avionics_w", self.avionics_w, 0.0, 1e5)
+    }
 }
 
 impl AirframeFile {
@@ -68,7 +118,10 @@ impl AirframeFile {
         for rotor in &self.rotors {
             positive("rotors.lift_n_s2", rotor.lift_n_s2)?;
         }
-        Ok(())
+        positive("rotor_lag_down_s", self.rotor_lag_down_s.unwrap_or(1.0))?;
+        positive("rotor_radius_m", self.rotor_radius_m.unwrap_or(1.0))?;
+        ensure!(self.rotor_height_m.is_finite(), "`airframe.rotor_height_m` must be a number");
+        self.battery.as_ref().map_or(Ok(()), Pack::validate)
     }
 
     /// ωmax, rad/s: the speed at which the rotors lift `thrust_to_weight` times the weight.

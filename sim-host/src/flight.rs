@@ -5,7 +5,6 @@ use firmware::autopilot::Autopilot;
 use firmware::control::attitude::SlidingAttitude;
 use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
-use firmware::signals::TICK_S_EXACT;
 use nalgebra::Vector3;
 
 use crate::baseline::geometric::{GeometricAttitude, GeometricPosition};
@@ -14,7 +13,6 @@ use crate::baseline::pid::{PidAttitude, PidPosition};
 use crate::controller::Controller;
 use crate::decoupled::Decoupled;
 use crate::noise::Noise;
-use crate::noise::dryden::Wind;
 use crate::plant::ground::Ground;
 use crate::plant::paper::PaperPlant;
 use crate::plant::rigid_body::RigidBody;
@@ -22,6 +20,7 @@ use crate::plant::{Constants, Plant};
 use crate::record::Recorder;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sil::{Flight, Outcome};
+use crate::weather::Weather;
 
 /// The rigid-body plant of a scenario, in the motion with which a flight under `seed` begins.
 pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
@@ -29,7 +28,11 @@ pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
     let position = Vector3::from(scenario.file.start_position_m);
     let on = |c: &Constants| Ground::for_vehicle(position.z, c.mass, c.gravity, c.inertia.z);
     let ground = scenario.file.ground.then(|| on(&constants));
-    RigidBody::new(constants, ground, position).with_motion(scenario.file.start_motion(seed))
+    let plant = RigidBody::new(constants, ground, position).with_motion(scenario.file.start_motion(seed));
+    match scenario.effects() {
+        Some(effects) => plant.with_effects(effects),
+        None => plant,
+    }
 }
 
 /// A plant with the firmware of a scenario in its loop, flying by its own sliding mode laws.
@@ -61,10 +64,7 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
     let noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
     let flight = Flight::new(autopilot, plant, noise, config.trajectory);
     let flight = flight.with_actuation_delay(scenario.actuation_delay_ticks());
-    Ok(match &scenario.file.wind {
-        Some(wind) => flight.with_wind(Wind::new(wind, seed, TICK_S_EXACT), &scenario.constants()),
-        None => flight,
-    })
+    Ok(flight.with_weather(Weather::new(scenario, seed)))
 }
 
 /// Flies a scenario to its end, or until the vehicle is lost.

@@ -31,3 +31,4 @@ pub mod sil;
 pub mod statistics;
 pub mod sweep;
 pub mod tune;
+pub mod weather;

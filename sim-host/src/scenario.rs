@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::airframe::AirframeFile;
 use crate::controller::{Control, Controller, TuningFile};
 use crate::files::{built_in, one_line, parse, read, source};
-pub use world::{Truth, Tumble, Wind};
+pub use world::{BatteryStart, Gust, RotorFailure, ScheduledPush, Truth, Tumble, VoltageCollapse, Wind, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.
 const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
@@ -134,6 +134,17 @@ pub struct ScenarioFile {
     pub disturbance: Option<Disturbance>,
     /// Wind.
     pub wind: Option<Wind>,
+    /// Steady pushes for a while, which add up.
+    #[serde(default)]
+    pub push: Vec<ScheduledPush>,
+    /// What of the airframe and of its air is flown with, besides the constants.
+    #[serde(default)]
+    pub world: World,
+    /// The airframe's battery; without it, power that never ends.
+    pub battery: Option<BatteryStart>,
+    /// Rotors that fail in flight.
+    #[serde(default)]
+    pub rotor_failure: Vec<RotorFailure>,
     /// What roll, pitch and yaw are to follow (decoupled plant only); level without it.
     pub attitude: Option<AttitudeWave>,
     /// The least time in which this airframe can match the trajectory from the start, where it is known, s.
@@ -284,7 +295,8 @@ fn controller(file: &ScenarioFile) -> Result<Controller> {
 fn moves_the_bound(setting: &str) -> bool {
     let key = setting.split(['=', '.']).next().unwrap_or_default();
     let start = key.starts_with("start_") || key == "tumble";
-    start || matches!(key, "airframe" | "thrust_to_weight" | "truth" | "wind" | "trajectory" | "plant")
+    let world = matches!(key, "truth" | "wind" | "world" | "push" | "battery" | "rotor_failure");
+    start || world || matches!(key, "airframe" | "thrust_to_weight" | "trajectory" | "plant")
 }
 
 fn split_setting(setting: &str) -> Result<(&str, toml::Value)> {
@@ -377,6 +389,26 @@ mod tests {
             ("helix", "wind.turbulence_20ft_m_s=-1", "wind.turbulence_20ft_m_s"),
             ("helix", "wind.airspeed_m_s=0", "wind.airspeed_m_s"),
             ("helix", "wind.mean_m_s=[0,0,inf]", "wind.mean_m_s"),
+            ("helix", "wind.gust=[{from_s=1.0,rise_s=0.0,peak_m_s=[1.0,0.0,0.0]}]", "wind.gust.rise_s"),
+            ("helix", "wind.gust=[{from_s=1.0,rise_s=1.0,peak_m_s=[1e3,0.0,0.0]}]", "wind.gust.peak_m_s"),
+            ("helix", "push=[{from_s=1.0,to_s=1.0}]", "push.to_s"),
+            ("helix", "push=[{from_s=1.0,to_s=2.0,acceleration_m_s2=[0.0,nan,0.0]}]", "push.acceleration_m_s2"),
+            ("helix", "push=[{from_s=1.0,to_s=2.0,colour=1.0}]", "colour"),
+            ("helix", "world.altitude_m=2e4", "world.altitude_m"),
+            ("pad", "world.ground_effect=true", "rotor_radius_m"),
+            ("x500-hover", "world.ground_effect=true", "ground"),
+            ("helix", "world.rotor_lag_down=true", "rotor_lag_down_s"),
+            ("helix", "battery.soc=0.5", "airframe.battery"),
+            ("x500-hover", "battery.soc=1.1", "battery.soc"),
+            ("x500-hover", "battery.collapse=[{from_s=1.0,to_s=2.0,factor=-1.0}]", "battery.collapse.factor"),
+            ("x500-hover", "airframe.battery.efficiency=0", "airframe.battery.efficiency"),
+            ("x500-hover", "airframe.rotor_radius_m=0", "airframe.rotor_radius_m"),
+            ("helix", "rotor_failure=[{at_s=-1.0,effectiveness=[1.0,1.0,1.0,1.0]}]", "rotor_failure.at_s"),
+            ("helix", "rotor_failure=[{at_s=1.0,effectiveness=[1.0,1.0,1.0,-1.0]}]", "rotor_failure.effectiveness"),
+            ("paper-ideal", "world.altitude_m=100", "world"),
+            ("paper-ideal", "push=[{from_s=1.0,to_s=2.0}]", "push"),
+            ("paper-ideal", "battery.soc=1", "battery"),
+            ("paper-ideal", "rotor_failure=[{at_s=1.0,effectiveness=[1.0,1.0,1.0,0.0]}]", "rotor_failure"),
             ("paper-ideal", "actuation_delay_s=0.001", "actuation_delay_s"),
             ("paper-ideal", "start_attitude_deg=[10,0,0]", "start_attitude_deg"),
             ("paper-ideal", "wind.mean_m_s=[1,0,0]", "wind"),

@@ -14,12 +14,12 @@ use firmware::outer::OuterOutput;
 use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::noise::dryden::Wind;
 use crate::noise::{Disturbed, Noise};
-use crate::plant::{Constants, Motion, Plant, Push};
+use crate::plant::{Motion, Plant};
 use crate::record::{Recorder, Row};
 use crate::reference;
 use crate::report::angles::roll_pitch_yaw;
+use crate::weather::Weather;
 
 /// How a flight ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -64,27 +64,6 @@ impl Delay {
     }
 }
 
-/// Wind, and how it pushes the vehicle. Drag is linear in the velocity through the air, k∘(v − w)/m, so that a wind w
-/// is the same as an acceleration of k∘w/m.
-#[derive(Clone, Debug)]
-struct WindPush {
-    wind: Wind,
-    /// k1..k3 over m, 1/s.
-    drag: Vector3<f64>,
-    /// The sum of this tick.
-    sum: Push,
-}
-
-impl WindPush {
-    /// A push with this tick's wind added. Out of the way of the flights without wind.
-    #[cold]
-    fn add(&mut self, push: &Push) -> &Push {
-        let acceleration = push.acceleration + self.drag.component_mul(&self.wind.sample());
-        self.sum = Push { acceleration, ..*push };
-        &self.sum
-    }
-}
-
 /// A plant with the firmware in its loop, and the control laws that it flies by. On a cache line of its own: where a
 /// stack happens to begin would otherwise decide a fifth of the speed.
 #[derive(Clone, Debug)]
@@ -99,14 +78,14 @@ pub struct Flight<P, A = SlidingAttitude, L = SlidingPosition> {
     outcome: Outcome,
     /// Large and rarely used: elsewhere, so that the rest stays together.
     delay: Option<Box<Delay>>,
-    wind: Option<Box<WindPush>>,
+    weather: Option<Box<Weather>>,
 }
 
 impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// Before the first tick.
     pub fn new(autopilot: Autopilot<A, L>, plant: P, noise: Noise, trajectory: Trajectory) -> Self {
         let outcome = Outcome { survived: true, ..Outcome::default() };
-        Self { autopilot, plant, noise, trajectory, tick: 0, outcome, delay: None, wind: None }
+        Self { autopilot, plant, noise, trajectory, tick: 0, outcome, delay: None, weather: None }
     }
 
     /// With motor commands that act `ticks` later, at most [`DELAY_TICKS_MAX`]; until the first of them does, the
@@ -117,12 +96,28 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         self
     }
 
-    /// In a wind, which is asked for every tick; `constants` are the plant's.
+    /// In a weather, which is asked for every tick.
     #[must_use]
-    pub fn with_wind(mut self, wind: Wind, constants: &Constants) -> Self {
-        let drag = constants.drag / constants.mass;
-        self.wind = Some(Box::new(WindPush { wind, drag, sum: Push::default() }));
+    pub fn with_weather(mut self, weather: Option<Weather>) -> Self {
+        self.weather = weather.map(Box::new);
         self
+    }
+
+    /// The plant.
+    pub fn plant(&self) -> &P {
+        &self.plant
+    }
+
+    /// The plant, to do something to it.
+    pub fn plant_mut(&mut self) -> &mut P {
+        &mut self.plant
+    }
+
+    /// What an ideal accelerometer reads now, about the body's axes, m/s². Between two ticks it feels the push of the
+    /// tick before.
+    pub fn specific_force(&self) -> Vector3<f64> {
+        let push = self.weather.as_ref().map_or_else(|| &self.noise.now().push, |weather| weather.now());
+        self.plant.specific_force(push)
     }
 
     /// What the firmware's sensor sees now. To be asked once a tick, before the plant moves.
@@ -163,8 +158,8 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
             command = delay.pass(command);
         }
         let mut push = &self.noise.now().push;
-        if let Some(wind) = &mut self.wind {
-            push = wind.add(push);
+        if let Some(weather) = &mut self.weather {
+            push = weather.add(push, self.tick, self.plant.air_density());
         }
         self.plant.step(&command, push, TICK_S_EXACT);
         self.outcome.saturated_ticks += u32::from(saturated);

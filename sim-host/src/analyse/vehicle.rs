@@ -10,7 +10,7 @@ use firmware::signals::TICK_S_EXACT;
 use nalgebra::{Complex, Matrix4, Vector4};
 
 use super::chain::{Chain, Sampled};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, World};
 
 /// Period of the outer partition, s.
 pub(super) const OUTER_STEP_S: f64 = OUTER.period as f64 * TICK_S_EXACT;
@@ -24,12 +24,13 @@ pub(super) fn turned(angle: f64) -> Complex<f64> {
     Complex::new(cos, sin)
 }
 
-/// The scenario's vehicle and controller, hovering at the origin in still air.
+/// The scenario's vehicle and controller, hovering at the origin in still air, sound and at sea level.
 pub(super) fn hovering(scenario: &Scenario) -> Scenario {
     let mut hover = scenario.clone();
     let file = &mut hover.file;
     file.trajectory = Trajectory::Hold { position_m: [0.0; 3], yaw_rad: 0.0 };
-    (file.join, file.disturbance, file.wind, file.tumble) = (None, None, None, None);
+    (file.join, file.disturbance, file.wind, file.tumble, file.battery) = (None, None, None, None, None);
+    (file.push, file.rotor_failure, file.world) = (Vec::new(), Vec::new(), World::default());
     (file.start, file.ground, file.start_position_m) = (Start::InFlight, false, [0.0; 3]);
     (file.start_velocity_m_s, file.start_attitude_deg, file.start_rates_rad_s) = (None, None, None);
     hover

@@ -1,4 +1,4 @@
-//! Wind: a steady part and Dryden turbulence, in the low-altitude form of MIL-F-8785C.
+//! Wind: a steady part, Dryden turbulence in the low-altitude form of MIL-F-8785C, and discrete gusts.
 //!
 //! ```text
 //! along    Hu(s) = σu √(2T) / (1 + T s)                  R(τ) = σu² e^(−τ/T)                  T = Lu/V
@@ -14,6 +14,7 @@ use core::f64::consts::FRAC_1_SQRT_2;
 use nalgebra::{Matrix3, Vector3};
 
 use super::gaussian::{Source, Stream};
+use super::gust;
 use crate::scenario;
 
 const FOOT_M: f64 = 0.3048;
@@ -114,6 +115,10 @@ pub struct Wind {
     /// From (along, across, up) to the world.
     axes: Matrix3<f64>,
     filters: Option<[Filter; 3]>,
+    gusts: Vec<scenario::Gust>,
+    /// How often it was asked for, and the time between, s.
+    asked: u32,
+    step_s: f64,
 }
 
 impl Wind {
@@ -130,11 +135,22 @@ impl Wind {
             ]
         });
         let mean = Vector3::from(wind.mean_m_s);
-        Self { mean, axes: axes(&mean), filters }
+        Self { mean, axes: axes(&mean), filters, gusts: wind.gust.clone(), asked: 0, step_s }
     }
 
     /// The wind of this tick in the world, m/s. To be asked for once a tick.
     pub fn sample(&mut self) -> Vector3<f64> {
+        let wind = self.blowing();
+        if self.gusts.is_empty() {
+            return wind;
+        }
+        let time = f64::from(self.asked) * self.step_s;
+        self.asked += 1;
+        wind + gust::at(&self.gusts, time)
+    }
+
+    /// The steady part and the turbulence.
+    fn blowing(&mut self) -> Vector3<f64> {
         let Some([along, across, up]) = &mut self.filters else { return self.mean };
         self.mean + self.axes * Vector3::new(along.sample(), across.sample(), up.sample())
     }

@@ -2,6 +2,7 @@
 
 pub mod dryden;
 mod gaussian;
+pub mod gust;
 pub mod tumble;
 
 use nalgebra::Vector3;

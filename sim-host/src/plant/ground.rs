@@ -57,10 +57,15 @@ impl Ground {
         }
     }
 
+    /// Height of a place (m) above the ground, m.
+    pub fn height_above(&self, position: &Vector3<f64>) -> f64 {
+        position.z - self.height
+    }
+
     /// What the ground does to a body in this motion.
     pub fn wrench(&self, motion: &Motion) -> Wrench {
         let mut total = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
-        if motion.position.z - self.height > self.foot_radius {
+        if self.height_above(&motion.position) > self.foot_radius {
             return total;
         }
         let attitude = UnitQuaternion::new_normalize(motion.attitude);

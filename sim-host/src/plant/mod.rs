@@ -3,10 +3,14 @@
 //! [`rigid_body`] is the truth for everything that flies; [`paper`] is the paper's small-angle model, kept to
 //! reproduce its figures. World frame NWU, body frame FLU.
 
+pub mod air;
+pub mod battery;
+pub mod effects;
 pub mod ground;
 pub mod paper;
 pub mod rigid_body;
 
+use battery::BatteryState;
 use firmware::airframe::ROTORS;
 use firmware::signals::NavState;
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
@@ -100,6 +104,9 @@ pub struct Push {
 }
 
 /// A model that can be flown in lockstep.
+///
+/// Between steps it tells what sensors could measure, and takes what befalls it; a model without an effect says so by
+/// its constant answer.
 pub trait Plant {
     /// The motion now.
     fn motion(&self) -> Motion;
@@ -113,4 +120,18 @@ pub trait Plant {
 
     /// Advances by `step` seconds with commanded rotor speeds (rad/s) and a push, both held.
     fn step(&mut self, command: &[f64; ROTORS], push: &Push, step: f64);
+
+    /// What an ideal accelerometer at the centre of mass reads now, about the body's axes, m/s²: R(q)ᵀ (v̇ + g e3), with
+    /// the thrust of the rotors' speeds now and a push that goes on.
+    fn specific_force(&self, push: &Push) -> Vector3<f64>;
+
+    /// Density of the air around it in units of that for which its drag holds.
+    fn air_density(&self) -> f64 {
+        1.0
+    }
+
+    /// Its battery, if it has one.
+    fn battery(&self) -> Option<BatteryState> {
+        None
+    }
 }

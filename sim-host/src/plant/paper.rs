@@ -159,6 +159,13 @@ impl Plant for PaperPlant {
         *command
     }
 
+    fn specific_force(&self, push: &Push) -> Vector3<f64> {
+        let (c, s) = (&self.constants, &self.state);
+        let thrust = thrust_axis(&s.angles) * (c.inputs(&self.omega).x / c.mass);
+        let world = thrust - c.drag.component_mul(&s.velocity) / c.mass + push.acceleration;
+        UnitQuaternion::from_euler_angles(s.angles.x, s.angles.y, s.angles.z).inverse_transform_vector(&world)
+    }
+
     fn step(&mut self, command: &[f64; ROTORS], push: &Push, h: f64) {
         let c = &self.constants;
         let omega = Vector4::from(*command);

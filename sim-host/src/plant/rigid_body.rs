@@ -7,10 +7,13 @@
 //! ```
 //!
 //! The rotors' first-order lag has a closed form between commands, so it is evaluated exactly at the stages. The
-//! second equation is divided by I once, when the plant is built.
+//! second equation is divided by I once, when the plant is built. [`Effects`] change B, the drag and the commands
+//! between steps; a flight without them pays a comparison.
 
-use nalgebra::{Quaternion, SVector, Vector3, Vector4};
+use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3, Vector4};
 
+use super::battery::BatteryState;
+use super::effects::{Active, Effects, Sound};
 use super::ground::Ground;
 use super::{Constants, Motion, Plant, Push};
 use firmware::airframe::ROTORS;
@@ -27,6 +30,9 @@ pub struct RigidBody {
     ground: Option<Ground>,
     state: State,
     omega: Vector4<f64>,
+    /// Large and rarely used: elsewhere, so that the rest stays together.
+    sound: Box<Sound>,
+    effects: Option<Box<Active>>,
 }
 
 /// The constants as the equations of motion need them: divided by mass and inertia.
@@ -72,7 +78,18 @@ impl RigidBody {
     /// At rest at `position`, rotors turning so as to hover (in the air) or standing (on the ground).
     pub fn new(constants: Constants, ground: Option<Ground>, position: Vector3<f64>) -> Self {
         let omega = Vector4::repeat(if ground.is_some() { 0.0 } else { constants.hover_omega() });
-        Self { divided: Divided::new(&constants), ground, state: pack(&Motion::at_rest(position)), omega, constants }
+        let divided = Divided::new(&constants);
+        let sound = Box::new(Sound::new(&constants, divided.drag, divided.rotational_drag));
+        Self { divided, ground, state: pack(&Motion::at_rest(position)), omega, sound, effects: None, constants }
+    }
+
+    /// With effects, at the motion and the rotor speeds that it has.
+    #[must_use]
+    pub fn with_effects(mut self, effects: Effects) -> Self {
+        let mut active = Box::new(Active::new(effects));
+        self.evaluate(&mut active);
+        self.effects = Some(active);
+        self
     }
 
     /// With another motion and rotor speeds.
@@ -90,22 +107,65 @@ impl RigidBody {
         self
     }
 
-    /// The constants it was built with.
+    /// The constants it was built with, but for B, which is what effects have made of it.
     pub fn constants(&self) -> &Constants {
         &self.constants
+    }
+
+    /// The ground, if there is any.
+    pub fn ground(&self) -> Option<&Ground> {
+        self.ground.as_ref()
+    }
+
+    /// Height of the centre of mass above the ground, m; above the world's origin where there is none.
+    pub fn height_above_ground(&self) -> f64 {
+        let position = self.motion().position;
+        self.ground.as_ref().map_or(position.z, |ground| ground.height_above(&position))
+    }
+
+    /// What is left of each rotor's thrust and torques from now on: 1 for a sound rotor, 0 for one that is gone. Its
+    /// spin goes on.
+    pub fn set_rotor_effectiveness(&mut self, parts: [f64; ROTORS]) {
+        self.sound.effectiveness = parts;
+        match self.effects.take() {
+            Some(mut active) => {
+                self.evaluate(&mut active);
+                self.effects = Some(active);
+            }
+            None => self.constants.geometry = self.sound.geometry(1.0, &[1.0; ROTORS]),
+        }
+    }
+
+    /// B, the drag and the battery's load where the vehicle is now.
+    fn evaluate(&mut self, active: &mut Active) {
+        let motion = self.motion();
+        active.set_height(motion.position.z);
+        let cushion = active.cushion(self.ground.as_ref(), &motion, &self.sound.arms);
+        self.constants.geometry = self.sound.geometry(active.density, &cushion);
+        self.divided.drag = self.sound.drag * active.density;
+        self.divided.rotational_drag = self.sound.rotational_drag * active.density;
+        active.load(&self.constants.geometry, &self.omega);
     }
 
     #[expect(clippy::inline_always, reason = "measured: as for the derivative")]
     #[inline(always)]
     fn rotors(&self, omega: &Vector4<f64>, command: &Vector4<f64>) -> RotorState {
-        let (c, d) = (&self.constants, &self.divided);
-        let u = c.inputs(omega);
-        let spin_momentum = c.rotor_inertia * c.rotor_spin(omega);
+        let c = &self.constants;
         let reaction = if c.spin_up_reaction && c.rotor_lag > 0.0 {
             c.rotor_inertia * c.rotor_spin(&((command - omega) / c.rotor_lag))
         } else {
             0.0
         };
+        self.rotors_reacting(omega, reaction)
+    }
+
+    /// The rotors' share at their speeds (rad/s), with a torque Jr Ω̇r of their speeding up (N m).
+    #[expect(clippy::inline_always, reason = "measured: as for the derivative")]
+    #[inline(always)]
+    fn rotors_reacting(&self, omega: &Vector4<f64>, reaction: f64) -> RotorState {
+        let (c, d) = (&self.constants, &self.divided);
+        let u = c.inputs(omega);
+        let spin_momentum = c.rotor_inertia * c.rotor_spin(omega);
         RotorState {
             specific_thrust: u.x * d.inverse_mass,
             angular_acceleration: Vector3::new(u.y, u.z, u.w - reaction).component_mul(&d.inverse_inertia),
@@ -196,6 +256,42 @@ impl RigidBody {
             ([self.rotors(command, command); 3], *command)
         }
     }
+
+    /// The same with another time constant (s) for rotors that slow down. A first-order lag never passes its command, so
+    /// that each rotor keeps to one of the two within a step, and the closed form stays.
+    fn uneven_stages(&self, command: &Vector4<f64>, down: f64, h: f64) -> ([RotorState; 3], Vector4<f64>) {
+        let c = &self.constants;
+        let lag = command.zip_map(&self.omega, |to, from| if to < from { down } else { c.rotor_lag });
+        let kept = |time: f64| lag.map(|lag| libm::exp(-time / lag));
+        let after = |time: f64| command + (self.omega - command).component_mul(&kept(time));
+        let reaction = |omega: &Vector4<f64>| match c.spin_up_reaction {
+            true => c.rotor_inertia * c.rotor_spin(&(command - omega).component_div(&lag)),
+            false => 0.0,
+        };
+        let (half, end) = (after(0.5 * h), after(h));
+        ([&self.omega, &half, &end].map(|omega| self.rotors_reacting(omega, reaction(omega))), end)
+    }
+
+    /// A step with effects, out of the way of the flights without.
+    #[cold]
+    #[inline(never)]
+    fn step_with_effects(&mut self, command: &[f64; ROTORS], push: &Push, h: f64) {
+        let Some(mut active) = self.effects.take() else { return };
+        if let Some(parts) = active.failure(h) {
+            self.sound.effectiveness = parts;
+            self.evaluate(&mut active);
+        }
+        let command = active.limit(command);
+        let (stages, omega) = match active.effects.rotor_lag_down {
+            Some(down) if self.constants.rotor_lag > 0.0 => self.uneven_stages(&command, down, h),
+            _ => self.rotor_stages(&command, h),
+        };
+        self.state = self.rk4_in_contact(&stages, push, h);
+        self.omega = omega;
+        active.elapse(h);
+        self.evaluate(&mut active);
+        self.effects = Some(active);
+    }
 }
 
 fn pack(motion: &Motion) -> State {
@@ -237,11 +333,35 @@ impl Plant for RigidBody {
 
     #[inline]
     fn omega_during(&self, command: &[f64; ROTORS]) -> [f64; ROTORS] {
-        if self.constants.rotor_lag > 0.0 { self.omega.into() } else { *command }
+        if self.constants.rotor_lag > 0.0 {
+            return self.omega.into();
+        }
+        self.effects.as_ref().map_or(*command, |active| active.limit(command).into())
+    }
+
+    fn specific_force(&self, push: &Push) -> Vector3<f64> {
+        let motion = self.motion();
+        let mut world = push.acceleration - self.divided.drag.component_mul(&motion.velocity);
+        if let Some(ground) = &self.ground {
+            world += ground.wrench(&motion).force * self.divided.inverse_mass;
+        }
+        let thrust = self.constants.inputs(&self.omega).x * self.divided.inverse_mass;
+        UnitQuaternion::new_unchecked(motion.attitude).inverse_transform_vector(&world) + Vector3::new(0.0, 0.0, thrust)
+    }
+
+    fn air_density(&self) -> f64 {
+        self.effects.as_ref().map_or(1.0, |active| active.density)
+    }
+
+    fn battery(&self) -> Option<BatteryState> {
+        Some(self.effects.as_ref()?.effects.supply.as_ref()?.battery.state())
     }
 
     #[inline]
     fn step(&mut self, command: &[f64; ROTORS], push: &Push, h: f64) {
+        if self.effects.is_some() {
+            return self.step_with_effects(command, push, h);
+        }
         let (stages, omega) = self.rotor_stages(&Vector4::from(*command), h);
         self.state = if self.ground.is_some() {
             self.rk4_in_contact(&stages, push, h)

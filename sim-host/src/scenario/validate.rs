@@ -3,7 +3,11 @@
 use anyhow::{Result, anyhow, ensure};
 use firmware::guidance::Trajectory;
 
-use super::{AttitudeWave, Disturbance, PlantKind, Scenario, ScenarioFile, Truth, Wind};
+use super::{
+    AttitudeWave, BatteryStart, Disturbance, Gust, PlantKind, Scenario, ScenarioFile, ScheduledPush, Truth, Wind, World,
+};
+use crate::airframe::AirframeFile;
+use crate::plant::air::ALTITUDE_M;
 use crate::sil::DELAY_TICKS_MAX;
 
 /// Greatest length or height, m: beyond it an f32 no longer resolves a decimetre.
@@ -12,6 +16,8 @@ const LENGTH_MAX_M: f64 = 1e6;
 const SPEED_MAX_M_S: f64 = 100.0;
 /// Fastest turn along a trajectory, rad/s.
 const RATE_MAX_RAD_S: f64 = 100.0;
+/// Strongest push, m/s² and rad/s².
+const ACCELERATION_MAX: f64 = 1e6;
 /// Longest flight, s: 11 days.
 const DURATION_MAX_S: f64 = 1e6;
 /// Longest flight on the decoupled plant, s: its steps of 10 µs are counted in 32 bits.
@@ -39,6 +45,7 @@ impl Scenario {
         optional(f)?;
         delay(self.airframe.actuation_delay_s)?;
         world(f)?;
+        effects(f, &self.airframe)?;
         trajectory(&f.trajectory)?;
         if let Some(d) = &f.disturbance {
             disturbance(d, f.duration_s)?;
@@ -85,13 +92,68 @@ fn world(f: &ScenarioFile) -> Result<()> {
         ("start_rates_rad_s", f.start_rates_rad_s.is_some()),
         ("tumble", f.tumble.is_some()),
         ("wind", f.wind.is_some()),
+        ("push", !f.push.is_empty()),
+        ("world", f.world != World::default()),
+        ("battery", f.battery.is_some()),
+        ("rotor_failure", !f.rotor_failure.is_empty()),
     ] {
         let plant = f.plant == PlantKind::RigidBody;
         ensure!(!is_there || plant, "`{key}` is there on the plant `rigid-body` alone: leave it out, or set `plant`");
     }
     truth(&f.truth)?;
     start(f)?;
+    f.push.iter().try_for_each(push)?;
     f.wind.as_ref().map_or(Ok(()), wind)
+}
+
+/// What acts on the airframe's own figures: whether the airframe has them, and how far each may go.
+fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
+    within("world.altitude_m", f.world.altitude_m.unwrap_or(0.0), ALTITUDE_M.0, ALTITUDE_M.1)?;
+    for (key, asked, needs, is_there) in [
+        ("world.ground_effect", f.world.ground_effect, "ground", f.ground),
+        ("world.ground_effect", f.world.ground_effect, "airframe.rotor_radius_m", airframe.rotor_radius_m.is_some()),
+        (
+            "world.rotor_lag_down",
+            f.world.rotor_lag_down,
+            "airframe.rotor_lag_down_s",
+            airframe.rotor_lag_down_s.is_some(),
+        ),
+        ("world.rotor_lag_down", f.world.rotor_lag_down, "rotor_lag_s", airframe.rotor_lag_s > 0.0),
+        ("battery", f.battery.is_some(), "airframe.battery", airframe.battery.is_some()),
+    ] {
+        ensure!(!asked || is_there, "`{key}` needs `{needs}`: set it, or leave `{key}` out");
+    }
+    for failure in &f.rotor_failure {
+        within("rotor_failure.at_s", failure.at_s, 0.0, DURATION_MAX_S)?;
+        failure.effectiveness.iter().try_for_each(|part| within("rotor_failure.effectiveness", *part, 0.0, 10.0))?;
+    }
+    f.battery.as_ref().map_or(Ok(()), battery)
+}
+
+fn battery(battery: &BatteryStart) -> Result<()> {
+    within("battery.soc", battery.soc, 0.0, 1.0)?;
+    for collapse in &battery.collapse {
+        period("battery.collapse", collapse.from_s, collapse.to_s)?;
+        within("battery.collapse.factor", collapse.factor, 0.0, 1.0)?;
+    }
+    Ok(())
+}
+
+fn push(push: &ScheduledPush) -> Result<()> {
+    period("push", push.from_s, push.to_s)?;
+    for (key, values) in [
+        ("push.acceleration_m_s2", push.acceleration_m_s2),
+        ("push.angular_acceleration_rad_s2", push.angular_acceleration_rad_s2),
+    ] {
+        values.iter().try_for_each(|value| within(key, *value, -ACCELERATION_MAX, ACCELERATION_MAX))?;
+    }
+    Ok(())
+}
+
+/// A time from which something acts, and one until which it does.
+fn period(key: &str, from_s: f64, to_s: f64) -> Result<()> {
+    within(&format!("{key}.from_s"), from_s, 0.0, DURATION_MAX_S)?;
+    within(&format!("{key}.to_s"), to_s, from_s + 1e-3, 2.0 * DURATION_MAX_S)
 }
 
 fn truth(truth: &Truth) -> Result<()> {
@@ -131,7 +193,15 @@ fn wind(wind: &Wind) -> Result<()> {
     }
     within("wind.turbulence_20ft_m_s", wind.turbulence_20ft_m_s, 0.0, SPEED_MAX_M_S)?;
     within("wind.altitude_m", wind.altitude_m, 0.0, LENGTH_MAX_M)?;
-    within("wind.airspeed_m_s", wind.airspeed_m_s.unwrap_or(1.0), 0.01, SPEED_MAX_M_S)
+    within("wind.airspeed_m_s", wind.airspeed_m_s.unwrap_or(1.0), 0.01, SPEED_MAX_M_S)?;
+    wind.gust.iter().try_for_each(gust)
+}
+
+fn gust(gust: &Gust) -> Result<()> {
+    within("wind.gust.from_s", gust.from_s, 0.0, DURATION_MAX_S)?;
+    within("wind.gust.rise_s", gust.rise_s, 1e-3, DURATION_MAX_S)?;
+    within("wind.gust.hold_s", gust.hold_s, 0.0, DURATION_MAX_S)?;
+    gust.peak_m_s.iter().try_for_each(|value| within("wind.gust.peak_m_s", *value, -SPEED_MAX_M_S, SPEED_MAX_M_S))
 }
 
 fn delay(seconds: f64) -> Result<()> {

@@ -1,10 +1,14 @@
-//! The world of a scenario: how the plant differs from what the firmware believes, how the flight begins, the wind.
+//! The world of a scenario: how the plant differs from what the firmware believes, how the flight begins, the air, and
+//! what befalls the vehicle.
 
 use nalgebra::{Matrix4, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::ScenarioFile;
+use super::{Scenario, ScenarioFile};
 use crate::noise::tumble;
+use crate::plant::air::{Atmosphere, GroundEffect};
+use crate::plant::battery::{Battery, Collapse};
+use crate::plant::effects::{self, Effects, Supply};
 use crate::plant::{Constants, Motion};
 use firmware::airframe::ROTORS;
 
@@ -52,8 +56,8 @@ pub struct Tumble {
     pub speed_m_s: f64,
 }
 
-/// A steady wind with Dryden turbulence.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// A steady wind with Dryden turbulence and discrete gusts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Wind {
     /// The steady part, in the world, m/s.
@@ -65,12 +69,95 @@ pub struct Wind {
     pub altitude_m: f64,
     /// Speed at which the vehicle meets the turbulence, m/s; W20 without it.
     pub airspeed_m_s: Option<f64>,
+    /// Discrete gusts, which add up.
+    pub gust: Vec<Gust>,
 }
 
 impl Default for Wind {
     fn default() -> Self {
-        Self { mean_m_s: [0.0; 3], turbulence_20ft_m_s: 0.0, altitude_m: 10.0, airspeed_m_s: None }
+        Self { mean_m_s: [0.0; 3], turbulence_20ft_m_s: 0.0, altitude_m: 10.0, airspeed_m_s: None, gust: Vec::new() }
     }
+}
+
+/// A discrete gust: it rises as 1 − cos (MIL-F-8785C, 3.7.1.3), holds, and falls as it rose.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gust {
+    /// When it begins, s.
+    pub from_s: f64,
+    /// How long it rises, and how long it falls, s: the specification's dm over the airspeed.
+    pub rise_s: f64,
+    /// How long it stays, s.
+    #[serde(default)]
+    pub hold_s: f64,
+    /// Its peak, in the world, m/s.
+    pub peak_m_s: [f64; 3],
+}
+
+/// A steady push for a while.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScheduledPush {
+    /// Onset, s.
+    pub from_s: f64,
+    /// End, s.
+    pub to_s: f64,
+    /// In the world, m/s².
+    #[serde(default)]
+    pub acceleration_m_s2: [f64; 3],
+    /// About the body's axes, rad/s².
+    #[serde(default)]
+    pub angular_acceleration_rad_s2: [f64; 3],
+}
+
+/// What of the airframe and of its air is flown with, besides the constants. The figures are the airframe's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct World {
+    /// Height of z = 0 above sea level, m: thrust, torque and drag are those of the air up there.
+    pub altitude_m: Option<f64>,
+    /// Whether rotors lift more close to the ground.
+    pub ground_effect: bool,
+    /// Whether rotors slow down by `rotor_lag_down_s`.
+    pub rotor_lag_down: bool,
+}
+
+/// The battery's state at the start, and what befalls it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct BatteryStart {
+    /// Part of the capacity that is left at the start.
+    pub soc: f64,
+    /// When its voltage collapses.
+    pub collapse: Vec<VoltageCollapse>,
+}
+
+impl Default for BatteryStart {
+    fn default() -> Self {
+        Self { soc: 1.0, collapse: Vec::new() }
+    }
+}
+
+/// A collapse of the open-circuit voltage for a while.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VoltageCollapse {
+    /// Onset, s.
+    pub from_s: f64,
+    /// End, s.
+    pub to_s: f64,
+    /// What is left of the voltage.
+    pub factor: f64,
+}
+
+/// Rotors that fail in flight.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RotorFailure {
+    /// When, s.
+    pub at_s: f64,
+    /// What is left of each rotor's thrust and torque from then on, of what `truth` left.
+    pub effectiveness: [f64; ROTORS],
 }
 
 impl ScenarioFile {
@@ -92,5 +179,38 @@ impl ScenarioFile {
             attitude: UnitQuaternion::from_euler_angles(roll, pitch, yaw).into_inner(),
             rates: self.start_rates_rad_s.unwrap_or_default().into(),
         }
+    }
+}
+
+impl Scenario {
+    /// What the plant is flown with besides its constants; nothing if it is nothing.
+    pub fn effects(&self) -> Option<Effects> {
+        let (file, airframe) = (&self.file, &self.airframe);
+        let world = file.world;
+        let failure = |f: &RotorFailure| effects::RotorFailure { at: f.at_s, effectiveness: f.effectiveness };
+        let mut failures: Vec<_> = file.rotor_failure.iter().map(failure).collect();
+        failures.sort_by(|a, b| a.at.total_cmp(&b.at));
+        let plane = airframe.rotor_height_m;
+        let effects = Effects {
+            rotor_lag_down: airframe.rotor_lag_down_s.filter(|_| world.rotor_lag_down),
+            failures,
+            atmosphere: world.altitude_m.map(|altitude| Atmosphere { altitude }),
+            ground_effect: airframe
+                .rotor_radius_m
+                .filter(|_| world.ground_effect)
+                .map(|radius| GroundEffect { radius, plane }),
+            supply: self.supply(),
+        };
+        (effects != Effects::default()).then_some(effects)
+    }
+
+    fn supply(&self) -> Option<Supply> {
+        let (start, pack) = (self.file.battery.as_ref()?, self.airframe.battery?);
+        let collapse = |c: &VoltageCollapse| Collapse { from_to: (c.from_s, c.to_s), factor: c.factor };
+        Some(Supply {
+            battery: Battery::new(pack, start.soc),
+            omega_max: self.airframe.omega_max(),
+            collapses: start.collapse.iter().map(collapse).collect(),
+        })
     }
 }

@@ -1,0 +1,66 @@
+//! What pushes the vehicle besides the disturbance: the wind, and pushes on a schedule.
+
+use core::ops::Range;
+
+use firmware::signals::TICK_S_EXACT;
+use nalgebra::Vector3;
+
+use crate::noise::dryden::Wind;
+use crate::plant::Push;
+use crate::scenario::{Scenario, ScheduledPush};
+
+/// The pushes of a flight. Drag is linear in the velocity through the air, ρ/ρ0 k∘(v − w)/m, so that a wind w is the
+/// same as an acceleration of ρ/ρ0 k∘w/m.
+#[derive(Clone, Debug)]
+pub struct Weather {
+    wind: Option<Wind>,
+    /// k1..k3 over m, 1/s.
+    drag: Vector3<f64>,
+    scheduled: Vec<(Range<u32>, Push)>,
+    /// The sum of this tick.
+    sum: Push,
+}
+
+impl Weather {
+    /// A scenario's under a seed, if it has any.
+    pub fn new(scenario: &Scenario, seed: u64) -> Option<Self> {
+        let file = &scenario.file;
+        let constants = scenario.constants();
+        (file.wind.is_some() || !file.push.is_empty()).then(|| Self {
+            wind: file.wind.as_ref().map(|wind| Wind::new(wind, seed, TICK_S_EXACT)),
+            drag: constants.drag / constants.mass,
+            scheduled: file.push.iter().map(scheduled).collect(),
+            sum: Push::default(),
+        })
+    }
+
+    /// A tick's push with the wind and the schedule added, in air of a density (ρ/ρ0). To be asked for once a tick. Out
+    /// of the way of the flights without.
+    #[cold]
+    pub fn add(&mut self, push: &Push, tick: u32, density: f64) -> &Push {
+        self.sum = *push;
+        if let Some(wind) = &mut self.wind {
+            self.sum.acceleration += self.drag.component_mul(&wind.sample()) * density;
+        }
+        for (_, push) in self.scheduled.iter().filter(|(ticks, _)| ticks.contains(&tick)) {
+            self.sum.acceleration += push.acceleration;
+            self.sum.angular_acceleration += push.angular_acceleration;
+        }
+        &self.sum
+    }
+
+    /// The sum of the tick last asked for.
+    pub fn now(&self) -> &Push {
+        &self.sum
+    }
+}
+
+/// A push and its ticks.
+fn scheduled(push: &ScheduledPush) -> (Range<u32>, Push) {
+    let tick = |seconds: f64| (seconds / TICK_S_EXACT).round() as u32;
+    let acts = Push {
+        acceleration: push.acceleration_m_s2.into(),
+        angular_acceleration: push.angular_acceleration_rad_s2.into(),
+    };
+    (tick(push.from_s)..tick(push.to_s), acts)
+}
