@@ -16,4 +16,5 @@ pub mod observer;
 pub mod pointing;
 pub mod position;
 pub mod rotor;
+pub mod rotor_monitor;
 pub mod sliding;

@@ -192,7 +192,6 @@ pub struct Filter {
     offsets: Offsets,
     watches: Watches,
     frame: Option<LocalFrame>,
-    reference_pa: Option<f32>,
     height_by: HeightSource,
     last_pose: Option<PoseSample>,
     /// Found but not known to have been taken in.
@@ -231,7 +230,6 @@ impl Filter {
             offsets: Offsets::default(),
             watches: Watches::default(),
             frame: None,
-            reference_pa: None,
             height_by: HeightSource::None,
             last_pose: None,
             ordered: Correction::default(),
@@ -444,8 +442,7 @@ impl Filter {
         if !self.watches.baro.admits(baro.at, [baro.pressure_pa, 0.0, 0.0], STUCK_AFTER) {
             return;
         }
-        let reference = *self.reference_pa.get_or_insert(baro.pressure_pa);
-        let height = pressure_height(baro.pressure_pa, reference);
+        let height = pressure_height(baro.pressure_pa);
         let noise = self.settings.baro_noise_m;
         if self.height_by == HeightSource::Baro || !self.watches.baro.is_live(job.now.at, LOST_AFTER) {
             let verdict = self.fuse_height(job, &age, height, noise * noise, HeightSource::Baro);
