@@ -14,6 +14,7 @@ pub mod controller;
 pub mod decoupled;
 mod files;
 pub mod flight;
+pub mod geodesy;
 pub mod link;
 pub mod matrix;
 pub mod noise;
