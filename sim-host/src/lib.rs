@@ -27,6 +27,7 @@ pub mod report;
 pub mod scenario;
 pub mod score;
 pub mod seeds;
+pub mod sensors;
 pub mod serve;
 pub mod sil;
 pub mod statistics;

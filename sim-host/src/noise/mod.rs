@@ -1,7 +1,7 @@
 //! Seeded randomness of the world: disturbances, wind, tumbling starts.
 
 pub mod dryden;
-mod gaussian;
+pub(crate) mod gaussian;
 pub mod tumble;
 
 use nalgebra::Vector3;
