@@ -16,7 +16,7 @@ use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::outer::{Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
-use crate::signals::{NavHealth, SensorFrame, Tick};
+use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
 use crate::validate::ConfigError;
 
 /// All that the partitions share.
@@ -71,6 +71,8 @@ pub struct InnerTask<A = SlidingAttitude> {
     inner: Inner<A>,
     outer: OuterOutput,
     filter: FilterOutput,
+    /// When that came into effect.
+    filtered_at: Option<Tick>,
     commander: CommanderOutput,
     /// Commands for the commander's next job, and its replies for the ground's.
     commands: Commands,
@@ -101,6 +103,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             inner,
             outer: first,
             filter: FilterOutput::initial(),
+            filtered_at: None,
             commander,
             commands: Commands::new(),
             replies: Replies::new(),
@@ -135,6 +138,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         {
             navigator.inject(&output.injection);
             self.filter = output;
+            self.filtered_at = Some(tick);
         }
         if let Some(output) = mail.commander.publish(tick) {
             self.kill &= output.flight_start.is_some();
@@ -250,6 +254,16 @@ impl<A: AttitudeLaw> InnerTask<A> {
     #[inline]
     pub fn outer_output(&self) -> &OuterOutput {
         &self.outer
+    }
+
+    /// When the filter's output came into effect.
+    pub fn filtered_at(&self) -> Option<Tick> {
+        self.filtered_at
+    }
+
+    /// The motion as the vehicle believes it.
+    pub fn nav(&self) -> &NavState {
+        self.inner.nav()
     }
 
     /// What the filter has found last.

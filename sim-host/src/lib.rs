@@ -7,6 +7,7 @@
 
 pub mod airframe;
 pub mod analyse;
+pub mod assess;
 pub mod baseline;
 pub mod cli;
 pub mod compare;
@@ -19,6 +20,7 @@ pub mod link;
 pub mod matrix;
 pub mod noise;
 pub mod pil;
+pub mod pilot;
 pub mod plan;
 pub mod plant;
 pub mod record;

@@ -152,18 +152,18 @@ impl Pilot {
     }
 
     fn look(&mut self, tick: Tick, nav: &NavState) {
-        let there = self.target.is_some_and(|target| {
-            (target - nav.position).norm() < ARRIVED_M && nav.velocity.norm() < ARRIVED_M_S
-        });
+        let there = self
+            .target
+            .is_some_and(|target| (target - nav.position).norm() < ARRIVED_M && nav.velocity.norm() < ARRIVED_M_S);
         self.arrived_since = if there { self.arrived_since.or(Some(tick)) } else { None };
     }
 
     fn is_due(&self, command: &Command, tick: Tick) -> bool {
         let ticks = |seconds: f64| (seconds * 1e3).round() as Tick;
         let in_time = command.at_s.is_none_or(|at| tick >= ticks(at));
-        let there = command.arrived_for_s.is_none_or(|time| {
-            self.arrived_since.is_some_and(|since| tick.wrapping_sub(since) >= ticks(time))
-        });
+        let there = command
+            .arrived_for_s
+            .is_none_or(|time| self.arrived_since.is_some_and(|since| tick.wrapping_sub(since) >= ticks(time)));
         in_time && there
     }
 
@@ -205,12 +205,11 @@ mod tests {
         let mut asked = Vec::new();
         for tick in 0..20_000 {
             let z = if tick < 9_000 { tick.saturating_sub(2_000) as f32 / 700.0 } else { 10.0 };
-            let climbing = NavState {
-                velocity: Vector3::new(0.0, 0.0, if tick < 9_000 { 1.4 } else { 0.0 }),
-                ..at_height(z)
-            };
+            let climbing =
+                NavState { velocity: Vector3::new(0.0, 0.0, if tick < 9_000 { 1.4 } else { 0.0 }), ..at_height(z) };
             let armed = tick > 2_000;
-            if let Some(request) = pilot.step(tick, if tick < 2_000 { &NavState::at_rest() } else { &climbing }, armed) {
+            if let Some(request) = pilot.step(tick, if tick < 2_000 { &NavState::at_rest() } else { &climbing }, armed)
+            {
                 asked.push((tick, request));
             }
         }

@@ -9,15 +9,20 @@ use firmware::guidance::{JoinPlan, Trajectory};
 use serde::{Deserialize, Serialize};
 
 use crate::airframe::AirframeFile;
+use crate::assess::Assess;
 use crate::controller::{Control, Controller, TuningFile};
 use crate::files::{built_in, one_line, parse, read, source};
+use crate::pilot::Command;
+use crate::sensors::{Fault, Home, SuiteFile};
 pub use world::{BatteryStart, Gust, RotorFailure, ScheduledPush, Truth, Tumble, VoltageCollapse, Wind, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.
-const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
+const SCENARIOS: [(&str, &str); 33] = built_in!("scenarios":
     "helix", "helix-tw4", "helix-lag", "figure-eight", "step", "hover", "pad",
     "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
     "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery",
+    "outdoor-hover", "outdoor-eight", "indoor-hover", "indoor-helix", "path", "path-gnss-lost", "path-mag-off",
+    "path-mag-stuck", "path-baro-off", "path-baro-stuck", "gnss-glitch", "twist", "weak-rotor", "lost-rotor", "day",
 );
 
 /// Airframes that come with the binary.
@@ -130,6 +135,19 @@ pub struct ScenarioFile {
     pub control: Option<Control>,
     /// In their place, name or path of a tuning file. Without either, the airframe's own, `<airframe>-smc`.
     pub tuning: Option<String>,
+    /// The sensors: a suite's name, or a table. Without them the firmware is given the true motion.
+    pub sensors: Option<SuiteFile>,
+    /// Where on earth the flight takes place.
+    #[serde(default)]
+    pub home: Home,
+    /// What fails.
+    #[serde(default)]
+    pub fault: Vec<Fault>,
+    /// What a pilot asks for.
+    #[serde(default)]
+    pub command: Vec<Command>,
+    /// How its flights are judged.
+    pub assess: Option<Assess>,
     /// Gaussian disturbances.
     pub disturbance: Option<Disturbance>,
     /// Wind.
@@ -249,6 +267,7 @@ impl Scenario {
             join: self.file.join.clone(),
             start: self.file.start,
             start_position_m: self.file.start_position_m.map(|v| v as f32),
+            estimator: self.file.sensors.as_ref().map(|suite| suite.told(&self.file.home)),
             ..FlightConfig::default()
         };
         self.controller.configure(&mut config);

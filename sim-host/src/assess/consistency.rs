@@ -90,9 +90,8 @@ fn nees(navigation: &Navigation, attitude: &Vector3<f64>) -> Option<f64> {
     let (truth, nav) = (navigation.truth, navigation.nav);
     let velocity = truth.velocity - nav.velocity.cast();
     let position = truth.position - nav.position.cast();
-    let error = SVector::<f64, STATES>::from_iterator(
-        attitude.iter().chain(velocity.iter()).chain(position.iter()).copied(),
-    );
+    let error =
+        SVector::<f64, STATES>::from_iterator(attitude.iter().chain(velocity.iter()).chain(position.iter()).copied());
     let covariance = SMatrix::<f64, STATES, STATES>::from_fn(|i, j| f64::from(navigation.covariance.get(i, j)));
     Some(error.dot(&covariance.cholesky()?.solve(&error)))
 }

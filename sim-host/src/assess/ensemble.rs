@@ -217,7 +217,11 @@ impl Report {
             let name = row.measure.name();
             let _ = writeln!(text, "{name:26} {:>6} {p5:>10} {p50:>10} {p95:>10} {max:>10}", row.count);
         }
-        let _ = writeln!(text, "\n{:26} {:>8} {:>10} {:>10} {:>10}", "innovations", "count", "mean/dof", "within 95", "refused");
+        let _ = writeln!(
+            text,
+            "\n{:26} {:>8} {:>10} {:>10} {:>10}",
+            "innovations", "count", "mean/dof", "within 95", "refused"
+        );
         for nis in &self.nis {
             let Nis { reading, count, mean, within_95, refused } = nis;
             let _ = writeln!(text, "{reading:26} {count:>8} {mean:>10.3} {within_95:>10.3} {refused:>10.4}");

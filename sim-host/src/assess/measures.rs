@@ -241,9 +241,7 @@ impl Assessor {
         let value = |measure: Measure| match measure {
             Measure::ClimbS => climb,
             Measure::HeightErrorMaxM => self.height_error.some(|range| range.greatest),
-            Measure::HeightWanderMaxM => {
-                self.height.some(|range| (range.greatest - mean).max(mean - range.least))
-            }
+            Measure::HeightWanderMaxM => self.height.some(|range| (range.greatest - mean).max(mean - range.least)),
             Measure::HorizontalErrorP95M => super::ensemble::percentile(&horizontal, 95.0),
             Measure::HorizontalErrorMaxM => horizontal.last().copied(),
             Measure::XErrorRmsM => x,

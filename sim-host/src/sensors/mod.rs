@@ -20,6 +20,7 @@ pub mod mag;
 pub mod pose;
 mod process;
 pub mod suite;
+mod told;
 pub mod vibration;
 
 use anyhow::Result;
