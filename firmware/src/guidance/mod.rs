@@ -1,10 +1,12 @@
 //! Guidance: where the vehicle ought to be, with four derivatives, as a function of flight time.
 //!
-//! Owns the reference trajectories and the path that joins one from rest. Evaluated by the outer partition for
+//! Owns the reference trajectories and the path that joins one from rest; [`setpoint`] makes the reference of a vehicle
+//! that is told where to go while it flies. Evaluated by the outer partition for
 //! the tick at which its output takes effect. Time is a tick count, so a reference is as exact after an hour as
 //! after a second.
 
 mod join;
+pub mod setpoint;
 
 pub use join::{JoinPath, JoinPlan, MIDDLE_POINTS};
 

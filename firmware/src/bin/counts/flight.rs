@@ -4,7 +4,7 @@ use core::hint::black_box;
 
 use firmware::airframe::{Airframe, ROTORS, RotorGeometry};
 use firmware::board::counter::{self, Counter, Mark};
-use firmware::config::{FlightConfig, Start};
+use firmware::config::{FlightConfig, ModeSettings, Start};
 use firmware::control::attitude::{AttitudeForm, AttitudeGains, SlidingAttitude};
 use firmware::control::mixer::Mixer;
 use firmware::control::observer::ObserverGains;
@@ -111,6 +111,7 @@ fn config() -> FlightConfig {
         join: Some(JoinPlan { duration_s: 4.0, start_acceleration_m_s2: [0.0; 3], middle_m: heapless::Vec::new() }),
         start: Start::InFlight,
         start_position_m: [0.0, 0.0, 2.0],
+        modes: ModeSettings::default(),
     }
 }
 
