@@ -56,6 +56,7 @@ pub struct Inner<A = SlidingAttitude> {
     /// What they are believed to do.
     effect: RotorEffect,
     yaw: YawInversion,
+    idle_rad_s: f32,
     nav: NavState,
     stale_ticks: u32,
     refused_samples: u32,
@@ -86,6 +87,7 @@ impl<A: AttitudeLaw> Inner<A> {
             believed,
             rotors,
             yaw: config.yaw_inversion(),
+            idle_rad_s: config.modes.idle_part * omega_max,
             nav,
             stale_ticks: 0,
             refused_samples: 0,
@@ -134,6 +136,15 @@ impl<A: AttitudeLaw> Inner<A> {
             self.follow(&MotorCommand::STOPPED);
             self.output = InnerOutput::IDLE;
         }
+        &self.output
+    }
+
+    /// One tick in place of [`step`](Self::step) with rotors that idle.
+    pub fn idle(&mut self) -> &InnerOutput {
+        self.law.reset();
+        let motors = MotorCommand { omega_rad_s: [self.idle_rad_s; ROTORS] };
+        self.follow(&motors);
+        self.output = InnerOutput { motors, ..InnerOutput::IDLE };
         &self.output
     }
 

@@ -53,6 +53,28 @@ impl NavState {
     }
 }
 
+/// What of the motion may be trusted. Angular rates always come with the attitude.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NavHealth {
+    /// Roll and pitch.
+    pub attitude: bool,
+    /// Heading.
+    pub heading: bool,
+    /// Horizontal velocity.
+    pub velocity: bool,
+    /// Horizontal position.
+    pub position: bool,
+    /// Height and vertical velocity.
+    pub height: bool,
+}
+
+impl NavHealth {
+    /// All of it: what an ideal sensor gives.
+    pub const ALL: Self = Self { attitude: true, heading: true, velocity: true, position: true, height: true };
+    /// Nothing.
+    pub const NONE: Self = Self { attitude: false, heading: false, velocity: false, position: false, height: false };
+}
+
 /// What is delivered for one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "one a tick, handed on by reference; there is no heap to put it on")]

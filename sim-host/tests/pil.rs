@@ -57,7 +57,7 @@ fn lockstep_with(options: &PilOptions, ticks: u32, disturb: fn(u32, &mut SensorF
     for tick in 0..ticks {
         let mut sample = motion(tick);
         if tick == 5_000 {
-            nav_of(sample).rates.x = f32::NAN;
+            nav_of(&mut sample).rates.x = f32::NAN;
         }
         let missing = tick % 997 == 500;
         sil.tick((!missing).then_some(&sample));

@@ -38,8 +38,8 @@ pub enum Target {
     Place {
         /// In the world, m.
         position: Vector3<f32>,
-        /// ψ, rad.
-        yaw: f32,
+        /// ψ, rad; `None` for as it is.
+        yaw: Option<f32>,
     },
     /// Stop sideways, and go to a height; keep the heading.
     Height {
@@ -199,8 +199,10 @@ impl Setpoint {
         if distance <= change_max * STEP_S + grain && speed.norm_squared() <= change_max * change_max {
             return (*away, -speed);
         }
-        let most = self.speed_along(&direction);
-        let along = math::min(braking_speed(distance, speed.dot(&direction), BRAKING * acceleration), most);
+        let now = speed.dot(&direction);
+        // What is more than can be had in a step would be had sooner along one axis than along another.
+        let most = math::min(self.speed_along(&direction), math::max(now, 0.0) + change_max);
+        let along = math::min(braking_speed(distance, now, BRAKING * acceleration), most);
         self.change_speed(&(direction * along - speed))
     }
 
@@ -235,10 +237,10 @@ impl Setpoint {
             (self.speed.w, self.limits.yaw_rate_rad_s, self.limits.yaw_acceleration_rad_s2);
         let to_rate = |wanted: f32| moved(rate, math::limit(wanted - rate, acceleration * STEP_S));
         match *target {
-            Target::Place { yaw, .. } => {
+            Target::Place { yaw: Some(yaw), .. } => {
                 approach(math::wrap_angle(yaw - self.place.w), rate, most, acceleration, GRAIN)
             }
-            Target::Height { .. } => to_rate(0.0),
+            Target::Place { yaw: None, .. } | Target::Height { .. } => to_rate(0.0),
             Target::Velocity { yaw_rate, .. } => to_rate(math::limit(yaw_rate, most)),
         }
     }
