@@ -17,7 +17,7 @@ use crate::inner::InnerOutput;
 use crate::signals::{ControlInput, MotorCommand, NavState, SensorFrame, Tick};
 
 /// Changes with every change of a frame, so that host and image of different versions refuse each other.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// Bytes of a [`Request`].
 pub const REQUEST_BYTES: usize = 4 * REQUEST_WORDS;

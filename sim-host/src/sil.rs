@@ -277,7 +277,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
 
     /// Time on the flight's clock, s: 0 while disarmed.
     fn flight_time(&self, t: f64) -> f64 {
-        let start = self.autopilot.inner.commander_output().flight_start;
+        let start = self.autopilot.inner.commander_output().flight_start();
         start.map_or(0.0, |start| t - time(start))
     }
 
