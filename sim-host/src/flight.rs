@@ -29,7 +29,8 @@ use crate::weather::Weather;
 pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
     let constants = scenario.constants();
     let position = Vector3::from(scenario.file.start_position_m);
-    let on = |c: &Constants| Ground::for_vehicle(position.z, c.mass, c.gravity, c.inertia.z);
+    let height = scenario.file.world.ground_height_m.unwrap_or(position.z);
+    let on = |c: &Constants| Ground::for_vehicle(height, c.mass, c.gravity, c.inertia.z);
     let ground = scenario.file.ground.then(|| on(&constants));
     let plant = RigidBody::new(constants, ground, position).with_motion(scenario.file.start_motion(seed));
     match scenario.effects() {

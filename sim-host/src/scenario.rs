@@ -415,6 +415,8 @@ mod tests {
             ("helix", "push=[{from_s=1.0,to_s=2.0,colour=1.0}]", "colour"),
             ("helix", "world.altitude_m=2e4", "world.altitude_m"),
             ("pad", "world.ground_effect=true", "rotor_radius_m"),
+            ("pad", "world.ground_height_m=1", "world.ground_height_m"),
+            ("helix", "world.ground_height_m=-1", "ground"),
             ("x500-hover", "world.ground_effect=true", "ground"),
             ("helix", "world.rotor_lag_down=true", "rotor_lag_down_s"),
             ("helix", "battery.soc=0.5", "airframe.battery"),

@@ -372,3 +372,28 @@ fn a_gust_pushes_as_its_closed_form_says() {
     let speed = plant.motion().velocity.x;
     assert!(speed < impulse && speed > impulse * (1.0 - 0.122), "{speed} {impulse}");
 }
+
+#[test]
+fn the_x500_flies_in_the_whole_world() {
+    let scenario = load(
+        "x500-step",
+        &[
+            "ground=true",
+            "battery.soc=0.9",
+            "world={altitude_m=488.0,ground_height_m=0.0,ground_effect=true,rotor_lag_down=true}",
+            "thrust_to_weight=3.0",
+            "wind={mean_m_s=[3.0,0.0,0.0],turbulence_20ft_m_s=5.0}",
+        ],
+    );
+    let fly = || {
+        let mut rows: Vec<Row> = Vec::new();
+        let outcome = flight::fly(&scenario, 1, &mut rows).expect("can be flown");
+        assert!(outcome.survived);
+        rows
+    };
+    let rows = fly();
+    let last = rows.last().expect("rows");
+    let away = last.position.iter().zip(&last.reference).map(|(is, ought)| (is - ought).abs()).fold(0.0, f64::max);
+    assert!(away < 0.5, "{away} m away in the end");
+    assert_eq!(rows, fly(), "the same flight again");
+}

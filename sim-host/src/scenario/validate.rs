@@ -108,8 +108,11 @@ fn world(f: &ScenarioFile) -> Result<()> {
 
 /// What acts on the airframe's own figures: whether the airframe has them, and how far each may go.
 fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
+    let start_z = f.start_position_m[2];
+    within("world.ground_height_m", f.world.ground_height_m.unwrap_or(start_z), -LENGTH_MAX_M, start_z)?;
     within("world.altitude_m", f.world.altitude_m.unwrap_or(0.0), ALTITUDE_M.0, ALTITUDE_M.1)?;
     for (key, asked, needs, is_there) in [
+        ("world.ground_height_m", f.world.ground_height_m.is_some(), "ground", f.ground),
         ("world.ground_effect", f.world.ground_effect, "ground", f.ground),
         ("world.ground_effect", f.world.ground_effect, "airframe.rotor_radius_m", airframe.rotor_radius_m.is_some()),
         (

@@ -116,6 +116,8 @@ pub struct ScheduledPush {
 pub struct World {
     /// Height of z = 0 above sea level, m: thrust, torque and drag are those of the air up there.
     pub altitude_m: Option<f64>,
+    /// Height of the ground, where there is some, m; the start's without it.
+    pub ground_height_m: Option<f64>,
     /// Whether rotors lift more close to the ground.
     pub ground_effect: bool,
     /// Whether rotors slow down by `rotor_lag_down_s`.
