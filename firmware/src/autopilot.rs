@@ -16,7 +16,7 @@ use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::outer::{Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
-use crate::signals::{NavHealth, SensorFrame, Tick};
+use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
 use crate::validate::ConfigError;
 
 /// All that the partitions share.
@@ -238,6 +238,12 @@ impl<A: AttitudeLaw> InnerTask<A> {
     /// What a board has measured of its loops, for telemetry.
     pub fn report_timing(&mut self, timing: LoopTiming) {
         self.timing = Some(timing);
+    }
+
+    /// The motion that the inner loop controlled in the last tick: as sensed, or as estimated.
+    #[inline]
+    pub fn nav(&self) -> &NavState {
+        self.inner.nav()
     }
 
     /// What the inner loop did in the last tick.
