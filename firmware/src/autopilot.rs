@@ -274,6 +274,12 @@ impl<A: AttitudeLaw> InnerTask<A> {
         self.timing = Some(timing);
     }
 
+    /// The motion that the inner loop controlled in the last tick: as sensed, or as estimated.
+    #[inline]
+    pub fn nav(&self) -> &NavState {
+        self.inner.nav()
+    }
+
     /// What the inner loop did in the last tick.
     #[inline]
     pub fn inner_output(&self) -> &InnerOutput {

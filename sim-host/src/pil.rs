@@ -16,12 +16,12 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
+use firmware::autopilot::InnerTask;
 use firmware::config::FlightConfig;
 use firmware::inner::InnerOutput;
-use firmware::outer::OuterOutput;
 use firmware::pil::{Answer, Cause, Hello, REPLY_BYTES, Reply, Request, State};
 pub use firmware::pil::{BusyWait, Fault};
-use firmware::signals::{ControlInput, MotorCommand, SensorFrame, TICK_S_EXACT, Tick};
+use firmware::signals::{ControlInput, MotorCommand, NavState, SensorFrame, TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
 
 use qemu::Qemu;
@@ -54,6 +54,8 @@ impl<'a> PilOptions<'a> {
 /// What the image has done in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PilOutput {
+    /// The motion that it has controlled: as sensed, or as estimated.
+    pub nav: NavState,
     /// Speeds for the rotors.
     pub motors: MotorCommand,
     /// U1..U4 as demanded of the mixer.
@@ -71,7 +73,8 @@ pub struct PilOutput {
 impl From<Reply> for PilOutput {
     fn from(reply: Reply) -> Self {
         let InnerOutput { motors, demand, s, saturated } = reply.inner;
-        Self { motors, demand, s_attitude: s, s_position: reply.s_position, saturated, overruns: reply.overruns }
+        let Reply { nav, s_position, overruns, .. } = reply;
+        Self { nav, motors, demand, s_attitude: s, s_position, saturated, overruns }
     }
 }
 
@@ -217,13 +220,14 @@ impl fmt::Display for Difference {
 
 impl std::error::Error for Difference {}
 
-/// Holds a tick of the image against the same tick of the desktop, bit for bit.
+/// Holds a tick of the image against the tick that the desktop has just flown, bit for bit.
 ///
 /// # Errors
 /// The first field that differs.
-pub fn compare(tick: Tick, inner: &InnerOutput, outer: &OuterOutput, pil: &PilOutput) -> Result<(), Difference> {
-    let sil = Reply { tick, state: State::Flying, inner: *inner, s_position: outer.s, overruns: [0; 3] }.into();
-    for ((field, sil), (_, pil)) in fields(&sil).into_iter().zip(fields(pil)) {
+pub fn compare(desktop: &InnerTask, pil: &PilOutput) -> Result<(), Difference> {
+    let reply = Reply::of(desktop, [0; 3]);
+    let (tick, sil) = (reply.tick, reply.into());
+    for ((field, sil), (_, pil)) in fields(&sil).zip(fields(pil)) {
         if sil.to_bits() != pil.to_bits() {
             return Err(Difference { tick, field, sil, pil });
         }
@@ -231,8 +235,33 @@ pub fn compare(tick: Tick, inner: &InnerOutput, outer: &OuterOutput, pil: &PilOu
     Ok(())
 }
 
-/// Everything that must be the same, with its name.
-fn fields(output: &PilOutput) -> [(&'static str, f32); 15] {
+/// Everything that must be the same, with its name; in the order in which one follows from the other.
+fn fields(output: &PilOutput) -> impl Iterator<Item = (&'static str, f32)> {
+    nav_fields(&output.nav).into_iter().chain(control_fields(output))
+}
+
+/// What navigation has to say.
+fn nav_fields(nav: &NavState) -> [(&'static str, f32); 13] {
+    let (position, velocity, rates, q) = (&nav.position, &nav.velocity, &nav.rates, nav.attitude.quaternion());
+    [
+        ("x", position.x),
+        ("y", position.y),
+        ("z", position.z),
+        ("vx", velocity.x),
+        ("vy", velocity.y),
+        ("vz", velocity.z),
+        ("qw", q.w),
+        ("qx", q.i),
+        ("qy", q.j),
+        ("qz", q.k),
+        ("p", rates.x),
+        ("q", rates.y),
+        ("r", rates.z),
+    ]
+}
+
+/// What control makes of it.
+fn control_fields(output: &PilOutput) -> [(&'static str, f32); 15] {
     let [omega1, omega2, omega3, omega4] = output.motors.omega_rad_s;
     let [u1, u2, u3, u4] = output.demand.as_array();
     let (attitude, position) = (&output.s_attitude, &output.s_position);
@@ -262,15 +291,21 @@ mod tests {
 
     #[test]
     fn the_first_difference_is_named_with_time_and_both_values() {
-        let autopilot = Autopilot::new(&FlightConfig::default()).expect("valid");
-        let (inner, outer) = (autopilot.inner.inner_output(), autopilot.inner.outer_output());
-        let mut pil: PilOutput = Reply::of(&autopilot.inner, [0; 3]).into();
-        assert_eq!(compare(1_234, inner, outer, &pil), Ok(()));
+        let mut autopilot = Autopilot::new(&FlightConfig::default()).expect("valid");
+        for _ in 0..=1_234 {
+            autopilot.tick(None);
+        }
+        let desktop = &autopilot.inner;
+        let mut pil: PilOutput = Reply::of(desktop, [0; 3]).into();
+        assert_eq!(compare(desktop, &pil), Ok(()));
         pil.demand.roll_n_m = -0.0;
         pil.motors.omega_rad_s[3] = 1.0;
-        let difference = compare(1_234, inner, outer, &pil).expect_err("U2 has another sign");
+        let difference = compare(desktop, &pil).expect_err("U2 has another sign");
         let text = "`U2` differs at 1.234 s: 0 (00000000) on the desktop, -0 (80000000) in the image";
         assert_eq!(difference.to_string(), text);
+        pil.nav.velocity.y = f32::NAN;
+        let difference = compare(desktop, &pil).expect_err("the motion comes first");
+        assert_eq!(difference.field, "vy");
     }
 
     #[test]

@@ -109,11 +109,10 @@ fn fly<W: std::io::Write>(
 /// One tick. What moves the plant and what truth.csv records of the firmware is the image's; the desired attitude,
 /// which only the figures of merit look at, is the desktop's.
 fn step(flight: &mut Flight<RigidBody>, pil: &mut Pil, recorder: &mut impl Recorder) -> Result<bool> {
-    let tick = flight.autopilot.inner.next_tick();
     let sample = flight.sense();
-    let sil = *flight.autopilot.tick(Some(&sample));
+    flight.autopilot.tick(Some(&sample));
     let image = pil.tick(&sample)?;
-    compare(tick, &sil, flight.autopilot.inner.outer_output(), &image)?;
+    compare(&flight.autopilot.inner, &image)?;
     let inner = inner_of(&image);
     let outer = OuterOutput { s: image.s_position, ..*flight.autopilot.inner.outer_output() };
     Ok(flight.complete(&inner, &outer, recorder))

@@ -4,7 +4,7 @@
 //! priority  task       released by                     does
 //!        6  inner      TIMER0, 1 kHz                    sample, publish, release, control, rotors
 //!        5  receive    UART 0 has a byte                drains it towards the ground partition
-//!        4  outer      inner, every 4th tick            guidance and position control
+//!        4  outer      inner, every 4th tick            the estimator's filter, guidance and position control
 //!        3  commander  inner, every 20th tick           arming
 //!        2  ground     inner, every 10th tick           MAVLink
 //!        1  transmit   inner or UART 0 is free          drains what MAVLink has to say
@@ -34,6 +34,7 @@ mod app {
     };
     use firmware::board::{Imu as _, Rotors as _, Start, StartError};
     use firmware::commander::Commander;
+    use firmware::estimator::Filter;
     use firmware::mavlink::{Ground, LoopTiming, TxBytes};
     use firmware::meter::LoopMeter;
     use firmware::outer::Outer;
@@ -61,6 +62,7 @@ mod app {
         top: Top,
         uart_rx: UartRx,
         received: Producer<'static, u8>,
+        filter: Filter,
         outer: Outer,
         commander: Commander,
         ground: Ground,
@@ -121,7 +123,7 @@ mod app {
         let (transmit, waiting) = cx.local.tx_queue.split();
         let (uart_rx, uart) = uart.start();
         let Start { imu, rotors, diagnostics, .. } = start;
-        let Autopilot { inner: flight, outer, commander, ground, mail } = autopilot;
+        let Autopilot { inner: flight, filter, outer, commander, ground, mail } = autopilot;
         tick.start(TICK_US);
         let meter = LoopMeter::new(COUNTS_PER_US);
         (
@@ -130,6 +132,7 @@ mod app {
                 top: Top { tick, clock, meter, imu, rotors, flight, received, transmit },
                 uart_rx,
                 received: received_in,
+                filter,
                 outer,
                 commander,
                 ground,
@@ -157,7 +160,7 @@ mod app {
             cx.shared.mail.lock(|mail| (top.flight.tick(mail, sample.as_ref()), mail.overruns()));
         top.rotors.drive(&top.flight, overruns);
         top.hand_over_transmit();
-        if released.outer {
+        if released.filter || released.outer {
             rtic::pend(Interrupt::DUALTIMER);
         }
         if released.commander {
@@ -200,8 +203,12 @@ mod app {
         }
     }
 
-    #[task(binds = DUALTIMER, priority = 4, local = [outer, busy_outer], shared = [mail, outer_jobs])]
+    #[task(binds = DUALTIMER, priority = 4, local = [filter, outer, busy_outer], shared = [mail, outer_jobs])]
     fn outer(mut cx: outer::Context) {
+        if let Some((tick, input)) = cx.shared.mail.lock(|mail| mail.filter.take()) {
+            let output = cx.local.filter.step(tick, &input);
+            cx.shared.mail.lock(|mail| mail.filter.finish(output));
+        }
         let Some((tick, input)) = cx.shared.mail.lock(|mail| mail.outer.take()) else { return };
         let output = cx.local.outer.step(tick, &input);
         cx.local.busy_outer.outer(tick);

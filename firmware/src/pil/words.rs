@@ -1,0 +1,231 @@
+//! What is written as a fixed number of 32-bit words at most: the frames' parts, one after the other.
+//!
+//! A number keeps its bits, also where it is none.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use crate::airframe::ROTORS;
+use crate::inner::InnerOutput;
+use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, Measurements, PoseSample};
+use crate::signals::{ControlInput, MotorCommand, NavState, Tick};
+
+/// Something that goes over the wire.
+pub(super) trait Words: Sized {
+    /// Words that it takes at most.
+    const WORDS: usize;
+
+    /// Appends its words.
+    fn write(&self, to: &mut Writer);
+
+    /// Takes its words off; none if they are none of its.
+    fn read(from: &mut Reader) -> Option<Self>;
+}
+
+/// As the bytes of a frame, the rest of it zero.
+pub(super) fn encode<T: Words, const BYTES: usize>(what: &T) -> [u8; BYTES] {
+    const { assert!(BYTES == 4 * T::WORDS, "a frame as long as what goes into it") };
+    let mut bytes = [0; BYTES];
+    what.write(&mut Writer { rest: &mut bytes });
+    bytes
+}
+
+/// The larger of two numbers of words.
+pub(super) const fn larger(one: usize, other: usize) -> usize {
+    if one > other { one } else { other }
+}
+
+/// What of a frame is still to be written.
+pub(super) struct Writer<'a> {
+    rest: &'a mut [u8],
+}
+
+impl Writer<'_> {
+    /// Appends a word; [`encode`] has made room for all of them.
+    pub(super) fn word(&mut self, word: u32) {
+        if let Some((slot, rest)) = core::mem::take(&mut self.rest).split_first_chunk_mut() {
+            *slot = word.to_le_bytes();
+            self.rest = rest;
+        }
+    }
+}
+
+/// What of a frame is still to be read.
+pub(super) struct Reader<'a> {
+    rest: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self { rest: bytes }
+    }
+
+    /// The next word.
+    pub(super) fn word(&mut self) -> Option<u32> {
+        let (word, rest) = self.rest.split_first_chunk()?;
+        self.rest = rest;
+        Some(u32::from_le_bytes(*word))
+    }
+}
+
+impl Words for u32 {
+    const WORDS: usize = 1;
+
+    fn write(&self, to: &mut Writer) {
+        to.word(*self);
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        from.word()
+    }
+}
+
+impl Words for i32 {
+    const WORDS: usize = 1;
+
+    fn write(&self, to: &mut Writer) {
+        to.word(self.cast_unsigned());
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        from.word().map(u32::cast_signed)
+    }
+}
+
+impl Words for f32 {
+    const WORDS: usize = 1;
+
+    fn write(&self, to: &mut Writer) {
+        to.word(self.to_bits());
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        from.word().map(Self::from_bits)
+    }
+}
+
+impl Words for bool {
+    const WORDS: usize = 1;
+
+    fn write(&self, to: &mut Writer) {
+        to.word(u32::from(*self));
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        match from.word()? {
+            0 => Some(false),
+            1 => Some(true),
+            _ => None,
+        }
+    }
+}
+
+impl<T: Words + Copy + Default, const N: usize> Words for [T; N] {
+    const WORDS: usize = N * T::WORDS;
+
+    fn write(&self, to: &mut Writer) {
+        for one in self {
+            one.write(to);
+        }
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        let mut all = [T::default(); N];
+        for one in &mut all {
+            *one = T::read(from)?;
+        }
+        Some(all)
+    }
+}
+
+/// Whether there is one, and the one.
+impl<T: Words> Words for Option<T> {
+    const WORDS: usize = 1 + T::WORDS;
+
+    fn write(&self, to: &mut Writer) {
+        self.is_some().write(to);
+        if let Some(one) = self {
+            one.write(to);
+        }
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        Some(if bool::read(from)? { Some(T::read(from)?) } else { None })
+    }
+}
+
+impl Words for Vector3<f32> {
+    const WORDS: usize = 3;
+
+    fn write(&self, to: &mut Writer) {
+        [self.x, self.y, self.z].write(to);
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        <[f32; 3]>::read(from).map(Self::from)
+    }
+}
+
+/// w, x, y, z, not brought to unit size.
+impl Words for UnitQuaternion<f32> {
+    const WORDS: usize = 4;
+
+    fn write(&self, to: &mut Writer) {
+        let q = self.quaternion();
+        [q.w, q.i, q.j, q.k].write(to);
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        let [w, i, j, k] = Words::read(from)?;
+        Some(Self::new_unchecked(Quaternion::new(w, i, j, k)))
+    }
+}
+
+/// A struct is its fields' words, in the order given.
+macro_rules! as_words {
+    ($name:ident { $($field:ident: $type:ty),+ }) => {
+        impl $crate::pil::words::Words for $name {
+            const WORDS: usize = 0 $(+ <$type as $crate::pil::words::Words>::WORDS)+;
+
+            fn write(&self, to: &mut $crate::pil::words::Writer) {
+                $(self.$field.write(to);)+
+            }
+
+            fn read(from: &mut $crate::pil::words::Reader) -> Option<Self> {
+                Some(Self { $($field: <$type as $crate::pil::words::Words>::read(from)?),+ })
+            }
+        }
+    };
+}
+pub(super) use as_words;
+
+type Vector = Vector3<f32>;
+type Attitude = UnitQuaternion<f32>;
+
+as_words!(NavState { position: Vector, velocity: Vector, attitude: Attitude, rates: Vector });
+as_words!(InnerOutput { motors: MotorCommand, demand: ControlInput, s: Vector, saturated: bool });
+as_words!(MotorCommand { omega_rad_s: [f32; ROTORS] });
+as_words!(ControlInput { thrust_n: f32, roll_n_m: f32, pitch_n_m: f32, yaw_n_m: f32 });
+
+as_words!(Measurements {
+    imu: Option<ImuSample>,
+    mag: Option<MagSample>,
+    baro: Option<BaroSample>,
+    gnss: Option<GnssSample>,
+    pose: Option<PoseSample>,
+    battery: Option<BatterySample>
+});
+as_words!(ImuSample { at: Tick, gyro: Vector, accel: Vector });
+as_words!(MagSample { at: Tick, field_ut: Vector });
+as_words!(BaroSample { at: Tick, pressure_pa: f32 });
+as_words!(GnssSample {
+    at: Tick,
+    has_fix: bool,
+    place: Geodetic,
+    velocity: Vector,
+    horizontal_accuracy_m: f32,
+    vertical_accuracy_m: f32,
+    speed_accuracy_m_s: f32
+});
+as_words!(Geodetic { latitude_e7: i32, longitude_e7: i32, height_mm: i32 });
+as_words!(PoseSample { at: Tick, position: Vector, attitude: Attitude });
+as_words!(BatterySample { voltage_v: f32, current_a: f32 });
