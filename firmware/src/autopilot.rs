@@ -297,11 +297,6 @@ impl<A: AttitudeLaw> InnerTask<A> {
         self.filtered_at
     }
 
-    /// The motion as the vehicle believes it.
-    pub fn nav(&self) -> &NavState {
-        self.inner.nav()
-    }
-
     /// What the filter has found last.
     pub fn filter_output(&self) -> &FilterOutput {
         &self.filter

@@ -6,7 +6,7 @@
 //! Works on a snapshot of the motion and gives an attitude reference for the tick at which it is published; the
 //! motion is carried forward to that tick by the model, so that errors are taken between like times.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector4};
 
 use crate::commander::{Directive, Known};
 use crate::config::FlightConfig;
@@ -45,6 +45,8 @@ pub struct OuterOutput {
     pub idle: bool,
     /// True if the heading is given up.
     pub heading_free: bool,
+    /// Where the vehicle ought to be, m, and its heading, rad.
+    pub wanted: Vector4<f32>,
 }
 
 /// Where the last job's reference has come from.
@@ -175,7 +177,8 @@ impl<P: PositionLaw> Outer<P> {
     fn rest(&mut self, nav: &NavState) -> OuterOutput {
         self.reset();
         let attitude = AttitudeReference::idle(nav.attitude);
-        OuterOutput { attitude, s: Vector3::zeros(), limited: false, idle: true, heading_free: false }
+        let wanted = nav.position.push(yaw_of(nav));
+        OuterOutput { attitude, s: Vector3::zeros(), limited: false, idle: true, heading_free: false, wanted }
     }
 
     /// The trajectory at a time on the flight's clock, joined from the air if the vehicle was there.
@@ -326,6 +329,7 @@ impl<P: PositionLaw> Outer<P> {
             limited: self.limited,
             idle: false,
             heading_free: false,
+            wanted: reference.position.push(reference.yaw),
         }
     }
 

@@ -134,21 +134,20 @@ impl Pilot {
             return None;
         }
         self.look(tick, nav);
-        if let Some(last) = self.done.checked_sub(1).and_then(|last| self.script.get(last)) {
-            if last.order == Order::Arm && !armed {
-                let again = tick.wrapping_sub(self.given_at) >= 500;
-                return again.then(|| self.give(tick, last.order, nav));
-            }
-        }
+        let last = self.done.checked_sub(1).and_then(|last| self.script.get(last)).map(|command| command.order);
+        let waits = last == Some(Order::Arm) && !armed;
         if let Some(next) = self.script.get(self.done).copied()
+            && !waits
             && self.is_due(&next, tick)
         {
             self.done += 1;
             return Some(self.give(tick, next.order, nav));
         }
-        let last = *self.script.get(self.done.checked_sub(1)?)?;
-        let again = last.order.again_after(armed)?;
-        (tick.wrapping_sub(self.given_at) >= again).then(|| self.give(tick, last.order, nav))
+        let again = last?.again_after(armed)?;
+        if tick.wrapping_sub(self.given_at) < again {
+            return None;
+        }
+        Some(self.give(tick, last?, nav))
     }
 
     fn look(&mut self, tick: Tick, nav: &NavState) {
@@ -203,13 +202,12 @@ mod tests {
     fn commands_come_in_their_time_and_once_the_vehicle_is_there() {
         let mut pilot = Pilot::new(&script());
         let mut asked = Vec::new();
-        for tick in 0..20_000 {
+        for tick in 0..20_000_u32 {
             let z = if tick < 9_000 { tick.saturating_sub(2_000) as f32 / 700.0 } else { 10.0 };
             let climbing =
                 NavState { velocity: Vector3::new(0.0, 0.0, if tick < 9_000 { 1.4 } else { 0.0 }), ..at_height(z) };
-            let armed = tick > 2_000;
-            if let Some(request) = pilot.step(tick, if tick < 2_000 { &NavState::at_rest() } else { &climbing }, armed)
-            {
+            let (armed, nav) = (tick > 2_000, if tick < 2_000 { NavState::at_rest() } else { climbing });
+            if let Some(request) = pilot.step(tick, &nav, armed) {
                 asked.push((tick, request));
             }
         }

@@ -14,7 +14,7 @@ use crate::controller::{Control, Controller, TuningFile};
 use crate::files::{built_in, one_line, parse, read, source};
 use crate::pilot::Command;
 use crate::sensors::{Fault, Home, SuiteFile};
-pub use world::{BatteryStart, Gust, RotorFailure, ScheduledPush, Truth, Tumble, VoltageCollapse, Wind, World};
+pub use world::{BatteryStart, Gust, ScheduledPush, Truth, Tumble, Wind, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.
 const SCENARIOS: [(&str, &str); 33] = built_in!("scenarios":
@@ -160,9 +160,6 @@ pub struct ScenarioFile {
     pub world: World,
     /// The airframe's battery; without it, power that never ends.
     pub battery: Option<BatteryStart>,
-    /// Rotors that fail in flight.
-    #[serde(default)]
-    pub rotor_failure: Vec<RotorFailure>,
     /// What roll, pitch and yaw are to follow (decoupled plant only); level without it.
     pub attitude: Option<AttitudeWave>,
     /// The least time in which this airframe can match the trajectory from the start, where it is known, s.
@@ -314,7 +311,7 @@ fn controller(file: &ScenarioFile) -> Result<Controller> {
 fn moves_the_bound(setting: &str) -> bool {
     let key = setting.split(['=', '.']).next().unwrap_or_default();
     let start = key.starts_with("start_") || key == "tumble";
-    let world = matches!(key, "truth" | "wind" | "world" | "push" | "battery" | "rotor_failure");
+    let world = matches!(key, "truth" | "wind" | "world" | "push" | "battery" | "fault" | "sensors");
     start || world || matches!(key, "airframe" | "thrust_to_weight" | "trajectory" | "plant")
 }
 
@@ -421,15 +418,19 @@ mod tests {
             ("helix", "world.rotor_lag_down=true", "rotor_lag_down_s"),
             ("helix", "battery.soc=0.5", "airframe.battery"),
             ("x500-hover", "battery.soc=1.1", "battery.soc"),
-            ("x500-hover", "battery.collapse=[{from_s=1.0,to_s=2.0,factor=-1.0}]", "battery.collapse.factor"),
+            ("x500-hover", "fault=[{kind=\"collapse\",from_s=1.0,to_s=2.0,factor=-1.0}]", "fault.factor"),
             ("x500-hover", "airframe.battery.efficiency=0", "airframe.battery.efficiency"),
             ("x500-hover", "airframe.rotor_radius_m=0", "airframe.rotor_radius_m"),
-            ("helix", "rotor_failure=[{at_s=-1.0,effectiveness=[1.0,1.0,1.0,1.0]}]", "rotor_failure.at_s"),
-            ("helix", "rotor_failure=[{at_s=1.0,effectiveness=[1.0,1.0,1.0,-1.0]}]", "rotor_failure.effectiveness"),
+            ("helix", "fault=[{kind=\"rotor\",index=0,effectiveness=1.0,from_s=-1.0}]", "fault.from_s"),
+            ("helix", "fault=[{kind=\"rotor\",index=4,effectiveness=1.0,from_s=1.0}]", "fault.index"),
+            ("helix", "sensors=\"gps\"", "gps"),
+            ("helix", "command=[{order=\"dance\"}]", "dance"),
+            ("helix", "assess={from_s=99.0}", "assess"),
             ("paper-ideal", "world.altitude_m=100", "world"),
             ("paper-ideal", "push=[{from_s=1.0,to_s=2.0}]", "push"),
             ("paper-ideal", "battery.soc=1", "battery"),
-            ("paper-ideal", "rotor_failure=[{at_s=1.0,effectiveness=[1.0,1.0,1.0,0.0]}]", "rotor_failure"),
+            ("paper-ideal", "fault=[{kind=\"rotor\",index=0,effectiveness=0.0,from_s=1.0}]", "fault"),
+            ("paper-ideal", "sensors=\"gnss\"", "sensors"),
             ("paper-ideal", "actuation_delay_s=0.001", "actuation_delay_s"),
             ("paper-ideal", "start_attitude_deg=[10,0,0]", "start_attitude_deg"),
             ("paper-ideal", "wind.mean_m_s=[1,0,0]", "wind"),

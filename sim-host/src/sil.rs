@@ -180,7 +180,8 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         if let Some(pilot) = &mut self.pilot
             && let Some(request) = pilot.step(self.tick, vehicle.nav(), armed)
         {
-            vehicle.request(request);
+            // A full queue drops the request, as a busy vehicle would; the pilot looks again.
+            let _ = vehicle.request(request);
         }
     }
 
@@ -253,7 +254,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         Row {
             omega,
             omega_command: command,
-            reference: reference::at(&self.trajectory, self.flight_time(t)),
+            reference: self.reference(t, outer),
             desired_attitude: roll_pitch_yaw([desired.w, desired.i, desired.j, desired.k]),
             u: inner.demand.as_array().map(f64::from),
             s: [inner.s.x, inner.s.y, inner.s.z, outer.s.x, outer.s.y, outer.s.z].map(f64::from),
@@ -273,6 +274,15 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
             covariance: self.autopilot.filter.covariance(),
             commander: vehicle.commander_output(),
         }
+    }
+
+    /// Where the vehicle ought to be: on its trajectory, or where guidance has it.
+    fn reference(&self, t: f64, outer: &OuterOutput) -> [f64; 4] {
+        if self.pilot.is_none() {
+            return reference::at(&self.trajectory, self.flight_time(t));
+        }
+        let wanted = outer.wanted;
+        [wanted.x, wanted.y, wanted.z, wanted.w].map(f64::from)
     }
 
     /// Time on the flight's clock, s: 0 while disarmed.

@@ -160,7 +160,7 @@ fn a_rotor_fails_in_flight_and_may_heal() {
 #[test]
 fn failures_come_at_their_tick() {
     let failures =
-        "rotor_failure=[{at_s=0.02,effectiveness=[1.0,1.0,1.0,1.0]},{at_s=0.005,effectiveness=[0.5,1.0,1.0,1.0]}]";
+        "fault=[{kind=\"rotor\",index=0,effectiveness=0.5,from_s=0.005,to_s=0.02}]";
     let mut plant = plant(&[failures]);
     let hover = [plant.constants().hover_omega(); 4];
     let lift = |plant: &RigidBody| plant.constants().geometry[(0, 0)] / 8.54858e-6;
@@ -329,7 +329,7 @@ fn hovering_empties_the_battery_in_the_time_of_its_closed_form() {
 
 #[test]
 fn a_collapse_of_the_voltage_slows_the_rotors_while_it_lasts() {
-    let mut plant = plant(&["battery.collapse=[{from_s=0.1,to_s=0.3,factor=0.5}]"]);
+    let mut plant = plant(&["battery={}", "fault=[{kind=\"collapse\",from_s=0.1,to_s=0.3,factor=0.5}]"]);
     let hover = plant.constants().hover_omega();
     let mut slowest = f64::INFINITY;
     for tick in 1..=600 {

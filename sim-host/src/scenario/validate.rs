@@ -95,7 +95,9 @@ fn world(f: &ScenarioFile) -> Result<()> {
         ("push", !f.push.is_empty()),
         ("world", f.world != World::default()),
         ("battery", f.battery.is_some()),
-        ("rotor_failure", !f.rotor_failure.is_empty()),
+        ("sensors", f.sensors.is_some()),
+        ("fault", !f.fault.is_empty()),
+        ("command", !f.command.is_empty()),
     ] {
         let plant = f.plant == PlantKind::RigidBody;
         ensure!(!is_there || plant, "`{key}` is there on the plant `rigid-body` alone: leave it out, or set `plant`");
@@ -126,19 +128,11 @@ fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
     ] {
         ensure!(!asked || is_there, "`{key}` needs `{needs}`: set it, or leave `{key}` out");
     }
-    for failure in &f.rotor_failure {
-        within("rotor_failure.at_s", failure.at_s, 0.0, DURATION_MAX_S)?;
-        failure.effectiveness.iter().try_for_each(|part| within("rotor_failure.effectiveness", *part, 0.0, 10.0))?;
-    }
     f.battery.as_ref().map_or(Ok(()), battery)
 }
 
 fn battery(battery: &BatteryStart) -> Result<()> {
     within("battery.soc", battery.soc, 0.0, 1.0)?;
-    for collapse in &battery.collapse {
-        period("battery.collapse", collapse.from_s, collapse.to_s)?;
-        within("battery.collapse.factor", collapse.factor, 0.0, 1.0)?;
-    }
     Ok(())
 }
 
