@@ -142,8 +142,8 @@ const HEIGHT_SIGMA_MAX: f32 = 5.0;
 const DRAG_EVERY: u32 = 20;
 /// And standing.
 const REST_EVERY: u32 = 25;
-/// Noise of drag as a specific force, m/s²: what vibration and the model leave.
-const DRAG_NOISE: f32 = 0.15;
+/// Noise of drag as a specific force, m/s²: what gusts, tilting and the model leave of a mean over as many jobs.
+const DRAG_NOISE: f32 = 0.08;
 /// A vehicle at rest stands this still, m/s.
 const REST_NOISE: f32 = 0.02;
 /// How long ago a motion capture's pose may be for an alignment, ticks.
@@ -198,6 +198,8 @@ pub struct Filter {
     ordered: Correction,
     started: Option<Nominal>,
     jobs: u32,
+    /// Sum of the accelerometer's samples since drag was last fused, m/s², and how many.
+    force: (Vector3<f32>, u32),
 }
 
 /// What a job works with.
@@ -235,6 +237,7 @@ impl Filter {
             ordered: Correction::default(),
             started: None,
             jobs: 0,
+            force: (Vector3::zeros(), 0),
         }
     }
 
@@ -332,7 +335,8 @@ impl Filter {
 
     fn predict(&mut self, input: &FilterInput, attitude: &UnitQuaternion<f32>) {
         let step_s = input.span.ticks as f32 * TICK_S;
-        let noise = self.settings.step_noise(step_s, &(attitude * input.rates));
+        let off = input.force - Vector3::z() * self.gravity;
+        let noise = self.settings.step_noise(step_s, &(attitude * input.rates), math::sqrt(off.norm_squared()));
         let motion = covariance::Motion {
             step_s,
             rotation: attitude.to_rotation_matrix().into_inner(),
@@ -358,8 +362,13 @@ impl Filter {
         if job.input.at_rest && self.jobs.is_multiple_of(REST_EVERY) {
             self.fuse_rest(job);
         }
-        if !job.input.at_rest && self.jobs.is_multiple_of(DRAG_EVERY) {
-            self.fuse_drag(job);
+        let span = &job.input.span;
+        self.force = (self.force.0 + span.accel, self.force.1 + span.samples);
+        if self.jobs.is_multiple_of(DRAG_EVERY) {
+            let (sum, samples) = core::mem::take(&mut self.force);
+            if samples > 0 && !job.input.at_rest {
+                self.fuse_drag(job, &(sum / samples as f32 - job.input.state.accel_bias));
+            }
         }
     }
 
@@ -591,9 +600,9 @@ impl Filter {
         job.note(Source::Rest, verdict);
     }
 
-    /// Across the thrust axis nothing accelerates the vehicle but drag: −k/m (v − w).
-    fn fuse_drag(&mut self, job: &mut Job) {
-        let force = &job.input.force;
+    /// Across the thrust axis nothing accelerates the vehicle but drag, −k/m (v − w). A mean over some turns of the rotors:
+    /// they shake the accelerometer harder than any wind.
+    fn fuse_drag(&mut self, job: &mut Job, force: &Vector3<f32>) {
         let across = job.now.attitude * Vector3::new(force.x, force.y, 0.0);
         let k = self.specific_drag;
         if !(k > 0.0) || !math::all_finite(across.as_slice()) {

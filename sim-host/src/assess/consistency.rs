@@ -31,8 +31,9 @@ pub struct Innovations {
 pub struct Consistency {
     /// By kind of reading.
     pub innovations: BTreeMap<&'static str, Innovations>,
-    /// Normalised estimation errors squared, one every five seconds of what is judged.
-    pub nees: Vec<f64>,
+    /// Normalised estimation errors squared, one every five seconds of what is judged: of all nine states, and of
+    /// attitude, velocity and position alone.
+    pub nees: Vec<[f64; 4]>,
     next_look_s: f64,
     last_tick: Option<u32>,
 }
@@ -85,13 +86,17 @@ impl Consistency {
     }
 }
 
-/// eᵀ P⁻¹ e of attitude, velocity and position.
-fn nees(navigation: &Navigation, attitude: &Vector3<f64>) -> Option<f64> {
+/// eᵀ P⁻¹ e of all, and of attitude, velocity and position.
+fn nees(navigation: &Navigation, attitude: &Vector3<f64>) -> Option<[f64; 4]> {
     let (truth, nav) = (navigation.truth, navigation.nav);
     let velocity = truth.velocity - nav.velocity.cast();
     let position = truth.position - nav.position.cast();
     let error =
         SVector::<f64, STATES>::from_iterator(attitude.iter().chain(velocity.iter()).chain(position.iter()).copied());
     let covariance = SMatrix::<f64, STATES, STATES>::from_fn(|i, j| f64::from(navigation.covariance.get(i, j)));
-    Some(error.dot(&covariance.cholesky()?.solve(&error)))
+    let block = |first: usize| {
+        let (e, p) = (error.fixed_rows::<3>(first), covariance.fixed_view::<3, 3>(first, first));
+        Some(e.dot(&p.cholesky()?.solve(&e)))
+    };
+    Some([error.dot(&covariance.cholesky()?.solve(&error)), block(0)?, block(3)?, block(6)?])
 }

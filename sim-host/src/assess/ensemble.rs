@@ -28,6 +28,8 @@ pub struct Row {
     pub p95: Option<f64>,
     /// The greatest.
     pub max: Option<f64>,
+    /// The root mean square.
+    pub rms: Option<f64>,
 }
 
 /// An expectation and what came of it.
@@ -70,6 +72,8 @@ pub struct Nees {
     pub within_band: f64,
     /// Part of all errors below the 95 % quantile of χ².
     pub within_95: f64,
+    /// Mean over the degrees of freedom of attitude, velocity and position alone.
+    pub parts: [f64; 3],
 }
 
 /// What many seeds of a scenario have shown.
@@ -95,6 +99,12 @@ pub fn percentile(sorted: &[f64], percent: f64) -> Option<f64> {
     sorted.get(rank.clamp(1, sorted.len().max(1)) - 1).copied()
 }
 
+/// The root mean square of values; none without any.
+fn root_mean_square(values: &[f64]) -> Option<f64> {
+    let sum: f64 = values.iter().map(|value| value * value).sum();
+    (!values.is_empty()).then(|| (sum / values.len() as f64).sqrt())
+}
+
 /// Flies a scenario under every seed and judges what came of it.
 ///
 /// # Errors
@@ -116,7 +126,12 @@ pub fn fly(scenario: &Scenario, seeds: Seeds, flown: impl Fn() + Sync) -> Result
 
 fn report(scenario: &str, seeds: Seeds, assess: &Assess, flights: &[Measures]) -> Report {
     let verdict = |expected: &Expectation| {
-        let found = percentile(&sorted(flights, expected.measure), expected.percentile).filter(|v| v.is_finite());
+        let values = sorted(flights, expected.measure);
+        let found = match expected.percentile {
+            Some(percent) => percentile(&values, percent),
+            None => root_mean_square(&values),
+        };
+        let found = found.filter(|value| value.is_finite());
         let met = found.is_some_and(|value| {
             expected.at_most.is_none_or(|most| value <= most) && expected.at_least.is_none_or(|least| value >= least)
         });
@@ -143,7 +158,8 @@ fn row(flights: &[Measures], measure: Measure) -> Option<Row> {
     let values = sorted(flights, measure);
     let count = values.iter().filter(|value| value.is_finite()).count();
     let at = |percent| percentile(&values, percent).filter(|value| value.is_finite());
-    (count > 0).then(|| Row { measure, count, p5: at(5.0), p50: at(50.0), p95: at(95.0), max: at(100.0) })
+    let rms = root_mean_square(&values).filter(|value| value.is_finite());
+    (count > 0).then(|| Row { measure, count, p5: at(5.0), p50: at(50.0), p95: at(95.0), max: at(100.0), rms })
 }
 
 fn nis(flights: &[Measures]) -> Vec<Nis> {
@@ -187,18 +203,20 @@ fn nees(flights: &[Measures]) -> Option<Nees> {
     const QUANTILE: f64 = 16.919;
     let looks = flights.iter().map(|flight| flight.consistency.nees.len()).min()?;
     let (count, states) = (flights.len() as f64, STATES as f64);
-    let at = |look: usize| flights.iter().map(|flight| flight.consistency.nees[look]).sum::<f64>() / count / states;
+    let at = |look: usize| flights.iter().map(|flight| flight.consistency.nees[look][0]).sum::<f64>() / count / states;
     let means: Vec<f64> = (0..looks).map(at).collect();
     let limit = |normal: f64| chi_square(count * states, normal) / (count * states);
     let band = (limit(-TWO_SIDED), limit(TWO_SIDED));
     let within = means.iter().filter(|mean| (band.0..=band.1).contains(*mean)).count();
-    let below = flights.iter().flat_map(|f| &f.consistency.nees[..looks]).filter(|nees| **nees <= QUANTILE).count();
+    let all = || flights.iter().flat_map(|flight| &flight.consistency.nees[..looks]);
+    let below = all().filter(|nees| nees[0] <= QUANTILE).count();
     (looks > 0).then(|| Nees {
         looks,
         mean: means.iter().sum::<f64>() / looks as f64,
         band,
         within_band: within as f64 / looks as f64,
         within_95: below as f64 / (looks as f64 * count),
+        parts: [1, 2, 3].map(|part| all().map(|nees| nees[part]).sum::<f64>() / (3.0 * looks as f64 * count)),
     })
 }
 
@@ -211,11 +229,15 @@ impl Report {
     /// As a text for the terminal.
     pub fn render(&self) -> String {
         let mut text = format!("{}, seeds {}..{}\n\n", self.scenario, self.seeds.first, self.seeds.last);
-        let _ = writeln!(text, "{:26} {:>6} {:>10} {:>10} {:>10} {:>10}", "", "count", "p5", "p50", "p95", "max");
+        let _ = writeln!(
+            text,
+            "{:26} {:>6} {:>10} {:>10} {:>10} {:>10} {:>10}",
+            "", "count", "p5", "p50", "p95", "max", "rms"
+        );
         for row in &self.rows {
-            let [p5, p50, p95, max] = [row.p5, row.p50, row.p95, row.max].map(number);
+            let [p5, p50, p95, max, rms] = [row.p5, row.p50, row.p95, row.max, row.rms].map(number);
             let name = row.measure.name();
-            let _ = writeln!(text, "{name:26} {:>6} {p5:>10} {p50:>10} {p95:>10} {max:>10}", row.count);
+            let _ = writeln!(text, "{name:26} {:>6} {p5:>10} {p50:>10} {p95:>10} {max:>10} {rms:>10}", row.count);
         }
         let _ = writeln!(
             text,
@@ -227,10 +249,10 @@ impl Report {
             let _ = writeln!(text, "{reading:26} {count:>8} {mean:>10.3} {within_95:>10.3} {refused:>10.4}");
         }
         if let Some(nees) = &self.nees {
-            let Nees { mean, band: (low, high), within_band, within_95, .. } = nees;
+            let Nees { mean, band: (low, high), within_band, within_95, parts: [a, v, p], .. } = nees;
             let _ = writeln!(
                 text,
-                "\nerrors (attitude, velocity, position): mean/dof {mean:.3}, band {low:.3} to {high:.3} held {within_band:.2} of the time, within 95 %: {within_95:.3}"
+                "\nerrors (attitude, velocity, position): mean/dof {mean:.3}, band {low:.3} to {high:.3} held {within_band:.2} of the time, within 95 %: {within_95:.3}; apart {a:.3} {v:.3} {p:.3}"
             );
         }
         for verdict in &self.verdicts {
@@ -242,7 +264,8 @@ impl Report {
             };
             let verdict = if *met { "met" } else { "NOT MET" };
             let (name, percent) = (expected.measure.name(), expected.percentile);
-            let _ = writeln!(text, "p{percent} of {name}: {} ({bound}): {verdict}", number(*found));
+            let of = percent.map_or_else(|| "rms".to_owned(), |percent| format!("p{percent}"));
+            let _ = writeln!(text, "{of} of {name}: {} ({bound}): {verdict}", number(*found));
         }
         text
     }
