@@ -54,7 +54,7 @@ impl Default for Mailboxes {
 pub struct Released {
     /// Guidance and position control.
     pub outer: bool,
-    /// Arming.
+    /// Arming, modes, failures.
     pub commander: bool,
     /// MAVLink.
     pub ground: bool,
@@ -276,7 +276,7 @@ pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
     pub inner: InnerTask<A>,
     /// Guidance and position control.
     pub outer: Outer<P>,
-    /// Arming.
+    /// Arming, modes, failures.
     pub commander: Commander,
     /// MAVLink.
     pub ground: Ground,

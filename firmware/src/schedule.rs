@@ -20,7 +20,7 @@ pub struct Timing {
 pub const OUTER: Timing = Timing { period: 4, offset: 2 };
 /// From the snapshot of the outer partition to its output, s.
 pub const OUTER_AHEAD_S: f32 = OUTER.offset as f32 * TICK_S;
-/// Arming: 50 Hz.
+/// Arming, modes, failures: 50 Hz.
 pub const COMMANDER: Timing = Timing { period: 20, offset: 4 };
 /// MAVLink: 100 Hz.
 pub const GROUND: Timing = Timing { period: 10, offset: 10 };
