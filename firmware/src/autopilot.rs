@@ -61,7 +61,7 @@ pub struct Released {
     pub filter: bool,
     /// Guidance and position control.
     pub outer: bool,
-    /// Arming.
+    /// Arming, modes, failures.
     pub commander: bool,
     /// MAVLink.
     pub ground: bool,
@@ -332,7 +332,7 @@ pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
     pub filter: Filter,
     /// Guidance and position control.
     pub outer: Outer<P>,
-    /// Arming.
+    /// Arming, modes, failures.
     pub commander: Commander,
     /// MAVLink.
     pub ground: Ground,
