@@ -336,5 +336,6 @@ fn split(x: &ErrorState) -> [Vector3<f32>; BLOCKS] {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 #[path = "covariance/tests.rs"]
 mod tests;
