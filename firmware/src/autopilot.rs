@@ -6,7 +6,9 @@
 //! published, partitions are released with a snapshot of their inputs, the inner loop runs, then the released
 //! partitions.
 
-use crate::commander::{Commander, CommanderInput, CommanderOutput, Commands, Replies, Request};
+use crate::commander::{
+    Command, Commander, CommanderInput, CommanderOutput, Commands, Events, Origin, Replies, Request,
+};
 use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeLaw, PositionLaw};
@@ -14,6 +16,7 @@ use crate::control::position::SlidingPosition;
 use crate::estimator::{EstimatorSettings, Filter, FilterInput, FilterOutput};
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
+use crate::navigator::Navigator;
 use crate::outer::{Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
 use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
@@ -71,10 +74,14 @@ pub struct InnerTask<A = SlidingAttitude> {
     inner: Inner<A>,
     outer: OuterOutput,
     filter: FilterOutput,
+    /// When that came into effect.
+    filtered_at: Option<Tick>,
     commander: CommanderOutput,
     /// Commands for the commander's next job, and its replies for the ground's.
     commands: Commands,
     replies: Replies,
+    /// What the pilot is to be told by the ground's next job.
+    events: Events,
     received: RxBytes,
     transmit: TxBytes,
     dropped_bytes: u32,
@@ -88,11 +95,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
     /// The outer loop has run once for the first tick, hovering at the start, as if it had always been there.
     fn new(config: &FlightConfig, inner: Inner<A>, outer: &mut Outer<impl PositionLaw>, commander: &Commander) -> Self {
         let commander = commander.initial_output();
-        let before = OuterInput {
-            nav: *inner.nav(),
-            thrust_n: config.airframe.weight_n(),
-            flight_start: commander.flight_start,
-        };
+        let before =
+            OuterInput { nav: *inner.nav(), thrust_n: config.airframe.weight_n(), directive: commander.directive };
         let first = outer.step(0_u32.wrapping_sub(OUTER.offset), &before);
         // That job was none: nothing is to remain of it in the law.
         outer.reset();
@@ -101,9 +105,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
             inner,
             outer: first,
             filter: FilterOutput::initial(),
+            filtered_at: None,
             commander,
             commands: Commands::new(),
             replies: Replies::new(),
+            events: Events::new(),
             received: RxBytes::new(),
             transmit: TxBytes::new(),
             dropped_bytes: 0,
@@ -120,7 +126,14 @@ impl<A: AttitudeLaw> InnerTask<A> {
         self.inner.sense(sample);
         let released = self.release(tick, mail);
         let armed = self.is_armed();
-        self.inner.step(tick, sample, &self.outer.attitude, armed);
+        if armed && self.outer.idle {
+            self.inner.idle();
+        } else {
+            self.inner.step(tick, sample, &self.outer.attitude, armed);
+        }
+        if self.inner.navigator().is_some() {
+            self.inner.watch_rotors(armed, !self.commander.landed);
+        }
         self.tick = tick.wrapping_add(1);
         released
     }
@@ -135,12 +148,17 @@ impl<A: AttitudeLaw> InnerTask<A> {
         {
             navigator.inject(&output.injection);
             self.filter = output;
+            self.filtered_at = Some(tick);
         }
         if let Some(output) = mail.commander.publish(tick) {
-            self.kill &= output.flight_start.is_some();
+            self.kill &= output.armed;
             for reply in &output.replies {
                 // What does not fit is lost; the sender asks again.
                 let _ = self.replies.push(*reply);
+            }
+            if let Some(event) = output.event {
+                // Failures come one a job at most, and are told twice as often.
+                let _ = self.events.push(event);
             }
             self.commander = output;
         }
@@ -174,7 +192,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             let input = OuterInput {
                 nav: *self.inner.nav(),
                 thrust_n: self.inner.thrust_n(),
-                flight_start: self.commander.flight_start,
+                directive: self.commander.directive,
             };
             mail.outer.release(tick, input);
         }
@@ -182,6 +200,10 @@ impl<A: AttitudeLaw> InnerTask<A> {
             let input = CommanderInput {
                 nav: *self.inner.nav(),
                 nav_fresh: self.inner.is_nav_fresh(),
+                health: self.nav_health(),
+                thrust_n: self.inner.thrust_n(),
+                battery: self.inner.navigator().and_then(Navigator::battery),
+                failed_rotor: self.inner.failed_rotor(),
                 commands: core::mem::take(&mut self.commands),
             };
             mail.commander.release(tick, input);
@@ -197,6 +219,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         GroundInput {
             nav: *self.inner.nav(),
             armed: self.is_armed(),
+            mode: self.commander.mode,
             landed: self.commander.landed,
             armable: self.commander.armable,
             health: Health {
@@ -207,12 +230,23 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 timing: self.timing,
             },
             replies: core::mem::take(&mut self.replies),
+            events: core::mem::take(&mut self.events),
             received: core::mem::take(&mut self.received),
         }
     }
 
     fn is_armed(&self) -> bool {
-        self.commander.flight_start.is_some() && !self.kill
+        self.commander.armed && !self.kill
+    }
+
+    /// A request of a program on board, for the commander's next job; a forced disarm acts at once.
+    ///
+    /// # Errors
+    /// The request itself if too many are waiting.
+    pub fn request(&mut self, request: Request) -> Result<(), Request> {
+        self.kill |= request == Request::Disarm { force: true };
+        let command = Command { request, origin: Origin::OnBoard };
+        self.commands.push(command).map_err(|command| command.request)
     }
 
     /// Bytes from the ground station, for the ground partition's next job. What does not fit is counted.
@@ -256,6 +290,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
     #[inline]
     pub fn outer_output(&self) -> &OuterOutput {
         &self.outer
+    }
+
+    /// When the filter's output came into effect.
+    pub fn filtered_at(&self) -> Option<Tick> {
+        self.filtered_at
     }
 
     /// What the filter has found last.

@@ -22,8 +22,113 @@ use crate::validate::ConfigError;
 pub enum Start {
     /// In the air, armed, at rest; the flight's clock starts with the first tick.
     InFlight,
-    /// On the ground, disarmed; the flight's clock starts when the vehicle is armed.
+    /// On the ground, disarmed; the flight's clock starts when the vehicle is told to follow its trajectory.
     OnGround,
+}
+
+/// How the vehicle flies by itself: the limits of what is asked of it, and what it does when something fails. What is
+/// `vertical` is along the world's z axis, what is not is the size of the horizontal part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default, deny_unknown_fields))]
+pub struct ModeSettings {
+    /// Greatest horizontal speed, m/s.
+    pub cruise_m_s: f32,
+    /// Greatest speed upwards, m/s.
+    pub climb_m_s: f32,
+    /// Greatest speed downwards, m/s.
+    pub sink_m_s: f32,
+    /// Speed of a take-off, m/s.
+    pub take_off_m_s: f32,
+    /// Speed of a landing, m/s.
+    pub landing_m_s: f32,
+    /// The same near the ground and at unknown heights, m/s.
+    pub touchdown_m_s: f32,
+    /// Speed of a descent that a failure has caused, m/s.
+    pub descent_m_s: f32,
+    /// Greatest horizontal acceleration, m/s².
+    pub acceleration_m_s2: f32,
+    /// Greatest vertical acceleration, m/s².
+    pub vertical_acceleration_m_s2: f32,
+    /// Greatest jerk of either, m/s³.
+    pub jerk_m_s3: f32,
+    /// Greatest rate of the heading, rad/s.
+    pub yaw_rate_rad_s: f32,
+    /// Greatest acceleration of the heading, rad/s².
+    pub yaw_acceleration_rad_s2: f32,
+    /// Height over home at which the vehicle returns, if it is not higher already, m.
+    pub return_height_m: f32,
+    /// Below this voltage of the battery it returns, V; 0 for never.
+    pub battery_low_v: f32,
+    /// Below this one it lands where it is, V; 0 for never.
+    pub battery_critical_v: f32,
+    /// Speed of the rotors while armed on the ground, as a part of ωmax.
+    pub idle_part: f32,
+    /// Thrust of a descent without a known height, as a part of the weight.
+    pub blind_thrust_part: f32,
+}
+
+/// What suits a quadrotor of any size outdoors. The battery's voltages are the vehicle's own.
+impl Default for ModeSettings {
+    fn default() -> Self {
+        Self {
+            cruise_m_s: 5.0,
+            climb_m_s: 2.0,
+            sink_m_s: 1.5,
+            take_off_m_s: 1.5,
+            landing_m_s: 0.7,
+            touchdown_m_s: 0.4,
+            descent_m_s: 1.0,
+            acceleration_m_s2: 3.0,
+            vertical_acceleration_m_s2: 2.0,
+            jerk_m_s3: 10.0,
+            yaw_rate_rad_s: 1.0,
+            yaw_acceleration_rad_s2: 2.0,
+            return_height_m: 10.0,
+            battery_low_v: 0.0,
+            battery_critical_v: 0.0,
+            idle_part: 0.1,
+            blind_thrust_part: 0.93,
+        }
+    }
+}
+
+impl ModeSettings {
+    /// Refuses settings that no vehicle can fly by.
+    ///
+    /// # Errors
+    /// The first field that is out of its range.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        for (name, value) in [
+            ("modes.cruise_m_s", self.cruise_m_s),
+            ("modes.climb_m_s", self.climb_m_s),
+            ("modes.sink_m_s", self.sink_m_s),
+            ("modes.take_off_m_s", self.take_off_m_s),
+            ("modes.landing_m_s", self.landing_m_s),
+            ("modes.touchdown_m_s", self.touchdown_m_s),
+            ("modes.descent_m_s", self.descent_m_s),
+            ("modes.acceleration_m_s2", self.acceleration_m_s2),
+            ("modes.vertical_acceleration_m_s2", self.vertical_acceleration_m_s2),
+            ("modes.jerk_m_s3", self.jerk_m_s3),
+            ("modes.yaw_rate_rad_s", self.yaw_rate_rad_s),
+            ("modes.yaw_acceleration_rad_s2", self.yaw_acceleration_rad_s2),
+        ] {
+            ConfigError::require_positive(name, value)?;
+            // Slower, nothing would ever arrive; faster, a step of the reference would be a leap.
+            if !(0.05..=100.0).contains(&value) {
+                return Err(ConfigError::OutOfRange(name));
+            }
+        }
+        ConfigError::require_not_negative("modes.return_height_m", self.return_height_m)?;
+        ConfigError::require_not_negative("modes.battery_low_v", self.battery_low_v)?;
+        ConfigError::require_not_negative("modes.battery_critical_v", self.battery_critical_v)?;
+        for (name, part) in [("modes.idle_part", self.idle_part), ("modes.blind_thrust_part", self.blind_thrust_part)] {
+            ConfigError::require_not_negative(name, part)?;
+            if part >= 1.0 {
+                return Err(ConfigError::OutOfRange(name));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Everything the firmware needs to know before a flight.
@@ -51,6 +156,9 @@ pub struct FlightConfig {
     /// What the filter is told of the sensors; none for a flight on ideal state.
     #[cfg_attr(feature = "serde", serde(default))]
     pub estimator: Option<EstimatorSettings>,
+    /// How it flies by itself.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub modes: ModeSettings,
 }
 
 impl FlightConfig {
@@ -73,6 +181,7 @@ impl FlightConfig {
         if let Some(estimator) = &self.estimator {
             estimator.validate()?;
         }
+        self.modes.validate()?;
         self.trajectory.validate()
     }
 
@@ -97,7 +206,7 @@ impl FlightConfig {
     }
 }
 
-/// A safe default for a board that has not been configured: on the ground, holding 2 m above it once armed.
+/// A safe default for a board that has not been configured: on the ground, with a trajectory that holds 2 m above it.
 impl Default for FlightConfig {
     fn default() -> Self {
         Self {
@@ -123,6 +232,27 @@ impl Default for FlightConfig {
             start: Start::OnGround,
             start_position_m: [0.0; 3],
             estimator: None,
+            modes: ModeSettings::default(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_out_of_range_are_refused_by_name() {
+        let good = ModeSettings::default();
+        assert_eq!(good.validate(), Ok(()));
+        for (bad, error) in [
+            (ModeSettings { jerk_m_s3: f32::NAN, ..good }, ConfigError::NonFinite("modes.jerk_m_s3")),
+            (ModeSettings { climb_m_s: 0.0, ..good }, ConfigError::NotPositive("modes.climb_m_s")),
+            (ModeSettings { cruise_m_s: 1e3, ..good }, ConfigError::OutOfRange("modes.cruise_m_s")),
+            (ModeSettings { battery_low_v: -1.0, ..good }, ConfigError::Negative("modes.battery_low_v")),
+            (ModeSettings { blind_thrust_part: 1.0, ..good }, ConfigError::OutOfRange("modes.blind_thrust_part")),
+        ] {
+            assert_eq!(FlightConfig { modes: bad, ..FlightConfig::default() }.validate(), Err(error));
         }
     }
 }

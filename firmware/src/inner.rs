@@ -10,7 +10,9 @@ use crate::config::{FlightConfig, Start};
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeInput, AttitudeLaw, RotorEffect};
 use crate::control::mixer::Mixer;
+use crate::control::motor_out::MotorOut;
 use crate::control::rotor::{RotorModel, RotorTorque, YawInversion};
+use crate::control::rotor_monitor::RotorMonitor;
 use crate::math;
 use crate::navigator::Navigator;
 use crate::sensors::Measurements;
@@ -60,6 +62,10 @@ pub struct Inner<A = SlidingAttitude> {
     yaw: YawInversion,
     /// None on ideal state.
     navigator: Option<Navigator>,
+    idle_rad_s: f32,
+    monitor: RotorMonitor,
+    /// Once a rotor has failed, in place of the law.
+    motor_out: Option<MotorOut>,
     nav: NavState,
     stale_ticks: u32,
     refused_samples: u32,
@@ -91,6 +97,9 @@ impl<A: AttitudeLaw> Inner<A> {
             rotors,
             yaw: config.yaw_inversion(),
             navigator: Navigator::new(config),
+            idle_rad_s: config.modes.idle_part * omega_max,
+            monitor: RotorMonitor::new(&airframe),
+            motor_out: None,
             nav,
             stale_ticks: 0,
             refused_samples: 0,
@@ -159,6 +168,15 @@ impl<A: AttitudeLaw> Inner<A> {
         &self.output
     }
 
+    /// One tick in place of [`step`](Self::step) with rotors that idle.
+    pub fn idle(&mut self) -> &InnerOutput {
+        self.law.reset();
+        let motors = MotorCommand { omega_rad_s: [self.idle_rad_s; ROTORS] };
+        self.follow(&motors);
+        self.output = InnerOutput { motors, ..InnerOutput::IDLE };
+        &self.output
+    }
+
     /// One tick of control, `dt` seconds after the reference holds.
     #[inline]
     fn control(
@@ -168,14 +186,18 @@ impl<A: AttitudeLaw> Inner<A> {
         reference: &AttitudeReference,
         dt: f32,
     ) {
-        let wanted = self.law.step(&AttitudeInput {
+        let input = AttitudeInput {
             attitude,
             rates,
             target: &reference.target_after(dt),
             rotor_speeds: self.rotors.omega_rad_s(),
             rotors: &self.effect,
             saturated: self.output.saturated,
-        });
+        };
+        let wanted = match &mut self.motor_out {
+            None => self.law.step(&input),
+            Some(law) => law.step(&input),
+        };
         let demand = ControlInput {
             // Below zero it is for the mixer to limit.
             thrust_n: reference.thrust_n + reference.thrust_rate_n_s * dt,
@@ -198,6 +220,35 @@ impl<A: AttitudeLaw> Inner<A> {
             saturated: allocation.saturated,
         };
         self.effect = self.believed.after(&self.effect, self.rotors.omega_rad_s());
+    }
+
+    /// A tick of looking for a rotor that has failed. Of one that has, nothing is asked any more; armed anew, all are
+    /// taken to be sound.
+    pub fn watch_rotors(&mut self, armed: bool, in_air: bool) {
+        let Some(navigator) = &self.navigator else { return };
+        if !armed {
+            self.monitor.reset(&self.nav.rates);
+            if self.motor_out.take().is_some() {
+                // Parts of 1 are within their range.
+                let _ = self.mixer.set_limits([1.0; ROTORS]);
+            }
+            return;
+        }
+        if !in_air || self.motor_out.is_some() {
+            return;
+        }
+        let force_z = navigator.specific_force().z;
+        self.monitor.step(&self.nav.rates, force_z, &self.effect, self.rotors.omega_rad_s());
+        if let Some(rotor) = self.monitor.failed() {
+            let law = MotorOut::new(&self.airframe, usize::from(rotor));
+            let _ = self.mixer.set_limits(law.limits());
+            self.motor_out = Some(law);
+        }
+    }
+
+    /// The rotor that has failed since the vehicle was armed, from 0.
+    pub fn failed_rotor(&self) -> Option<u8> {
+        self.monitor.failed()
     }
 
     /// A tick passes with a command that no law has given.

@@ -53,18 +53,18 @@ impl NavState {
     }
 }
 
-/// What of the motion may be trusted.
+/// What of the motion may be trusted. Angular rates always come with the attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NavHealth {
     /// Roll and pitch.
     pub attitude: bool,
     /// Heading.
     pub heading: bool,
-    /// Velocity across the ground.
+    /// Horizontal velocity.
     pub velocity: bool,
-    /// Position across the ground.
+    /// Horizontal position.
     pub position: bool,
-    /// Height, and the velocity along it.
+    /// Height and vertical velocity.
     pub height: bool,
 }
 

@@ -7,18 +7,21 @@ use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
 use nalgebra::Vector3;
 
+use crate::assess::{Assess, Assessor, Measures};
 use crate::baseline::geometric::{GeometricAttitude, GeometricPosition};
 use crate::baseline::indi::{IndiAttitude, IndiPosition};
 use crate::baseline::pid::{PidAttitude, PidPosition};
 use crate::controller::Controller;
 use crate::decoupled::Decoupled;
 use crate::noise::Noise;
+use crate::pilot::{Command, Order, Pilot};
 use crate::plant::ground::Ground;
 use crate::plant::paper::PaperPlant;
 use crate::plant::rigid_body::RigidBody;
 use crate::plant::{Constants, Plant};
 use crate::record::Recorder;
 use crate::scenario::{PlantKind, Scenario};
+use crate::sensors::Suite;
 use crate::sil::{Flight, Outcome};
 use crate::weather::Weather;
 
@@ -26,7 +29,8 @@ use crate::weather::Weather;
 pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
     let constants = scenario.constants();
     let position = Vector3::from(scenario.file.start_position_m);
-    let on = |c: &Constants| Ground::for_vehicle(position.z, c.mass, c.gravity, c.inertia.z);
+    let height = scenario.file.world.ground_height_m.unwrap_or(position.z);
+    let on = |c: &Constants| Ground::for_vehicle(height, c.mass, c.gravity, c.inertia.z);
     let ground = scenario.file.ground.then(|| on(&constants));
     let plant = RigidBody::new(constants, ground, position).with_motion(scenario.file.start_motion(seed));
     match scenario.effects() {
@@ -64,7 +68,10 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
     let noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
     let flight = Flight::new(autopilot, plant, noise, config.trajectory);
     let flight = flight.with_actuation_delay(scenario.actuation_delay_ticks());
-    Ok(flight.with_weather(Weather::new(scenario, seed)))
+    let file = &scenario.file;
+    let sensors = file.sensors.as_ref().map(|suite| Suite::new(suite, &file.home, &file.fault, seed));
+    let pilot = (!file.command.is_empty()).then(|| Pilot::new(&file.command));
+    Ok(flight.with_weather(Weather::new(scenario, seed)).with_sensors(sensors).with_pilot(pilot))
 }
 
 /// Flies a scenario to its end, or until the vehicle is lost.
@@ -80,6 +87,23 @@ pub fn fly(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Resu
         }
         PlantKind::PaperDecoupled => Decoupled::new(scenario, seed)?.run(scenario.ticks(), recorder),
     })
+}
+
+/// Flies a scenario to its end, and measures what it is judged by.
+///
+/// # Errors
+/// What of the scenario the firmware refuses.
+pub fn assess(scenario: &Scenario, assess: &Assess, seed: u64) -> Result<Measures> {
+    let file = &scenario.file;
+    let place = |command: &Command| match command.order {
+        Order::GoTo { position_m, .. } => Some(Vector3::from(position_m).cast()),
+        _ => None,
+    };
+    let places: Vec<_> = file.command.iter().filter_map(place).collect();
+    let start = Vector3::from(file.start_position_m);
+    let mut assessor = Assessor::new(assess, file.duration_s, &start, &places);
+    let outcome = fly(scenario, seed, &mut assessor)?;
+    Ok(assessor.finish(outcome.survived))
 }
 
 /// Flies a scenario on a plant by the control laws that it asks for.

@@ -7,6 +7,7 @@
 
 pub mod airframe;
 pub mod analyse;
+pub mod assess;
 pub mod baseline;
 pub mod cli;
 pub mod compare;
@@ -14,10 +15,12 @@ pub mod controller;
 pub mod decoupled;
 mod files;
 pub mod flight;
+pub mod geodesy;
 pub mod link;
 pub mod matrix;
 pub mod noise;
 pub mod pil;
+pub mod pilot;
 pub mod plan;
 pub mod plant;
 pub mod record;
@@ -26,6 +29,7 @@ pub mod report;
 pub mod scenario;
 pub mod score;
 pub mod seeds;
+pub mod sensors;
 pub mod serve;
 pub mod sil;
 pub mod statistics;

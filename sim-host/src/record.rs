@@ -1,5 +1,10 @@
 //! What a flight leaves behind: one row a tick, and who takes it.
 
+use firmware::commander::CommanderOutput;
+use firmware::estimator::FilterOutput;
+use firmware::estimator::covariance::Covariance;
+use firmware::signals::{NavState, Tick};
+
 use crate::plant::Motion;
 
 /// One tick of a flight. World frame NWU, body frame FLU, SI units.
@@ -54,6 +59,25 @@ impl Row {
     }
 }
 
+/// What a vehicle on sensors believes at a tick, beside the truth.
+#[derive(Clone, Copy, Debug)]
+pub struct Navigation<'a> {
+    /// Time, s.
+    pub t: f64,
+    /// What is true.
+    pub truth: Motion,
+    /// What is believed.
+    pub nav: &'a NavState,
+    /// When the filter's last output came into effect.
+    pub filtered_at: Option<Tick>,
+    /// That output.
+    pub filter: &'a FilterOutput,
+    /// The filter's covariance.
+    pub covariance: &'a Covariance,
+    /// What the vehicle is doing.
+    pub commander: &'a CommanderOutput,
+}
+
 /// Takes the rows of a flight, in order.
 pub trait Recorder {
     /// False where rows would be thrown away, so that the loop need not make them.
@@ -61,6 +85,9 @@ pub trait Recorder {
 
     /// Takes the next row.
     fn record(&mut self, row: &Row);
+
+    /// Takes what the vehicle believes, after the row of the same tick; of flights on sensors alone.
+    fn navigate(&mut self, _navigation: &Navigation) {}
 }
 
 /// Takes nothing: for benchmarks.
@@ -85,6 +112,11 @@ impl<A: Recorder, B: Recorder> Recorder for (A, B) {
         self.0.record(row);
         self.1.record(row);
     }
+
+    fn navigate(&mut self, navigation: &Navigation) {
+        self.0.navigate(navigation);
+        self.1.navigate(navigation);
+    }
 }
 
 /// Gives each row to somebody else's recorder.
@@ -93,5 +125,9 @@ impl<A: Recorder> Recorder for &mut A {
 
     fn record(&mut self, row: &Row) {
         (**self).record(row);
+    }
+
+    fn navigate(&mut self, navigation: &Navigation) {
+        (**self).navigate(navigation);
     }
 }

@@ -9,15 +9,20 @@ use firmware::guidance::{JoinPlan, Trajectory};
 use serde::{Deserialize, Serialize};
 
 use crate::airframe::AirframeFile;
+use crate::assess::Assess;
 use crate::controller::{Control, Controller, TuningFile};
 use crate::files::{built_in, one_line, parse, read, source};
-pub use world::{BatteryStart, Gust, RotorFailure, ScheduledPush, Truth, Tumble, VoltageCollapse, Wind, World};
+use crate::pilot::Command;
+use crate::sensors::{Fault, Home, SuiteFile};
+pub use world::{BatteryStart, Gust, ScheduledPush, Truth, Tumble, Wind, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.
-const SCENARIOS: [(&str, &str); 18] = built_in!("scenarios":
+const SCENARIOS: [(&str, &str); 33] = built_in!("scenarios":
     "helix", "helix-tw4", "helix-lag", "figure-eight", "step", "hover", "pad",
     "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
     "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery",
+    "outdoor-hover", "outdoor-eight", "indoor-hover", "indoor-helix", "path", "path-gnss-lost", "path-mag-off",
+    "path-mag-stuck", "path-baro-off", "path-baro-stuck", "gnss-glitch", "twist", "weak-rotor", "lost-rotor", "day",
 );
 
 /// Airframes that come with the binary.
@@ -130,6 +135,19 @@ pub struct ScenarioFile {
     pub control: Option<Control>,
     /// In their place, name or path of a tuning file. Without either, the airframe's own, `<airframe>-smc`.
     pub tuning: Option<String>,
+    /// The sensors: a suite's name, or a table. Without them the firmware is given the true motion.
+    pub sensors: Option<SuiteFile>,
+    /// Where on earth the flight takes place.
+    #[serde(default)]
+    pub home: Home,
+    /// What fails.
+    #[serde(default)]
+    pub fault: Vec<Fault>,
+    /// What a pilot asks for.
+    #[serde(default)]
+    pub command: Vec<Command>,
+    /// How its flights are judged.
+    pub assess: Option<Assess>,
     /// Gaussian disturbances.
     pub disturbance: Option<Disturbance>,
     /// Wind.
@@ -142,9 +160,6 @@ pub struct ScenarioFile {
     pub world: World,
     /// The airframe's battery; without it, power that never ends.
     pub battery: Option<BatteryStart>,
-    /// Rotors that fail in flight.
-    #[serde(default)]
-    pub rotor_failure: Vec<RotorFailure>,
     /// What roll, pitch and yaw are to follow (decoupled plant only); level without it.
     pub attitude: Option<AttitudeWave>,
     /// The least time in which this airframe can match the trajectory from the start, where it is known, s.
@@ -249,6 +264,7 @@ impl Scenario {
             join: self.file.join.clone(),
             start: self.file.start,
             start_position_m: self.file.start_position_m.map(|v| v as f32),
+            estimator: self.file.sensors.as_ref().map(|suite| suite.told(&self.file.home)),
             ..FlightConfig::default()
         };
         self.controller.configure(&mut config);
@@ -295,7 +311,7 @@ fn controller(file: &ScenarioFile) -> Result<Controller> {
 fn moves_the_bound(setting: &str) -> bool {
     let key = setting.split(['=', '.']).next().unwrap_or_default();
     let start = key.starts_with("start_") || key == "tumble";
-    let world = matches!(key, "truth" | "wind" | "world" | "push" | "battery" | "rotor_failure");
+    let world = matches!(key, "truth" | "wind" | "world" | "push" | "battery" | "fault" | "sensors");
     start || world || matches!(key, "airframe" | "thrust_to_weight" | "trajectory" | "plant")
 }
 
@@ -396,19 +412,25 @@ mod tests {
             ("helix", "push=[{from_s=1.0,to_s=2.0,colour=1.0}]", "colour"),
             ("helix", "world.altitude_m=2e4", "world.altitude_m"),
             ("pad", "world.ground_effect=true", "rotor_radius_m"),
+            ("pad", "world.ground_height_m=1", "world.ground_height_m"),
+            ("helix", "world.ground_height_m=-1", "ground"),
             ("x500-hover", "world.ground_effect=true", "ground"),
             ("helix", "world.rotor_lag_down=true", "rotor_lag_down_s"),
             ("helix", "battery.soc=0.5", "airframe.battery"),
             ("x500-hover", "battery.soc=1.1", "battery.soc"),
-            ("x500-hover", "battery.collapse=[{from_s=1.0,to_s=2.0,factor=-1.0}]", "battery.collapse.factor"),
+            ("x500-hover", "fault=[{kind=\"collapse\",from_s=1.0,to_s=2.0,factor=-1.0}]", "fault.factor"),
             ("x500-hover", "airframe.battery.efficiency=0", "airframe.battery.efficiency"),
             ("x500-hover", "airframe.rotor_radius_m=0", "airframe.rotor_radius_m"),
-            ("helix", "rotor_failure=[{at_s=-1.0,effectiveness=[1.0,1.0,1.0,1.0]}]", "rotor_failure.at_s"),
-            ("helix", "rotor_failure=[{at_s=1.0,effectiveness=[1.0,1.0,1.0,-1.0]}]", "rotor_failure.effectiveness"),
+            ("helix", "fault=[{kind=\"rotor\",index=0,effectiveness=1.0,from_s=-1.0}]", "fault.from_s"),
+            ("helix", "fault=[{kind=\"rotor\",index=4,effectiveness=1.0,from_s=1.0}]", "fault.index"),
+            ("helix", "sensors=\"gps\"", "gps"),
+            ("helix", "command=[{order=\"dance\"}]", "dance"),
+            ("helix", "assess={from_s=99.0}", "assess"),
             ("paper-ideal", "world.altitude_m=100", "world"),
             ("paper-ideal", "push=[{from_s=1.0,to_s=2.0}]", "push"),
             ("paper-ideal", "battery.soc=1", "battery"),
-            ("paper-ideal", "rotor_failure=[{at_s=1.0,effectiveness=[1.0,1.0,1.0,0.0]}]", "rotor_failure"),
+            ("paper-ideal", "fault=[{kind=\"rotor\",index=0,effectiveness=0.0,from_s=1.0}]", "fault"),
+            ("paper-ideal", "sensors=\"gnss\"", "sensors"),
             ("paper-ideal", "actuation_delay_s=0.001", "actuation_delay_s"),
             ("paper-ideal", "start_attitude_deg=[10,0,0]", "start_attitude_deg"),
             ("paper-ideal", "wind.mean_m_s=[1,0,0]", "wind"),

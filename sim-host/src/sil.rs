@@ -1,7 +1,7 @@
 //! Software in the loop: the firmware and a plant in lockstep, one tick after the other.
 //!
-//! Lockstep is a function call. At tick k the firmware gets the motion at t = k ms, its motor command acts on the
-//! plant from t to t + 1 ms. Nothing here allocates, and nothing depends on the clock on the wall.
+//! Lockstep is a function call. At tick k the firmware gets the motion at t = k ms, or what sensors have made of it, and
+//! its motor command acts on the plant from t to t + 1 ms. Nothing here allocates, and nothing depends on the clock on the wall.
 
 use firmware::airframe::ROTORS;
 use firmware::autopilot::Autopilot;
@@ -15,10 +15,12 @@ use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::noise::{Disturbed, Noise};
+use crate::pilot::Pilot;
 use crate::plant::{Motion, Plant};
-use crate::record::{Recorder, Row};
+use crate::record::{Navigation, Recorder, Row};
 use crate::reference;
 use crate::report::angles::roll_pitch_yaw;
+use crate::sensors::{BatteryTruth, Suite, Truth};
 use crate::weather::Weather;
 
 /// How a flight ended.
@@ -79,13 +81,26 @@ pub struct Flight<P, A = SlidingAttitude, L = SlidingPosition> {
     /// Large and rarely used: elsewhere, so that the rest stays together.
     delay: Option<Box<Delay>>,
     weather: Option<Box<Weather>>,
+    sensors: Option<Box<Suite>>,
+    pilot: Option<Box<Pilot>>,
 }
 
 impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// Before the first tick.
     pub fn new(autopilot: Autopilot<A, L>, plant: P, noise: Noise, trajectory: Trajectory) -> Self {
         let outcome = Outcome { survived: true, ..Outcome::default() };
-        Self { autopilot, plant, noise, trajectory, tick: 0, outcome, delay: None, weather: None }
+        Self {
+            autopilot,
+            plant,
+            noise,
+            trajectory,
+            tick: 0,
+            outcome,
+            delay: None,
+            weather: None,
+            sensors: None,
+            pilot: None,
+        }
     }
 
     /// With motor commands that act `ticks` later, at most [`DELAY_TICKS_MAX`]; until the first of them does, the
@@ -100,6 +115,20 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     #[must_use]
     pub fn with_weather(mut self, weather: Option<Weather>) -> Self {
         self.weather = weather.map(Box::new);
+        self
+    }
+
+    /// On sensors, which are asked every tick, in place of ideal ones.
+    #[must_use]
+    pub fn with_sensors(mut self, sensors: Option<Suite>) -> Self {
+        self.sensors = sensors.map(Box::new);
+        self
+    }
+
+    /// With a pilot.
+    #[must_use]
+    pub fn with_pilot(mut self, pilot: Option<Pilot>) -> Self {
+        self.pilot = pilot.map(Box::new);
         self
     }
 
@@ -123,13 +152,46 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// What the firmware's sensor sees now. To be asked once a tick, before the plant moves.
     #[inline]
     pub fn sense(&mut self) -> SensorFrame {
-        sense(&self.plant.motion(), self.noise.at(self.tick))
+        let disturbed = self.noise.at(self.tick);
+        if self.sensors.is_some() {
+            return self.measure();
+        }
+        sense(&self.plant.motion(), disturbed)
+    }
+
+    /// What the sensors make of it. Out of the way of the flights on ideal state.
+    #[cold]
+    fn measure(&mut self) -> SensorFrame {
+        let (motion, specific_force) = (self.plant.motion(), self.specific_force());
+        let battery = self.plant.battery().map_or_else(BatteryTruth::default, |state| BatteryTruth {
+            voltage_v: state.voltage_v,
+            current_a: state.current_a,
+        });
+        let (tick, omega) = (self.tick, self.plant.omega());
+        let truth = Truth { tick, motion: &motion, specific_force, omega, battery };
+        SensorFrame::Measured(self.sensors.as_mut().map(|suite| suite.measure(&truth)).unwrap_or_default())
+    }
+
+    /// What the pilot asks for, if there is one.
+    #[cold]
+    fn ask_pilot(&mut self) {
+        let vehicle = &mut self.autopilot.inner;
+        let armed = vehicle.commander_output().armed;
+        if let Some(pilot) = &mut self.pilot
+            && let Some(request) = pilot.step(self.tick, vehicle.nav(), armed)
+        {
+            // A full queue drops the request, as a busy vehicle would; the pilot looks again.
+            let _ = vehicle.request(request);
+        }
     }
 
     /// One tick: sense, control, record, move. Returns false once a recorded row has shown that the vehicle is lost.
     #[inline]
     pub fn step<R: Recorder>(&mut self, recorder: &mut R) -> bool {
         let sample = self.sense();
+        if self.pilot.is_some() {
+            self.ask_pilot();
+        }
         let inner = self.autopilot.tick(Some(&sample));
         if R::ENABLED {
             let (inner, outer) = (*inner, *self.autopilot.inner.outer_output());
@@ -146,6 +208,9 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         let row = self.row(inner, outer);
         self.outcome.survived &= row.is_tracking();
         recorder.record(&row);
+        if self.sensors.is_some() {
+            recorder.navigate(&self.navigation(row.t));
+        }
         self.actuate(&inner.motors, inner.saturated);
         self.outcome.survived
     }
@@ -189,7 +254,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         Row {
             omega,
             omega_command: command,
-            reference: reference::at(&self.trajectory, self.flight_time(t)),
+            reference: self.reference(t, outer),
             desired_attitude: roll_pitch_yaw([desired.w, desired.i, desired.j, desired.k]),
             u: inner.demand.as_array().map(f64::from),
             s: [inner.s.x, inner.s.y, inner.s.z, outer.s.x, outer.s.y, outer.s.z].map(f64::from),
@@ -197,9 +262,32 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         }
     }
 
+    /// What the vehicle believes, beside the truth.
+    fn navigation(&self, t: f64) -> Navigation<'_> {
+        let vehicle = &self.autopilot.inner;
+        Navigation {
+            t,
+            truth: self.plant.motion(),
+            nav: vehicle.nav(),
+            filtered_at: vehicle.filtered_at(),
+            filter: vehicle.filter_output(),
+            covariance: self.autopilot.filter.covariance(),
+            commander: vehicle.commander_output(),
+        }
+    }
+
+    /// Where the vehicle ought to be: on its trajectory, or where guidance has it.
+    fn reference(&self, t: f64, outer: &OuterOutput) -> [f64; 4] {
+        if self.pilot.is_none() {
+            return reference::at(&self.trajectory, self.flight_time(t));
+        }
+        let wanted = outer.wanted;
+        [wanted.x, wanted.y, wanted.z, wanted.w].map(f64::from)
+    }
+
     /// Time on the flight's clock, s: 0 while disarmed.
     fn flight_time(&self, t: f64) -> f64 {
-        let start = self.autopilot.inner.commander_output().flight_start;
+        let start = self.autopilot.inner.commander_output().flight_start();
         start.map_or(0.0, |start| t - time(start))
     }
 

@@ -160,7 +160,7 @@ fn a_rotor_fails_in_flight_and_may_heal() {
 #[test]
 fn failures_come_at_their_tick() {
     let failures =
-        "rotor_failure=[{at_s=0.02,effectiveness=[1.0,1.0,1.0,1.0]},{at_s=0.005,effectiveness=[0.5,1.0,1.0,1.0]}]";
+        "fault=[{kind=\"rotor\",index=0,effectiveness=0.5,from_s=0.005,to_s=0.02}]";
     let mut plant = plant(&[failures]);
     let hover = [plant.constants().hover_omega(); 4];
     let lift = |plant: &RigidBody| plant.constants().geometry[(0, 0)] / 8.54858e-6;
@@ -329,7 +329,7 @@ fn hovering_empties_the_battery_in_the_time_of_its_closed_form() {
 
 #[test]
 fn a_collapse_of_the_voltage_slows_the_rotors_while_it_lasts() {
-    let mut plant = plant(&["battery.collapse=[{from_s=0.1,to_s=0.3,factor=0.5}]"]);
+    let mut plant = plant(&["battery={}", "fault=[{kind=\"collapse\",from_s=0.1,to_s=0.3,factor=0.5}]"]);
     let hover = plant.constants().hover_omega();
     let mut slowest = f64::INFINITY;
     for tick in 1..=600 {
@@ -371,4 +371,29 @@ fn a_gust_pushes_as_its_closed_form_says() {
     let impulse = 0.244 / 2.0 * 5.0 * 0.6;
     let speed = plant.motion().velocity.x;
     assert!(speed < impulse && speed > impulse * (1.0 - 0.122), "{speed} {impulse}");
+}
+
+#[test]
+fn the_x500_flies_in_the_whole_world() {
+    let scenario = load(
+        "x500-step",
+        &[
+            "ground=true",
+            "battery.soc=0.9",
+            "world={altitude_m=488.0,ground_height_m=0.0,ground_effect=true,rotor_lag_down=true}",
+            "thrust_to_weight=3.0",
+            "wind={mean_m_s=[3.0,0.0,0.0],turbulence_20ft_m_s=5.0}",
+        ],
+    );
+    let fly = || {
+        let mut rows: Vec<Row> = Vec::new();
+        let outcome = flight::fly(&scenario, 1, &mut rows).expect("can be flown");
+        assert!(outcome.survived);
+        rows
+    };
+    let rows = fly();
+    let last = rows.last().expect("rows");
+    let away = last.position.iter().zip(&last.reference).map(|(is, ought)| (is - ought).abs()).fold(0.0, f64::max);
+    assert!(away < 0.5, "{away} m away in the end");
+    assert_eq!(rows, fly(), "the same flight again");
 }

@@ -68,6 +68,9 @@ fn five_seconds_of_flight_allocate_nothing() {
         .into_iter()
         .chain(["disturbance.acceleration_m_s2=0.5", "disturbance.angle_output_rad=0.001"])
         .chain(["actuation_delay_s=0.002", "wind.turbulence_20ft_m_s=7.7"])
+        .chain(["wind.gust=[{from_s=2.0,rise_s=0.5,peak_m_s=[2.0,0.0,0.0]}]"])
+        .chain(["push=[{from_s=2.0,to_s=2.1,angular_acceleration_rad_s2=[5.0,0.0,0.0]}]"])
+        .chain(["fault=[{kind=\"rotor\",index=0,effectiveness=0.95,from_s=3.0}]", "world.altitude_m=500.0"])
         .map(str::to_owned)
         .collect::<Vec<_>>();
     let scenario = Scenario::load("helix", &settings).expect("valid");

@@ -1,88 +1,53 @@
-//! The commander partition, 50 Hz: arming.
+//! The commander partition, 50 Hz: what the vehicle is to do now. Arming, modes, and what happens when something fails.
 //!
-//! ```text
-//!              arm, checks pass
-//!  Disarmed ───────────────────► Armed { since }
-//!     ▲                             │
-//!     └─────────────────────────────┘
-//!       disarm on the ground, or forced
-//! ```
+//! `state` has the states and the diagram of what leads from one to another, `watch` what is believed of the vehicle
+//! over several jobs, `checks` what has to hold before something is begun. What comes in are [`Request`]s, what goes
+//! out is a [`Directive`] for guidance.
 //!
-//! A refused command leaves the state as it is and says why. A forced disarm also acts at once, through the
-//! latch that the inner loop reads every tick (see `autopilot`).
+//! A refused command leaves the state as it is and says why; one that asks for what is already being done changes
+//! nothing. A forced disarm also acts at once, through the latch that the inner loop reads every tick (see `autopilot`).
 
-use crate::config::{FlightConfig, Start};
+mod checks;
+mod directive;
+mod request;
+mod state;
+mod watch;
+
+#[cfg(test)]
+mod tests;
+
+pub use directive::{Directive, Known, Mode};
+pub use request::{
+    Command, Commands, Event, Events, Origin, Outcome, Refusal, Replies, Reply, Request, TAKE_OFF_HEIGHT_M,
+};
+pub use state::State;
+
+use nalgebra::Vector3;
+
+use self::checks::is_slow;
+use self::watch::{BatteryWatch, Charge, GroundWatch, NavWatch};
+use crate::config::{FlightConfig, ModeSettings, Start};
+use crate::guidance::Guidance;
 use crate::math;
 use crate::schedule::COMMANDER;
-use crate::signals::{NavState, Tick};
-
-/// What a ground station may ask for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Request {
-    /// Start the flight; `force` skips the checks.
-    Arm {
-        /// Skip the checks.
-        force: bool,
-    },
-    /// Stop the rotors; `force` also in the air.
-    Disarm {
-        /// Also in the air.
-        force: bool,
-    },
-}
-
-/// A request and who made it, so that the answer finds its way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Command {
-    /// What is asked.
-    pub request: Request,
-    /// MAVLink system and component of the sender.
-    pub sender: (u8, u8),
-}
-
-/// How a command ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    /// Done.
-    Accepted,
-    /// Not now; the reason may pass.
-    TemporarilyRejected(Refusal),
-}
-
-/// Why a command was refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
-    /// No valid motion from the sensors.
-    NoNavigation,
-    /// Tilted more than 20°.
-    NotLevel,
-    /// Moving faster than 0.5 m/s.
-    Moving,
-    /// In the air.
-    InAir,
-}
-
-/// The answer to a command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Reply {
-    /// The command.
-    pub command: Command,
-    /// How it ended.
-    pub outcome: Outcome,
-}
-
-/// Commands between two jobs.
-pub type Commands = heapless::Vec<Command, 4>;
-/// Replies of one job.
-pub type Replies = heapless::Vec<Reply, 4>;
+use crate::sensors::BatterySample;
+use crate::signals::{NavHealth, NavState, TICK_S, Tick};
 
 /// Snapshot for the commander.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CommanderInput {
     /// The motion at the release.
     pub nav: NavState,
-    /// Whether the motion is to be trusted.
+    /// Whether samples come.
     pub nav_fresh: bool,
+    /// What of the motion is to be trusted.
+    pub health: NavHealth,
+    /// Thrust that the rotors are believed to give, N.
+    pub thrust_n: f32,
+    /// The battery, if there is a monitor.
+    pub battery: Option<BatterySample>,
+    /// The rotor that is known to have failed, from 0.
+    pub failed_rotor: Option<u8>,
     /// Commands that came since the last job.
     pub commands: Commands,
 }
@@ -90,124 +55,326 @@ pub struct CommanderInput {
 /// What the commander has decided.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CommanderOutput {
-    /// The tick at which the flight's clock started; none while disarmed.
-    pub flight_start: Option<Tick>,
+    /// Whether the rotors may turn.
+    pub armed: bool,
+    /// What the vehicle is doing, for pilots.
+    pub mode: Mode,
+    /// What guidance is to do.
+    pub directive: Directive,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
     /// Whether an arm request would be accepted.
     pub armable: bool,
     /// Answers to the commands.
     pub replies: Replies,
+    /// What the pilot is to know.
+    pub event: Option<Event>,
 }
 
-/// Arming state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
-    /// Rotors stopped.
-    Disarmed,
-    /// Flying, or about to.
-    Armed {
-        /// Start of the flight's clock.
-        since: Tick,
-    },
+impl CommanderOutput {
+    /// The tick at which the flight's clock started; none unless the trajectory is being flown.
+    pub fn flight_start(&self) -> Option<Tick> {
+        match self.directive {
+            Directive::Follow { since } => Some(since),
+            _ => None,
+        }
+    }
 }
 
 /// The commander partition.
 #[derive(Clone, Debug)]
 pub struct Commander {
+    settings: ModeSettings,
+    weight_n: f32,
+    /// Where the trajectory is joined from the ground, and from the air with which heading.
+    start: Vector3<f32>,
+    entry: Vector3<f32>,
+    entry_yaw: f32,
     state: State,
-    ground_height: f32,
-    /// Whether the start is a place on the ground; a flight that begins in the air has none that is known.
-    on_ground: bool,
+    /// Where it was armed.
+    home: Vector3<f32>,
+    navigation: NavWatch,
+    battery: BatteryWatch,
+    ground: GroundWatch,
+    /// That the battery is low has been acted upon: the pilot may have decided otherwise.
+    battery_answered: Charge,
 }
 
-/// cos 20°.
-const COS_TILT_MAX: f32 = 0.94;
-const SPEED_MAX_M_S: f32 = 0.5;
-/// Below this height over the start, at rest, the vehicle counts as landed.
-const LANDED_HEIGHT_M: f32 = 0.1;
+/// A velocity is flown this long, s, unless it is asked for again.
+pub const VELOCITY_TIMEOUT_S: f32 = 1.0;
+/// After a landing the rotors idle this long, s.
+const IDLE_AFTER_LANDING_S: f32 = 1.0;
+/// A height is reached this near to it, m.
+const AT_HEIGHT_M: f32 = 0.3;
+/// A place is reached this near to it, m, and slow.
+const AT_PLACE_M: f32 = 0.5;
+/// Lower than this over home, m, a landing slows down.
+const FINAL_HEIGHT_M: f32 = 2.0;
+
+/// The number of ticks in a time.
+const fn ticks(seconds: f32) -> Tick {
+    (seconds / TICK_S + 0.5) as Tick
+}
 
 impl Commander {
-    /// In the state in which the configuration starts.
+    /// In the state in which a valid configuration starts.
     pub fn new(config: &FlightConfig) -> Self {
-        let state = match config.start {
-            Start::InFlight => State::Armed { since: 0 },
-            Start::OnGround => State::Disarmed,
-        };
-        let [_, _, ground_height] = config.start_position_m;
-        Self { state, ground_height, on_ground: config.start == Start::OnGround }
+        let flies = config.start == Start::InFlight;
+        let start = config.start_position();
+        // A trajectory that is none has been refused before.
+        let (entry, entry_yaw) = Guidance::new(config.trajectory, config.join.as_ref(), start)
+            .map_or((start, 0.0), |guidance| guidance.entry(config.start));
+        Self {
+            settings: config.modes,
+            weight_n: config.airframe.weight_n(),
+            start,
+            entry,
+            entry_yaw,
+            state: if flies { State::Follow { since: 0 } } else { State::Disarmed },
+            home: start,
+            navigation: NavWatch::default(),
+            battery: BatteryWatch::default(),
+            ground: GroundWatch::new(flies, start.z),
+            battery_answered: Charge::Good,
+        }
     }
 
     /// What holds before the first job's output.
     pub fn initial_output(&self) -> CommanderOutput {
         CommanderOutput {
-            flight_start: self.flight_start(),
-            landed: self.state == State::Disarmed,
+            armed: self.state != State::Disarmed,
+            mode: self.state.mode(),
+            directive: self.directive(self.home.z),
+            landed: !self.ground.is_airborne(),
             armable: false,
             replies: Replies::new(),
+            event: None,
         }
     }
 
     /// One job, released at `released`.
     pub fn step(&mut self, released: Tick, input: &CommanderInput) -> CommanderOutput {
-        let landed = self.is_landed(&input.nav);
+        let effective = released.wrapping_add(COMMANDER.offset);
+        self.watch(input);
         let mut replies = Replies::new();
         for command in &input.commands {
-            let outcome = self.decide(command.request, released.wrapping_add(COMMANDER.offset), landed, input);
+            let outcome = self.decide(&command.request, effective, input);
             // As many replies fit as commands.
             let _ = replies.push(Reply { command: *command, outcome });
         }
-        CommanderOutput { flight_start: self.flight_start(), landed, armable: check(input).is_ok(), replies }
-    }
-
-    fn decide(&mut self, request: Request, effective: Tick, landed: bool, input: &CommanderInput) -> Outcome {
-        match (request, self.state) {
-            (Request::Arm { .. }, State::Armed { .. }) | (Request::Disarm { .. }, State::Disarmed) => Outcome::Accepted,
-            (Request::Arm { force }, State::Disarmed) => match check(input) {
-                Err(refusal) if !force => Outcome::TemporarilyRejected(refusal),
-                _ => {
-                    self.state = State::Armed { since: effective };
-                    Outcome::Accepted
-                }
-            },
-            (Request::Disarm { force }, State::Armed { .. }) => {
-                if landed || force {
-                    self.state = State::Disarmed;
-                    Outcome::Accepted
-                } else {
-                    Outcome::TemporarilyRejected(Refusal::InAir)
-                }
-            }
+        let event = self.fail_safe(input);
+        self.progress(effective, input);
+        CommanderOutput {
+            armed: self.state != State::Disarmed,
+            mode: self.state.mode(),
+            directive: self.directive(input.nav.position.z),
+            landed: !self.ground.is_airborne(),
+            armable: self.check(input).is_ok(),
+            replies,
+            event,
         }
     }
 
-    fn flight_start(&self) -> Option<Tick> {
+    /// What is being done.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    fn watch(&mut self, input: &CommanderInput) {
+        self.navigation.step(input);
+        self.battery.step(input, &self.settings);
         match self.state {
-            State::Disarmed => None,
-            State::Armed { since } => Some(since),
+            State::Disarmed | State::Idle { .. } => self.ground.step_idle(input),
+            State::Land | State::Descent { .. } | State::MotorOut => {
+                self.ground.step_flying(input, self.weight_n, Some(self.navigation.known()));
+            }
+            _ => self.ground.step_flying(input, self.weight_n, None),
         }
     }
 
-    fn is_landed(&self, nav: &NavState) -> bool {
-        self.on_ground && nav.position.z - self.ground_height < LANDED_HEIGHT_M && is_slow(nav)
+    fn decide(&mut self, request: &Request, effective: Tick, input: &CommanderInput) -> Outcome {
+        if !request.is_sane() {
+            return Outcome::Denied;
+        }
+        let done = match *request {
+            Request::Arm { force } => self.arm(force, input),
+            Request::Disarm { force } => self.disarm(force),
+            _ => self.fly(request, effective, input),
+        };
+        done.map_or_else(Outcome::TemporarilyRejected, |()| Outcome::Accepted)
     }
-}
 
-fn is_slow(nav: &NavState) -> bool {
-    nav.velocity.norm_squared() < SPEED_MAX_M_S * SPEED_MAX_M_S
-}
-
-/// Whether the vehicle may be armed.
-fn check(input: &CommanderInput) -> Result<(), Refusal> {
-    let q = input.nav.attitude.quaternion();
-    let cos_tilt = 1.0 - 2.0 * (q.i * q.i + q.j * q.j);
-    if !input.nav_fresh {
-        Err(Refusal::NoNavigation)
-    } else if math::max(cos_tilt, -1.0) < COS_TILT_MAX {
-        Err(Refusal::NotLevel)
-    } else if !is_slow(&input.nav) {
-        Err(Refusal::Moving)
-    } else {
+    fn arm(&mut self, force: bool, input: &CommanderInput) -> Result<(), Refusal> {
+        if self.state == State::Disarmed {
+            if !force {
+                self.check(input)?;
+            }
+            self.home = input.nav.position;
+            self.battery_answered = Charge::Good;
+            self.state = State::Idle { disarm_at: None };
+        }
         Ok(())
+    }
+
+    fn disarm(&mut self, force: bool) -> Result<(), Refusal> {
+        if self.state == State::Disarmed {
+            return Ok(());
+        }
+        if self.ground.is_airborne() && !force {
+            return Err(Refusal::InAir);
+        }
+        self.stop();
+        Ok(())
+    }
+
+    fn stop(&mut self) {
+        self.battery.forget();
+        self.state = State::Disarmed;
+    }
+
+    /// A request to fly somehow.
+    fn fly(&mut self, request: &Request, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
+        use State as S;
+        match (self.state, request) {
+            (S::Disarmed, _) => return Err(Refusal::Disarmed),
+            (S::Idle { .. } | S::Land | S::Descent { .. } | S::MotorOut, Request::Land)
+            | (S::TakeOff { .. }, Request::TakeOff { .. })
+            | (S::Join | S::Follow { .. }, Request::Follow)
+            | (S::Return { .. }, Request::Return) => return Ok(()),
+            (S::MotorOut, _) => return Err(Refusal::RotorFailed),
+            (S::Idle { .. }, Request::TakeOff { .. } | Request::Follow) => self.check_take_off(request, input)?,
+            (S::Idle { .. }, _) => return Err(Refusal::OnGround),
+            (_, Request::TakeOff { .. }) => return Err(Refusal::InAir),
+            (_, Request::Land) => {}
+            _ => self.check_position(input)?,
+        }
+        self.state = self.state_for(request, effective, input);
+        Ok(())
+    }
+
+    /// The state that a request to fly leads to.
+    fn state_for(&self, request: &Request, effective: Tick, input: &CommanderInput) -> State {
+        let height = input.nav.position.z;
+        match *request {
+            Request::TakeOff { height_m } => State::TakeOff { to_m: height + height_m },
+            Request::GoTo { position_m, yaw_rad } => State::GoTo { position: position_m.into(), yaw: yaw_rad },
+            Request::Velocity { velocity_m_s, yaw_rate_rad_s } => State::Velocity {
+                velocity: velocity_m_s.into(),
+                yaw_rate: yaw_rate_rad_s,
+                until: effective.wrapping_add(ticks(VELOCITY_TIMEOUT_S)),
+            },
+            Request::Return => self.homewards(height),
+            Request::Follow if matches!(self.state, State::Idle { .. }) => State::Follow { since: effective },
+            Request::Follow => State::Join,
+            Request::Land => State::Land,
+            Request::Hold => State::Hold,
+            Request::Arm { .. } | Request::Disarm { .. } => self.state,
+        }
+    }
+
+    fn homewards(&self, height: f32) -> State {
+        State::Return { at_m: math::max(self.home.z + self.settings.return_height_m, height), climbs: true }
+    }
+
+    /// What fails is answered here, the worst first.
+    fn fail_safe(&mut self, input: &CommanderInput) -> Option<Event> {
+        if matches!(self.state, State::Disarmed | State::Idle { .. }) {
+            return None;
+        }
+        if self.navigation.is_gone() {
+            self.stop();
+            return Some(Event::SensorsGone);
+        }
+        if self.state == State::MotorOut {
+            return None;
+        }
+        if let Some(rotor) = input.failed_rotor {
+            self.state = State::MotorOut;
+            return Some(Event::RotorFailed { rotor });
+        }
+        self.answer_loss(input).or_else(|| self.answer_battery(input.nav.position.z))
+    }
+
+    fn answer_loss(&mut self, input: &CommanderInput) -> Option<Event> {
+        let known = self.navigation.known();
+        let before = match self.state {
+            State::Descent { known } => known,
+            _ if known == Known::Position => return None,
+            _ => Known::Position,
+        };
+        self.state = State::Descent { known };
+        (known > before).then_some(match known {
+            Known::Position | Known::Velocity => Event::PositionLost,
+            Known::Height => Event::VelocityLost,
+            Known::Attitude if !input.nav_fresh => Event::SensorsLost,
+            Known::Attitude if !input.health.attitude => Event::AttitudeLost,
+            Known::Attitude => Event::HeightLost,
+        })
+    }
+
+    fn answer_battery(&mut self, height: f32) -> Option<Event> {
+        let charge = self.battery.charge();
+        if charge <= self.battery_answered {
+            return None;
+        }
+        self.battery_answered = charge;
+        match (charge, self.state) {
+            (_, State::Land | State::Descent { .. }) | (Charge::Good, _) => {}
+            (Charge::Critical, _) => self.state = State::Land,
+            (Charge::Low, State::Return { .. }) => {}
+            (Charge::Low, _) => self.state = self.homewards(height),
+        }
+        Some(if charge == Charge::Critical { Event::BatteryCritical } else { Event::BatteryLow })
+    }
+
+    /// What has been reached leads on.
+    fn progress(&mut self, effective: Tick, input: &CommanderInput) {
+        let nav = &input.nav;
+        let has_come = |at: Tick| effective.wrapping_sub(at) < Tick::MAX / 2;
+        let is_at = |place: Vector3<f32>| (nav.position - place).norm_squared() < AT_PLACE_M * AT_PLACE_M;
+        self.state = match self.state {
+            State::Idle { disarm_at: Some(at) } if has_come(at) => return self.stop(),
+            State::TakeOff { to_m } if nav.position.z > to_m - AT_HEIGHT_M => State::Hold,
+            State::Velocity { until, .. } if has_come(until) => State::Hold,
+            State::Join if is_at(self.entry) && is_slow(nav) => State::Follow { since: effective },
+            State::Return { at_m, climbs: true } if nav.position.z > at_m - AT_HEIGHT_M => {
+                State::Return { at_m, climbs: false }
+            }
+            State::Return { at_m, climbs: false } if is_at(self.over_home(at_m)) && is_slow(nav) => State::Land,
+            State::Land | State::Descent { .. } | State::MotorOut if !self.ground.is_airborne() => {
+                State::Idle { disarm_at: Some(effective.wrapping_add(ticks(IDLE_AFTER_LANDING_S))) }
+            }
+            state => state,
+        };
+    }
+
+    fn over_home(&self, height: f32) -> Vector3<f32> {
+        Vector3::new(self.home.x, self.home.y, height)
+    }
+
+    /// What guidance is to do, at a height (z, m).
+    fn directive(&self, height: f32) -> Directive {
+        let settings = &self.settings;
+        match self.state {
+            State::Disarmed => Directive::Stop,
+            State::Idle { .. } => Directive::Idle,
+            State::TakeOff { to_m } => Directive::Climb { height_m: to_m, speed_m_s: settings.take_off_m_s },
+            State::Hold => Directive::HOLD,
+            State::GoTo { position, yaw } => Directive::GoTo { position, yaw: Some(yaw) },
+            State::Velocity { velocity, yaw_rate, .. } => Directive::Velocity { velocity, yaw_rate },
+            State::Join => Directive::GoTo { position: self.entry, yaw: Some(self.entry_yaw) },
+            State::Follow { since } => Directive::Follow { since },
+            State::Return { at_m, climbs: true } => Directive::Climb { height_m: at_m, speed_m_s: settings.climb_m_s },
+            State::Return { at_m, climbs: false } => Directive::GoTo { position: self.over_home(at_m), yaw: None },
+            State::Land => self.descend(settings.landing_m_s, height, false),
+            State::Descent { .. } => self.descend(settings.descent_m_s, height, false),
+            State::MotorOut => self.descend(settings.descent_m_s, height, true),
+        }
+    }
+
+    fn descend(&self, rate_m_s: f32, height: f32, heading_free: bool) -> Directive {
+        let is_near = height - self.home.z < FINAL_HEIGHT_M;
+        let rate_m_s = if is_near { math::min(rate_m_s, self.settings.touchdown_m_s) } else { rate_m_s };
+        Directive::Descend { rate_m_s, known: self.navigation.known(), heading_free }
     }
 }

@@ -12,6 +12,7 @@ pub mod flatness;
 pub mod gyro;
 pub mod law;
 pub mod mixer;
+pub mod motor_out;
 pub mod observer;
 pub mod pointing;
 pub mod position;

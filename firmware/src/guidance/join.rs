@@ -96,6 +96,16 @@ impl JoinPath {
         Ok(Self { duration, points, yaw: end.yaw })
     }
 
+    /// The curve from rest at `start` to `end` that nobody has shaped, `duration` ticks long.
+    ///
+    /// # Errors
+    /// None: its points fit.
+    pub fn plain(duration: Tick, start: Vector3<f32>, end: &FlatReference) -> Result<Self, ConfigError> {
+        let duration_s = duration as f32 * TICK_S;
+        let plan = JoinPlan { duration_s, start_acceleration_m_s2: [0.0; 3], middle_m: heapless::Vec::new() };
+        Self::new(&plan, start, end)
+    }
+
     /// Length of the path in ticks.
     pub fn duration_ticks(&self) -> Tick {
         self.duration

@@ -1,15 +1,18 @@
 //! Guidance: where the vehicle ought to be, with four derivatives, as a function of flight time.
 //!
-//! Owns the reference trajectories and the path that joins one from rest. Evaluated by the outer partition for
+//! Owns the reference trajectories and the path that joins one from rest; [`setpoint`] makes the reference of a vehicle
+//! that is told where to go while it flies. Evaluated by the outer partition for
 //! the tick at which its output takes effect. Time is a tick count, so a reference is as exact after an hour as
 //! after a second.
 
 mod join;
+pub mod setpoint;
 
 pub use join::{JoinPath, JoinPlan, MIDDLE_POINTS};
 
 use nalgebra::Vector3;
 
+use crate::config::Start;
 use crate::math::{self, Phase};
 use crate::signals::{FlatReference, TICK_S_EXACT, Tick};
 use crate::validate::ConfigError;
@@ -159,6 +162,8 @@ pub struct Guidance {
     phase: Phase,
     tick_s: f32,
     join: Option<JoinPath>,
+    /// The path from elsewhere, in place of the configured one.
+    detour: Option<JoinPath>,
 }
 
 impl Guidance {
@@ -186,15 +191,44 @@ impl Guidance {
             Trajectory::Helix { rate_rad_s, .. } | Trajectory::FigureEight { rate_rad_s, .. } => rate_rad_s,
             Trajectory::Hold { .. } | Trajectory::Step { .. } => 0.0,
         };
-        Ok(Self { trajectory, phase: Phase::new(rate, tick_s), tick_s: tick_s as f32, join: None })
+        Ok(Self { trajectory, phase: Phase::new(rate, tick_s), tick_s: tick_s as f32, join: None, detour: None })
     }
 
     /// What to fly `ticks` after the start of the flight: the joining path first, then the trajectory.
     pub fn at(&self, ticks: Tick) -> FlatReference {
-        match &self.join {
+        match self.detour.as_ref().or(self.join.as_ref()) {
             Some(join) if ticks < join.duration_ticks() => join.at(ticks),
             _ => self.trajectory_at(ticks),
         }
+    }
+
+    /// Where, and with which heading, to be at rest before the flight's clock starts in the air: where the joining path
+    /// begins, but for one that begins on the ground not lower than where it ends.
+    pub fn entry(&self, start: Start) -> (Vector3<f32>, f32) {
+        let first = self.at(0);
+        let mut entry = first.position;
+        if start == Start::OnGround
+            && let Some(join) = &self.join
+        {
+            entry.z = math::max(entry.z, self.trajectory_at(join.duration_ticks()).position.z);
+        }
+        (entry, first.yaw)
+    }
+
+    /// The clock is about to start for a vehicle at rest in the air: it joins from there, in as much time as from the
+    /// configured start. Where there is no joining path, it begins with the trajectory.
+    pub fn join_from(&mut self, place: &Vector3<f32>) {
+        /// The configured path may have been planned with care: it is flown if it begins here.
+        const SAME_PLACE_M: f32 = 0.02;
+        let Some(join) = &self.join else { return };
+        let same = (join.at(0).position - place).norm_squared() < SAME_PLACE_M * SAME_PLACE_M;
+        let end = self.trajectory_at(join.duration_ticks());
+        self.detour = if same { None } else { JoinPath::plain(join.duration_ticks(), *place, &end).ok() };
+    }
+
+    /// The configured path is flown again.
+    pub fn join_from_start(&mut self) {
+        self.detour = None;
     }
 
     /// The trajectory itself.

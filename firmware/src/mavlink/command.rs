@@ -1,17 +1,16 @@
 //! Commands: what each one does, and how it is answered.
 //!
-//! Arming goes to the commander, which answers through a [`Reply`]; the rest is answered here. Nothing remembers
-//! earlier commands: a repeated one is carried out and answered again, which does no harm for any of them.
+//! What concerns the flight goes to the commander, which answers through a [`Reply`](crate::commander::Reply); the rest
+//! is answered here. Nothing remembers earlier commands: a repeated one is carried out and answered again, which does no harm for any of them.
 
-use glissade_dialect::mavlink_core::types::CharArray;
 use glissade_dialect::num_traits::FromPrimitive;
-use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavResult, MavSeverity, STATUSTEXT_DATA};
+use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavModeFlag, MavResult};
 
 use super::parser::{CommandMessage, Sender};
 use super::telemetry::{IntervalError, Report, Telemetry, is_available, report_by_id};
 use super::writer::Writer;
-use super::{GroundInput, Outgoing};
-use crate::commander::{Command, Commands, Outcome, Refusal, Reply, Request};
+use super::{GroundInput, mode};
+use crate::commander::{Command, Commands, Origin, Outcome, Request, TAKE_OFF_HEIGHT_M};
 use crate::signals::Tick;
 
 /// `param2` of arming and disarming that skips the checks: MAVLink's and QGroundControl's.
@@ -42,7 +41,11 @@ pub(super) fn carry_out(
     to_commander: &mut Commands,
 ) -> Option<Answer> {
     match MavCmd::from_u16(message.command) {
-        Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => pass_on(message, sender, to_commander),
+        Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => pass_on(arm_request(message), message, sender, to_commander),
+        Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => pass_on(Some(take_off(message)), message, sender, to_commander),
+        Some(MavCmd::MAV_CMD_NAV_LAND) => pass_on(Some(Request::Land), message, sender, to_commander),
+        Some(MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH) => pass_on(Some(Request::Return), message, sender, to_commander),
+        Some(MavCmd::MAV_CMD_DO_SET_MODE) => pass_on(mode_request(message), message, sender, to_commander),
         Some(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL) => Some(set_message_interval(message, now, telemetry).into()),
         Some(MavCmd::MAV_CMD_REQUEST_MESSAGE) => Some(request_message(message, input)),
         Some(MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES) => Some(request_capabilities(message)),
@@ -50,9 +53,16 @@ pub(super) fn carry_out(
     }
 }
 
-fn pass_on(message: &CommandMessage, sender: Sender, to_commander: &mut Commands) -> Option<Answer> {
-    match arm_request(message) {
-        Some(request) if to_commander.push(Command { request, sender }).is_ok() => None,
+/// A request goes to the commander; where there is none, the command has made no sense.
+fn pass_on(
+    request: Option<Request>,
+    message: &CommandMessage,
+    sender: Sender,
+    to_commander: &mut Commands,
+) -> Option<Answer> {
+    let origin = Origin::Station { sender, command: message.command };
+    match request {
+        Some(request) if to_commander.push(Command { request, origin }).is_ok() => None,
         Some(_) => Some(MavResult::MAV_RESULT_TEMPORARILY_REJECTED.into()),
         None => Some(MavResult::MAV_RESULT_DENIED.into()),
     }
@@ -65,6 +75,21 @@ fn arm_request(message: &CommandMessage) -> Option<Request> {
         Some(Request::Arm { force })
     } else if message.param1 == 0.0 {
         Some(Request::Disarm { force })
+    } else {
+        None
+    }
+}
+
+/// The height is over the ground: there is no height over the sea yet. NaN asks for the usual one.
+fn take_off(message: &CommandMessage) -> Request {
+    Request::TakeOff { height_m: if message.param7.is_nan() { TAKE_OFF_HEIGHT_M } else { message.param7 } }
+}
+
+/// `None` unless it is a mode of PX4's coding, with the flag that says so, into which the vehicle can be told to go.
+fn mode_request(message: &CommandMessage) -> Option<Request> {
+    let flags = MavModeFlag::from_bits_truncate(message.param1 as u8);
+    if flags.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) {
+        mode::request(message.param2, message.param3)
     } else {
         None
     }
@@ -96,32 +121,17 @@ fn request_capabilities(message: &CommandMessage) -> Answer {
     }
 }
 
-/// The acknowledgement of a command that the commander has decided.
-pub(super) fn ack_of(reply: Reply) -> Outgoing {
-    let result = match reply.outcome {
+/// MAVLink's name for how a command ended that the commander has decided.
+pub(super) fn result_of(outcome: Outcome) -> MavResult {
+    match outcome {
         Outcome::Accepted => MavResult::MAV_RESULT_ACCEPTED,
         Outcome::TemporarilyRejected(_) => MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
-    };
-    Outgoing::Ack { command: MavCmd::MAV_CMD_COMPONENT_ARM_DISARM as u16, result, to: reply.command.sender }
+        Outcome::Denied => MavResult::MAV_RESULT_DENIED,
+    }
 }
 
 /// Sends an acknowledgement; false if it does not fit.
 pub(super) fn write_ack(command: u16, result: MavResult, to: Sender, out: &mut Writer) -> bool {
     let (target_system, target_component) = to;
     out.write(&COMMAND_ACK_DATA { command, result, target_system, target_component, ..COMMAND_ACK_DATA::DEFAULT })
-}
-
-/// Sends why a command was refused, for the pilot to read; false if it does not fit.
-pub(super) fn write_refusal(refusal: Refusal, out: &mut Writer) -> bool {
-    let reason: &[u8] = match refusal {
-        Refusal::NoNavigation => b"Arming refused: position unknown",
-        Refusal::NotLevel => b"Arming refused: not level",
-        Refusal::Moving => b"Arming refused: moving",
-        Refusal::InAir => b"Disarming refused: in the air",
-    };
-    let mut text = [0; 50];
-    for (to, from) in text.iter_mut().zip(reason) {
-        *to = *from;
-    }
-    out.write(&STATUSTEXT_DATA { severity: MavSeverity::MAV_SEVERITY_WARNING, text: CharArray::new(text) })
 }

@@ -1,14 +1,16 @@
 //! The ground partition, 100 Hz: MAVLink.
 //!
 //! Bytes in, bytes out; the board or the host only carries them. `parser` makes received bytes into messages,
-//! `command` carries out what they ask, `telemetry` says when what is sent, `writer` makes it into bytes.
+//! `command` carries out what they ask, `mode` codes the modes as PX4 does, `text` tells pilots, `telemetry` says when what is sent, `writer` makes it into bytes.
 //! Answers wait in a queue until they fit into a job's bytes. Knows NED/FRD through `frames` alone.
 
 mod command;
+mod mode;
 mod parser;
 mod telemetry;
 #[cfg(test)]
 mod tests;
+mod text;
 mod writer;
 
 use glissade_dialect::{MISSION_COUNT_DATA, MavResult, TIMESYNC_DATA};
@@ -16,7 +18,7 @@ use glissade_dialect::{MISSION_COUNT_DATA, MavResult, TIMESYNC_DATA};
 use self::parser::{CommandMessage, Incoming, Parser, Sender};
 use self::telemetry::{Report, Telemetry};
 use self::writer::Writer;
-use crate::commander::{Commands, Outcome, Refusal, Replies};
+use crate::commander::{Commands, Event, Events, Mode, Origin, Outcome, Refusal, Replies, Request};
 use crate::signals::{NavState, TICK_US, Tick};
 
 /// MAVLink system of this vehicle.
@@ -68,6 +70,8 @@ pub struct GroundInput {
     pub nav: NavState,
     /// Whether the rotors may turn.
     pub armed: bool,
+    /// What the vehicle is doing.
+    pub mode: Mode,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
     /// Whether an arm request would be accepted.
@@ -76,6 +80,8 @@ pub struct GroundInput {
     pub health: Health,
     /// Answers of the commander since the last job.
     pub replies: Replies,
+    /// What the pilot is to know, since the last job.
+    pub events: Events,
     /// What the ground station has sent since the last job.
     pub received: RxBytes,
 }
@@ -100,7 +106,9 @@ enum Outgoing {
     /// How a command ended.
     Ack { command: u16, result: MavResult, to: Sender },
     /// Why a command was refused, for the pilot.
-    Refusal(Refusal),
+    Refusal(Request, Refusal),
+    /// What has happened, for the pilot.
+    Event(Event),
     /// A message that was asked for.
     Report(Report),
     /// There are no missions of any type yet; ground stations want to be told.
@@ -125,6 +133,9 @@ impl Ground {
         self.parser.push(&input.received);
         while let Some((sender, message)) = self.parser.next() {
             self.handle(released, input, sender, message, &mut output.commands);
+        }
+        for event in &input.events {
+            self.post(Outgoing::Event(*event));
         }
         self.post_replies(&input.replies);
         self.transmit(released, input, &mut output.transmit);
@@ -170,9 +181,11 @@ impl Ground {
 
     fn post_replies(&mut self, replies: &Replies) {
         for reply in replies {
-            self.post(command::ack_of(*reply));
+            let Origin::Station { sender, command } = reply.command.origin else { continue };
+            let result = command::result_of(reply.outcome);
+            self.post(Outgoing::Ack { command, result, to: sender });
             if let Outcome::TemporarilyRejected(refusal) = reply.outcome {
-                self.post(Outgoing::Refusal(refusal));
+                self.post(Outgoing::Refusal(reply.command.request, refusal));
             }
         }
     }
@@ -201,7 +214,8 @@ impl Ground {
 fn write(outgoing: &Outgoing, now: Tick, input: &GroundInput, bad_checksums: u32, out: &mut Writer) -> bool {
     match *outgoing {
         Outgoing::Ack { command, result, to } => command::write_ack(command, result, to, out),
-        Outgoing::Refusal(refusal) => command::write_refusal(refusal, out),
+        Outgoing::Refusal(request, refusal) => text::write_refusal(&request, refusal, out),
+        Outgoing::Event(event) => text::write_event(event, out),
         Outgoing::Report(report) => telemetry::write(report, now, input, bad_checksums, out),
         Outgoing::NoMission { mission_type, to: (target_system, target_component) } => {
             out.write(&MISSION_COUNT_DATA { target_system, target_component, count: 0, mission_type })

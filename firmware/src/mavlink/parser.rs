@@ -30,7 +30,7 @@ const PATIENCE_JOBS: u8 = 10;
 /// Who sent a message: MAVLink system and component.
 pub(super) type Sender = (u8, u8);
 
-/// A command, whichever form it came in. No command here needs more than two of the parameters.
+/// A command, whichever form it came in, with the parameters that some command here needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CommandMessage {
     /// Number in `MAV_CMD`; may be any.
@@ -39,6 +39,10 @@ pub(super) struct CommandMessage {
     pub(super) param1: f32,
     /// Parameter 2; may be NaN.
     pub(super) param2: f32,
+    /// Parameter 3; may be NaN.
+    pub(super) param3: f32,
+    /// Parameter 7; may be NaN.
+    pub(super) param7: f32,
 }
 
 /// A message that is for this vehicle.
@@ -249,13 +253,20 @@ impl Frame<'_> {
 
     fn decode_long(&self) -> Option<Incoming> {
         let m = COMMAND_LONG_DATA::deser(self.version, self.payload).ok()?;
-        let command = CommandMessage { command: m.command, param1: m.param1, param2: m.param2 };
+        let command = CommandMessage {
+            command: m.command,
+            param1: m.param1,
+            param2: m.param2,
+            param3: m.param3,
+            param7: m.param7,
+        };
         is_for_us(m.target_system, m.target_component).then_some(Incoming::Command(command))
     }
 
     fn decode_int(&self) -> Option<Incoming> {
         let m = COMMAND_INT_DATA::deser(self.version, self.payload).ok()?;
-        let command = CommandMessage { command: m.command, param1: m.param1, param2: m.param2 };
+        let command =
+            CommandMessage { command: m.command, param1: m.param1, param2: m.param2, param3: m.param3, param7: m.z };
         is_for_us(m.target_system, m.target_component).then_some(Incoming::Command(command))
     }
 

@@ -11,7 +11,8 @@ use glissade_dialect::{
 };
 
 use super::writer::{Writer, frame_len};
-use super::{GroundInput, LoopTiming};
+use super::{GroundInput, LoopTiming, mode};
+use crate::commander::Mode;
 use crate::control::euler::Euler;
 use crate::frames::flip_vector;
 use crate::schedule::GROUND;
@@ -162,24 +163,23 @@ fn boot_ms(tick: Tick) -> u32 {
     (u64::from(tick) * u64::from(TICK_US) / 1000) as u32
 }
 
-/// PX4's mode number of "flying by itself, holding": main mode 4 (auto), sub mode 3 (loiter).
-const MODE_AUTO_LOITER: u32 = 4 << 16 | 3 << 24;
-
 fn heartbeat(input: &GroundInput) -> HEARTBEAT_DATA {
-    let mode = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+    let flags = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
         | MavModeFlag::MAV_MODE_FLAG_STABILIZE_ENABLED
         | MavModeFlag::MAV_MODE_FLAG_GUIDED_ENABLED
         | MavModeFlag::MAV_MODE_FLAG_AUTO_ENABLED;
     let (armed, state) = if input.armed {
-        (MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, MavState::MAV_STATE_ACTIVE)
+        let fails = matches!(input.mode, Mode::Descent | Mode::MotorOut);
+        let state = if fails { MavState::MAV_STATE_CRITICAL } else { MavState::MAV_STATE_ACTIVE };
+        (MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, state)
     } else {
         (MavModeFlag::empty(), MavState::MAV_STATE_STANDBY)
     };
     HEARTBEAT_DATA {
-        custom_mode: MODE_AUTO_LOITER,
+        custom_mode: mode::custom_mode(input.mode),
         mavtype: MavType::MAV_TYPE_QUADROTOR,
         autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
-        base_mode: mode | armed,
+        base_mode: flags | armed,
         system_status: state,
         mavlink_version: glissade_dialect::MINOR_MAVLINK_VERSION,
     }
@@ -250,8 +250,12 @@ fn saturate(count: u32) -> u16 {
 }
 
 fn extended_sys_state(input: &GroundInput) -> EXTENDED_SYS_STATE_DATA {
-    let landed_state =
-        if input.landed { MavLandedState::MAV_LANDED_STATE_ON_GROUND } else { MavLandedState::MAV_LANDED_STATE_IN_AIR };
+    let landed_state = match input.mode {
+        _ if input.landed => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
+        Mode::TakeOff => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
+        Mode::Land | Mode::Descent | Mode::MotorOut => MavLandedState::MAV_LANDED_STATE_LANDING,
+        _ => MavLandedState::MAV_LANDED_STATE_IN_AIR,
+    };
     EXTENDED_SYS_STATE_DATA { landed_state, ..EXTENDED_SYS_STATE_DATA::DEFAULT }
 }
 

@@ -30,7 +30,7 @@ pub(super) fn hovering(scenario: &Scenario) -> Scenario {
     let file = &mut hover.file;
     file.trajectory = Trajectory::Hold { position_m: [0.0; 3], yaw_rad: 0.0 };
     (file.join, file.disturbance, file.wind, file.tumble, file.battery) = (None, None, None, None, None);
-    (file.push, file.rotor_failure, file.world) = (Vec::new(), Vec::new(), World::default());
+    (file.push, file.fault, file.world) = (Vec::new(), Vec::new(), World::default());
     (file.start, file.ground, file.start_position_m) = (Start::InFlight, false, [0.0; 3]);
     (file.start_velocity_m_s, file.start_attitude_deg, file.start_rates_rad_s) = (None, None, None);
     hover

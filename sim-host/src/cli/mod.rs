@@ -5,6 +5,7 @@
 //! overrun, is one line and exit code 1.
 
 mod analyse;
+mod assess;
 mod bench;
 mod compare;
 mod demo;
@@ -69,6 +70,8 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Fly many seeds of the scenarios that are judged, and print percentiles beside what is expected of them.
+    Assess(AssessArgs),
     /// Measure how fast the simulation is.
     Bench {
         /// Simulated seconds a run.
@@ -150,6 +153,23 @@ struct RunArgs {
     /// Print a JSON object, or an array for several seeds.
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Args, Clone, Debug)]
+struct AssessArgs {
+    /// Names of built-in scenarios, or paths of files; all built-in ones that are judged without any.
+    scenarios: Vec<String>,
+    /// Seeds to fly, first and last.
+    #[arg(long, value_name = "A..B", default_value = "1..100")]
+    seeds: Seeds,
+    /// Flights at once; as many as there are cores by default. The results do not depend on it.
+    #[arg(long, value_name = "J")]
+    jobs: Option<usize>,
+    /// Print a JSON array.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    settings: Settings,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -270,6 +290,7 @@ pub fn main() -> ExitCode {
         Some(Command::Serve(args)) => serve::run(&args),
         Some(Command::Pil(args)) => pil::run(&args),
         Some(Command::Analyse { which, seed, out, json }) => analyse::run(&which, seed, out.as_deref(), json),
+        Some(Command::Assess(args)) => assess::run(&args),
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
         Some(Command::Sweep { which, seed, json }) => sweep::run(&which, seed, json),
         Some(Command::Compare(args)) => compare::run(&args),

@@ -6,7 +6,8 @@ use rand_chacha::rand_core::{Rng as _, SeedableRng as _};
 
 /// Where a stream of random numbers is used. The numbers are part of what a seed means: do not reuse one.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Source {
+#[repr(u64)]
+pub(crate) enum Source {
     Acceleration = 1,
     AngularAcceleration = 2,
     PositionOutput = 3,
@@ -15,40 +16,78 @@ pub(super) enum Source {
     WindAlong = 6,
     WindAcross = 7,
     WindVertical = 8,
+    /// What is wrong with a part for good: biases, scales, axes.
+    GyroErrors = 16,
+    GyroNoise = 17,
+    GyroBias = 18,
+    AccelErrors = 19,
+    AccelNoise = 20,
+    AccelBias = 21,
+    Vibration = 22,
+    MagErrors = 23,
+    MagNoise = 24,
+    BaroErrors = 25,
+    BaroNoise = 26,
+    BaroDrift = 27,
+    GnssPlace = 28,
+    GnssVelocity = 29,
+    GnssNoise = 30,
+    GnssJitter = 31,
+    PoseNoise = 32,
+    BatteryNoise = 33,
     /// Test signal of an analysis.
     Test = 64,
+    /// The first fault; the others have the numbers that follow.
+    Fault = 1 << 32,
 }
 
 /// The random numbers of one source.
 #[derive(Clone, Debug)]
-pub(super) struct Stream {
+pub(crate) struct Stream {
     rng: ChaCha8Rng,
 }
 
 impl Stream {
-    pub(super) fn new(seed: u64, source: Source) -> Self {
+    pub(crate) fn new(seed: u64, source: Source) -> Self {
+        Self::numbered(seed, source as u64)
+    }
+
+    /// That of a fault, counted from 0.
+    pub(crate) fn of_fault(seed: u64, number: u32) -> Self {
+        Self::numbered(seed, Source::Fault as u64 + u64::from(number))
+    }
+
+    fn numbered(seed: u64, number: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        rng.set_stream(source as u64);
+        rng.set_stream(number);
         Self { rng }
     }
 
     /// Three independent standard normal numbers.
-    pub(super) fn normal_vector(&mut self) -> Vector3<f64> {
+    pub(crate) fn normal_vector(&mut self) -> Vector3<f64> {
         let ((x, y), (z, _)) = (self.normal_pair(), self.normal_pair());
         Vector3::new(x, y, z)
     }
 
     /// Two independent standard normal numbers (Box and Muller 1958), from `libm` alone: the same on every platform,
     /// which a library that may take its logarithms from the system does not promise.
-    pub(super) fn normal_pair(&mut self) -> (f64, f64) {
+    pub(crate) fn normal_pair(&mut self) -> (f64, f64) {
         let radius = (-2.0 * libm::log(self.unit())).sqrt();
         let (sin, cos) = libm::sincos(core::f64::consts::TAU * self.unit());
         (radius * cos, radius * sin)
     }
 
     /// Uniform in 0 < u ≤ 1, of 53 bits.
-    pub(super) fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         ((self.rng.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Uniform on the unit sphere, whose height is uniform (Archimedes).
+    pub(crate) fn direction(&mut self) -> Vector3<f64> {
+        let height = 2.0 * self.unit() - 1.0;
+        let (sin, cos) = libm::sincos(core::f64::consts::TAU * self.unit());
+        let radius = (1.0 - height * height).sqrt();
+        Vector3::new(radius * cos, radius * sin, height)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Seeded randomness of the world: disturbances, wind, tumbling starts.
 
 pub mod dryden;
-mod gaussian;
+pub(crate) mod gaussian;
 pub mod gust;
 pub mod tumble;
 

@@ -10,8 +10,8 @@ use crate::scenario::Tumble;
 pub fn draw(tumble: &Tumble, position: Vector3<f64>, seed: u64) -> Motion {
     let mut stream = Stream::new(seed, Source::Tumble);
     let attitude = rotation(&mut stream);
-    let rates = direction(&mut stream) * tumble.rate_rad_s;
-    let velocity = direction(&mut stream) * tumble.speed_m_s;
+    let rates = stream.direction() * tumble.rate_rad_s;
+    let velocity = stream.direction() * tumble.speed_m_s;
     Motion { position, velocity, attitude, rates }
 }
 
@@ -22,14 +22,6 @@ fn rotation(stream: &mut Stream) -> Quaternion<f64> {
     let (sin_2, cos_2) = libm::sincos(core::f64::consts::TAU * stream.unit());
     let (near, far) = ((1.0 - part).sqrt(), part.sqrt());
     Quaternion::new(far * cos_2, near * sin_1, near * cos_1, far * sin_2)
-}
-
-/// Uniform on the unit sphere, whose height is uniform (Archimedes).
-fn direction(stream: &mut Stream) -> Vector3<f64> {
-    let height = 2.0 * stream.unit() - 1.0;
-    let (sin, cos) = libm::sincos(core::f64::consts::TAU * stream.unit());
-    let radius = (1.0 - height * height).sqrt();
-    Vector3::new(radius * cos, radius * sin, height)
 }
 
 #[cfg(test)]

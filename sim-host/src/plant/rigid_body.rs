@@ -77,7 +77,8 @@ impl Divided {
 impl RigidBody {
     /// At rest at `position`, rotors turning so as to hover (in the air) or standing (on the ground).
     pub fn new(constants: Constants, ground: Option<Ground>, position: Vector3<f64>) -> Self {
-        let omega = Vector4::repeat(if ground.is_some() { 0.0 } else { constants.hover_omega() });
+        let stands = ground.as_ref().is_some_and(|ground| ground.height_above(&position) <= 0.0);
+        let omega = Vector4::repeat(if stands { 0.0 } else { constants.hover_omega() });
         let divided = Divided::new(&constants);
         let sound = Box::new(Sound::new(&constants, divided.drag, divided.rotational_drag));
         Self { divided, ground, state: pack(&Motion::at_rest(position)), omega, sound, effects: None, constants }
@@ -264,9 +265,9 @@ impl RigidBody {
         let lag = command.zip_map(&self.omega, |to, from| if to < from { down } else { c.rotor_lag });
         let kept = |time: f64| lag.map(|lag| libm::exp(-time / lag));
         let after = |time: f64| command + (self.omega - command).component_mul(&kept(time));
-        let reaction = |omega: &Vector4<f64>| match c.spin_up_reaction {
-            true => c.rotor_inertia * c.rotor_spin(&(command - omega).component_div(&lag)),
-            false => 0.0,
+        let reaction = |omega: &Vector4<f64>| {
+            let spin_up = (command - omega).component_div(&lag);
+            if c.spin_up_reaction { c.rotor_inertia * c.rotor_spin(&spin_up) } else { 0.0 }
         };
         let (half, end) = (after(0.5 * h), after(h));
         ([&self.omega, &half, &end].map(|omega| self.rotors_reacting(omega, reaction(omega))), end)

@@ -30,6 +30,7 @@ pub mod plots;
 pub mod progress;
 pub mod summary;
 pub mod table;
+pub mod touchdown;
 pub mod truth;
 
 use std::fs::{self, File};
@@ -42,6 +43,7 @@ pub use metrics::{Metrics, Settling};
 pub use plots::{Disturbance, Figures};
 pub use progress::Progress;
 pub use summary::{Flight, Summary};
+pub use touchdown::Touchdown;
 pub use truth::TruthWriter;
 
 /// The folder that `--out` names.

@@ -95,7 +95,9 @@ fn world(f: &ScenarioFile) -> Result<()> {
         ("push", !f.push.is_empty()),
         ("world", f.world != World::default()),
         ("battery", f.battery.is_some()),
-        ("rotor_failure", !f.rotor_failure.is_empty()),
+        ("sensors", f.sensors.is_some()),
+        ("fault", !f.fault.is_empty()),
+        ("command", !f.command.is_empty()),
     ] {
         let plant = f.plant == PlantKind::RigidBody;
         ensure!(!is_there || plant, "`{key}` is there on the plant `rigid-body` alone: leave it out, or set `plant`");
@@ -108,8 +110,11 @@ fn world(f: &ScenarioFile) -> Result<()> {
 
 /// What acts on the airframe's own figures: whether the airframe has them, and how far each may go.
 fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
+    let start_z = f.start_position_m[2];
+    within("world.ground_height_m", f.world.ground_height_m.unwrap_or(start_z), -LENGTH_MAX_M, start_z)?;
     within("world.altitude_m", f.world.altitude_m.unwrap_or(0.0), ALTITUDE_M.0, ALTITUDE_M.1)?;
     for (key, asked, needs, is_there) in [
+        ("world.ground_height_m", f.world.ground_height_m.is_some(), "ground", f.ground),
         ("world.ground_effect", f.world.ground_effect, "ground", f.ground),
         ("world.ground_effect", f.world.ground_effect, "airframe.rotor_radius_m", airframe.rotor_radius_m.is_some()),
         (
@@ -123,19 +128,11 @@ fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
     ] {
         ensure!(!asked || is_there, "`{key}` needs `{needs}`: set it, or leave `{key}` out");
     }
-    for failure in &f.rotor_failure {
-        within("rotor_failure.at_s", failure.at_s, 0.0, DURATION_MAX_S)?;
-        failure.effectiveness.iter().try_for_each(|part| within("rotor_failure.effectiveness", *part, 0.0, 10.0))?;
-    }
     f.battery.as_ref().map_or(Ok(()), battery)
 }
 
 fn battery(battery: &BatteryStart) -> Result<()> {
     within("battery.soc", battery.soc, 0.0, 1.0)?;
-    for collapse in &battery.collapse {
-        period("battery.collapse", collapse.from_s, collapse.to_s)?;
-        within("battery.collapse.factor", collapse.factor, 0.0, 1.0)?;
-    }
     Ok(())
 }
 

@@ -8,8 +8,9 @@ use super::{Scenario, ScenarioFile};
 use crate::noise::tumble;
 use crate::plant::air::{Atmosphere, GroundEffect};
 use crate::plant::battery::{Battery, Collapse};
-use crate::plant::effects::{self, Effects, Supply};
+use crate::plant::effects::{Effects, RotorFailure, Supply};
 use crate::plant::{Constants, Motion};
+use crate::sensors::faults::{Fault, Faults, Kind};
 use firmware::airframe::ROTORS;
 
 /// How the plant differs from the airframe file, which the firmware keeps believing.
@@ -116,48 +117,26 @@ pub struct ScheduledPush {
 pub struct World {
     /// Height of z = 0 above sea level, m: thrust, torque and drag are those of the air up there.
     pub altitude_m: Option<f64>,
+    /// Height of the ground, where there is some, m; the start's without it.
+    pub ground_height_m: Option<f64>,
     /// Whether rotors lift more close to the ground.
     pub ground_effect: bool,
     /// Whether rotors slow down by `rotor_lag_down_s`.
     pub rotor_lag_down: bool,
 }
 
-/// The battery's state at the start, and what befalls it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The battery's state at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct BatteryStart {
     /// Part of the capacity that is left at the start.
     pub soc: f64,
-    /// When its voltage collapses.
-    pub collapse: Vec<VoltageCollapse>,
 }
 
 impl Default for BatteryStart {
     fn default() -> Self {
-        Self { soc: 1.0, collapse: Vec::new() }
+        Self { soc: 1.0 }
     }
-}
-
-/// A collapse of the open-circuit voltage for a while.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct VoltageCollapse {
-    /// Onset, s.
-    pub from_s: f64,
-    /// End, s.
-    pub to_s: f64,
-    /// What is left of the voltage.
-    pub factor: f64,
-}
-
-/// Rotors that fail in flight.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RotorFailure {
-    /// When, s.
-    pub at_s: f64,
-    /// What is left of each rotor's thrust and torque from then on, of what `truth` left.
-    pub effectiveness: [f64; ROTORS],
 }
 
 impl ScenarioFile {
@@ -187,13 +166,10 @@ impl Scenario {
     pub fn effects(&self) -> Option<Effects> {
         let (file, airframe) = (&self.file, &self.airframe);
         let world = file.world;
-        let failure = |f: &RotorFailure| effects::RotorFailure { at: f.at_s, effectiveness: f.effectiveness };
-        let mut failures: Vec<_> = file.rotor_failure.iter().map(failure).collect();
-        failures.sort_by(|a, b| a.at.total_cmp(&b.at));
         let plane = airframe.rotor_height_m;
         let effects = Effects {
             rotor_lag_down: airframe.rotor_lag_down_s.filter(|_| world.rotor_lag_down),
-            failures,
+            failures: failures(&file.fault),
             atmosphere: world.altitude_m.map(|altitude| Atmosphere { altitude }),
             ground_effect: airframe
                 .rotor_radius_m
@@ -206,11 +182,26 @@ impl Scenario {
 
     fn supply(&self) -> Option<Supply> {
         let (start, pack) = (self.file.battery.as_ref()?, self.airframe.battery?);
-        let collapse = |c: &VoltageCollapse| Collapse { from_to: (c.from_s, c.to_s), factor: c.factor };
+        let collapse = |fault: &Fault| match fault.kind {
+            Kind::Collapse { factor } => {
+                Some(Collapse { from_to: (fault.from_s, fault.to_s.unwrap_or(f64::INFINITY)), factor })
+            }
+            _ => None,
+        };
         Some(Supply {
             battery: Battery::new(pack, start.soc),
             omega_max: self.airframe.omega_max(),
-            collapses: start.collapse.iter().map(collapse).collect(),
+            collapses: self.file.fault.iter().filter_map(collapse).collect(),
         })
     }
+}
+
+/// What becomes of the rotors, and when: each time at which a fault of theirs begins or ends.
+fn failures(schedule: &[Fault]) -> Vec<RotorFailure> {
+    let faults = Faults::new(schedule, 0);
+    let of_rotors = schedule.iter().filter(|fault| matches!(fault.kind, Kind::Rotor { .. }));
+    let mut times: Vec<f64> = of_rotors.flat_map(|fault| [Some(fault.from_s), fault.to_s]).flatten().collect();
+    times.sort_by(f64::total_cmp);
+    let at = |at: f64| RotorFailure { at, effectiveness: faults.rotor_effectiveness((at * 1e3).round() as u32) };
+    times.into_iter().map(at).collect()
 }

@@ -4,7 +4,8 @@ use core::hint::black_box;
 
 use firmware::airframe::{Airframe, ROTORS, RotorGeometry};
 use firmware::board::counter::{self, Counter, Mark};
-use firmware::config::{FlightConfig, Start};
+use firmware::commander::Directive;
+use firmware::config::{FlightConfig, ModeSettings, Start};
 use firmware::control::attitude::{AttitudeForm, AttitudeGains, SlidingAttitude};
 use firmware::control::mixer::Mixer;
 use firmware::control::observer::ObserverGains;
@@ -100,6 +101,7 @@ fn config() -> FlightConfig {
         start: Start::InFlight,
         start_position_m: [0.0, 0.0, 2.0],
         estimator: None,
+        modes: ModeSettings::default(),
     }
 }
 
@@ -193,7 +195,11 @@ impl Flight {
     #[inline(never)]
     fn outer_job(&mut self, tick: Tick) {
         let effective = tick + OUTER.offset;
-        let input = OuterInput { nav: self.plant.nav, thrust_n: self.inner.thrust_n(), flight_start: Some(0) };
+        let input = OuterInput {
+            nav: self.plant.nav,
+            thrust_n: self.inner.thrust_n(),
+            directive: Directive::Follow { since: 0 },
+        };
         let (instructions, reference) =
             self.counter.count(counter::mark_begin_guidance, || black_box(&self.guidance).at(black_box(effective)));
         self.counts.guidance.add(instructions);

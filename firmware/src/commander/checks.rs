@@ -1,0 +1,78 @@
+//! What has to hold before something is begun.
+
+use super::watch::Charge;
+use super::{AT_PLACE_M, Commander, CommanderInput, Known, Refusal, Request};
+use crate::math;
+use crate::signals::NavState;
+
+/// cos 20°.
+const COS_TILT_MAX: f32 = 0.94;
+const SPEED_MAX_M_S: f32 = 0.5;
+
+impl Commander {
+    /// Whether the vehicle may be armed.
+    pub(super) fn check(&self, input: &CommanderInput) -> Result<(), Refusal> {
+        let q = input.nav.attitude.quaternion();
+        let cos_tilt = 1.0 - 2.0 * (q.i * q.i + q.j * q.j);
+        self.check_systems(input)?;
+        if math::max(cos_tilt, -1.0) < COS_TILT_MAX {
+            Err(Refusal::NotLevel)
+        } else if !is_slow(&input.nav) {
+            Err(Refusal::Moving)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Whether everything is there that a flight needs.
+    fn check_systems(&self, input: &CommanderInput) -> Result<(), Refusal> {
+        let health = &input.health;
+        if input.nav_fresh && !(health.attitude && health.heading) {
+            return Err(Refusal::NotAligned);
+        }
+        check_position(input)?;
+        if self.battery.charge() == Charge::Critical {
+            Err(Refusal::Battery)
+        } else if input.failed_rotor.is_some() {
+            Err(Refusal::RotorFailed)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Whether it may leave the ground.
+    pub(super) fn check_take_off(&self, request: &Request, input: &CommanderInput) -> Result<(), Refusal> {
+        self.check_systems(input)?;
+        if self.battery.charge() != Charge::Good {
+            return Err(Refusal::Battery);
+        }
+        let away = (input.nav.position - self.start).norm_squared();
+        if *request == Request::Follow && away > AT_PLACE_M * AT_PLACE_M {
+            return Err(Refusal::NotAtStart);
+        }
+        Ok(())
+    }
+
+    /// Whether it knows where it is: now, and for some time.
+    pub(super) fn check_position(&self, input: &CommanderInput) -> Result<(), Refusal> {
+        check_position(input)?;
+        if self.navigation.known() == Known::Position { Ok(()) } else { Err(Refusal::NoPosition) }
+    }
+}
+
+fn check_position(input: &CommanderInput) -> Result<(), Refusal> {
+    if !input.nav_fresh {
+        Err(Refusal::NoNavigation)
+    } else if !(input.health.position && input.health.velocity) {
+        Err(Refusal::NoPosition)
+    } else if !input.health.height {
+        Err(Refusal::NoHeight)
+    } else {
+        Ok(())
+    }
+}
+
+/// Slower than what counts as moving.
+pub(super) fn is_slow(nav: &NavState) -> bool {
+    nav.velocity.norm_squared() < SPEED_MAX_M_S * SPEED_MAX_M_S
+}

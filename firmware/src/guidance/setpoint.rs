@@ -1,0 +1,304 @@
+//! The reference of a vehicle that is told where to go, or how fast, while it flies.
+//!
+//! ```text
+//! target ─► braking law ─► speed within limits ─► ∫ ─► course ─► lag ─► lag ─► lag ─► reference
+//!                                acceleration within limits
+//! ```
+//!
+//! The *course* is a point that goes to the target with limited speed and acceleration, along a straight line if it
+//! sets out from rest, and stops there by the braking law that is exact for its steps. Its acceleration leaps. So the
+//! reference follows it through three equal lags of the first order, applied to position, velocity and acceleration
+//! alike. That is one convolution with a kernel that is nowhere negative and has an area of 1, and therefore
+//!
+//! - the reference's velocity and acceleration keep every limit that the course's keep, in any direction;
+//! - it overshoots no target that the course does not;
+//! - position to jerk are continuous whatever the target does, the jerk is at most `2 h a`, with h = 2 e⁻²/τ the peak
+//!   of the kernel, and τ is chosen such that this is the jerk's limit;
+//! - its velocity is exactly the derivative of its position, step by step, for as long as it is so for the course.
+//!
+//! The price is 3τ of delay, half a second with the usual limits. Heading is carried along as a fourth component.
+
+use nalgebra::{Vector3, Vector4};
+
+use crate::config::ModeSettings;
+use crate::math;
+use crate::schedule::OUTER;
+use crate::signals::{FlatReference, TICK_S};
+
+/// Time between two steps, s: a period of the outer partition.
+const STEP_S: f32 = OUTER.period as f32 * TICK_S;
+
+/// 4 e⁻²: twice the peak of the kernel of three lags, times their time constant.
+const KERNEL: f32 = 0.541_341_1;
+
+/// Where to go, or how fast.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// To a place and heading, and stay.
+    Place {
+        /// In the world, m.
+        position: Vector3<f32>,
+        /// ψ, rad; `None` for as it is.
+        yaw: Option<f32>,
+    },
+    /// Stop sideways, and go to a height; keep the heading.
+    Height {
+        /// z in the world, m.
+        height_m: f32,
+        /// At most, m/s.
+        speed_m_s: f32,
+    },
+    /// With a velocity and a rate of the heading.
+    Velocity {
+        /// In the world, m/s.
+        velocity: Vector3<f32>,
+        /// ψ̇, rad/s.
+        yaw_rate: f32,
+    },
+}
+
+/// One of the lags: how far it is behind the one before, and what it makes of velocity and acceleration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Lag {
+    behind: Vector4<f32>,
+    velocity: Vector4<f32>,
+    acceleration: Vector4<f32>,
+}
+
+/// The generator.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setpoint {
+    limits: ModeSettings,
+    /// Part of the way to its input that a lag goes in a step, 1 − e^(−h/τ).
+    part: f32,
+    /// x, y, z and ψ of the course, and their rates.
+    place: Vector4<f32>,
+    speed: Vector4<f32>,
+    lags: [Lag; 3],
+}
+
+fn four(vector: &Vector3<f32>, yaw: f32) -> Vector4<f32> {
+    Vector4::new(vector.x, vector.y, vector.z, yaw)
+}
+
+/// The speed after this step with which a point can still stop in `distance` (m) by `deceleration` (m/s²), if it now
+/// moves with `speed` (m/s): the root of `s²/2a + h(v + s)/2 = d`, which goes down by a·h a step, exactly.
+fn braking_speed(distance: f32, speed: f32, deceleration: f32) -> f32 {
+    let half = 0.5 * STEP_S * deceleration;
+    let square = half * half + deceleration * (2.0 * distance - STEP_S * speed);
+    math::max(math::sqrt(math::max(square, 0.0)) - half, 0.0)
+}
+
+/// The way that a step goes and the change of the speed in it, along a line towards a point `distance` away, with the
+/// speed and its change within `most` and `acceleration`. `grain` is what of the distance is rounding, m.
+fn approach(distance: f32, speed: f32, most: f32, acceleration: f32, grain: f32) -> (f32, f32) {
+    let change_max = acceleration * STEP_S;
+    if math::abs(distance) <= change_max * STEP_S + grain && math::abs(speed) <= change_max {
+        return (distance, -speed);
+    }
+    let sign = if distance < 0.0 { -1.0 } else { 1.0 };
+    let wanted = sign * math::min(braking_speed(math::abs(distance), sign * speed, BRAKING * acceleration), most);
+    moved(speed, math::limit(wanted - speed, change_max))
+}
+
+/// The way that a step goes with a change of the speed, and the change.
+fn moved(speed: f32, change: f32) -> (f32, f32) {
+    ((speed + 0.5 * change) * STEP_S, change)
+}
+
+/// Part of the acceleration that braking is planned with; the rest keeps the course on its line.
+const BRAKING: f32 = 0.95;
+
+/// Part of itself to which a number is known.
+const GRAIN: f32 = 1e-6;
+
+impl Setpoint {
+    /// At rest at the origin, with valid limits.
+    pub fn new(limits: &ModeSettings) -> Self {
+        let fastest = math::max(limits.acceleration_m_s2, limits.vertical_acceleration_m_s2);
+        let time_constant = KERNEL * fastest / limits.jerk_m_s3;
+        let zero = Vector4::zeros();
+        Self {
+            limits: *limits,
+            part: 1.0 - math::exp(-STEP_S / time_constant),
+            place: zero,
+            speed: zero,
+            lags: [Lag { behind: zero, velocity: zero, acceleration: zero }; 3],
+        }
+    }
+
+    /// Goes on from a reference without a leap in position to snap: the course is set ahead of it by what the lags
+    /// will take away.
+    pub fn start(&mut self, from: &FlatReference) {
+        let ahead_s = STEP_S / self.part;
+        let mut velocity = four(&from.velocity, from.yaw_rate);
+        let mut acceleration = four(&from.acceleration, from.yaw_acceleration);
+        let mut jerk = four(&from.jerk, 0.0);
+        let snap = four(&from.snap, 0.0);
+        self.place = four(&from.position, from.yaw);
+        for lag in self.lags.iter_mut().rev() {
+            let behind = (velocity + acceleration * (0.5 * STEP_S)) * ahead_s;
+            *lag = Lag { behind, velocity, acceleration };
+            self.place += behind;
+            velocity += acceleration * ahead_s;
+            acceleration += jerk * ahead_s;
+            jerk += snap * ahead_s;
+        }
+        self.speed = velocity;
+    }
+
+    /// The reference a step later.
+    pub fn step(&mut self, target: &Target) -> FlatReference {
+        let (way, change) = self.translate(target);
+        let (angle, rate_change) = self.turn(target);
+        let (way, change) = (four(&way, angle), four(&change, rate_change));
+        self.follow(&way, &(change / STEP_S));
+        self.place += way;
+        self.place.w = math::wrap_angle(self.place.w);
+        self.speed += change;
+        self.reference()
+    }
+
+    /// Puts the reference at a place, its motion kept.
+    pub fn put_horizontally(&mut self, x: f32, y: f32) {
+        let behind = self.behind();
+        self.place.x = x + behind.x;
+        self.place.y = y + behind.y;
+    }
+
+    /// Puts the reference at a height (m), its motion kept.
+    pub fn put_vertically(&mut self, z: f32) {
+        self.place.z = z + self.behind().z;
+    }
+
+    /// The way of the course in this step, and the change of its velocity.
+    fn translate(&self, target: &Target) -> (Vector3<f32>, Vector3<f32>) {
+        let (place, speed, limits) = (self.place.xyz(), self.speed.xyz(), &self.limits);
+        match *target {
+            Target::Place { position, .. } => self.go(&(position - place), GRAIN * position.amax()),
+            Target::Height { height_m, speed_m_s } => {
+                let distance = height_m - place.z;
+                let most = math::min(speed_m_s, if distance > 0.0 { limits.climb_m_s } else { limits.sink_m_s });
+                let acceleration = limits.vertical_acceleration_m_s2;
+                let (rise, faster) = approach(distance, speed.z, most, acceleration, GRAIN * math::abs(height_m));
+                let (way, mut change) = self.change_speed(&Vector3::new(-speed.x, -speed.y, 0.0));
+                change.z = faster;
+                (Vector3::new(way.x, way.y, rise), change)
+            }
+            Target::Velocity { velocity, .. } => self.change_speed(&(self.within_limits(&velocity) - speed)),
+        }
+    }
+
+    /// Along the straight line to a place `away`, as far as the motion is not another.
+    fn go(&self, away: &Vector3<f32>, grain: f32) -> (Vector3<f32>, Vector3<f32>) {
+        let speed = self.speed.xyz();
+        let distance = math::sqrt(away.norm_squared());
+        let direction = away / math::max(distance, 1e-9);
+        let acceleration = self.acceleration_along(&direction);
+        let change_max = acceleration * STEP_S;
+        if distance <= change_max * STEP_S + grain && speed.norm_squared() <= change_max * change_max {
+            return (*away, -speed);
+        }
+        let now = speed.dot(&direction);
+        // What is more than can be had in a step would be had sooner along one axis than along another.
+        let most = math::min(self.speed_along(&direction), math::max(now, 0.0) + change_max);
+        let along = math::min(braking_speed(distance, now, BRAKING * acceleration), most);
+        self.change_speed(&(direction * along - speed))
+    }
+
+    /// A change of the velocity as far as the acceleration's limits allow, and the way of the course with it.
+    fn change_speed(&self, change: &Vector3<f32>) -> (Vector3<f32>, Vector3<f32>) {
+        let horizontal = shorten(change.x, change.y, self.limits.acceleration_m_s2 * STEP_S);
+        let vertical = math::limit(change.z, self.limits.vertical_acceleration_m_s2 * STEP_S);
+        let change = Vector3::new(horizontal.0, horizontal.1, vertical);
+        ((self.speed.xyz() + change * 0.5) * STEP_S, change)
+    }
+
+    /// A velocity brought within the limits.
+    fn within_limits(&self, velocity: &Vector3<f32>) -> Vector3<f32> {
+        let (x, y) = shorten(velocity.x, velocity.y, self.limits.cruise_m_s);
+        Vector3::new(x, y, math::clamp(velocity.z, -self.limits.sink_m_s, self.limits.climb_m_s))
+    }
+
+    /// Greatest speed in a direction, m/s.
+    fn speed_along(&self, direction: &Vector3<f32>) -> f32 {
+        let vertical = if direction.z > 0.0 { self.limits.climb_m_s } else { self.limits.sink_m_s };
+        within(direction, self.limits.cruise_m_s, vertical)
+    }
+
+    /// Greatest acceleration in a direction, m/s².
+    fn acceleration_along(&self, direction: &Vector3<f32>) -> f32 {
+        within(direction, self.limits.acceleration_m_s2, self.limits.vertical_acceleration_m_s2)
+    }
+
+    /// The angle that the course turns by in this step, and the change of its rate.
+    fn turn(&self, target: &Target) -> (f32, f32) {
+        let (rate, most, acceleration) =
+            (self.speed.w, self.limits.yaw_rate_rad_s, self.limits.yaw_acceleration_rad_s2);
+        let to_rate = |wanted: f32| moved(rate, math::limit(wanted - rate, acceleration * STEP_S));
+        match *target {
+            Target::Place { yaw: Some(yaw), .. } => {
+                approach(math::wrap_angle(yaw - self.place.w), rate, most, acceleration, GRAIN)
+            }
+            Target::Place { yaw: None, .. } | Target::Height { .. } => to_rate(0.0),
+            Target::Velocity { yaw_rate, .. } => to_rate(math::limit(yaw_rate, most)),
+        }
+    }
+
+    /// The lags follow the course for a step in which it goes a `way` with an acceleration.
+    fn follow(&mut self, way: &Vector4<f32>, acceleration: &Vector4<f32>) {
+        let part = self.part;
+        let (mut way, mut velocity, mut acceleration) = (*way, self.speed, *acceleration);
+        for lag in &mut self.lags {
+            let before = *lag;
+            lag.velocity += (velocity - before.velocity) * part;
+            lag.acceleration += (acceleration - before.acceleration) * part;
+            let own_way = before.behind * part;
+            lag.behind += way - own_way;
+            (way, velocity, acceleration) = (own_way, before.velocity, before.acceleration);
+        }
+    }
+
+    /// How far the reference is behind the course.
+    fn behind(&self) -> Vector4<f32> {
+        self.lags.iter().fold(Vector4::zeros(), |sum, lag| sum + lag.behind)
+    }
+
+    /// The reference now.
+    pub fn reference(&self) -> FlatReference {
+        let per_s = self.part / STEP_S;
+        let [first, second, third] = &self.lags;
+        let place = self.place - self.behind();
+        let jerk = (second.acceleration - third.acceleration) * per_s;
+        let jerk_before = (first.acceleration - second.acceleration) * per_s;
+        FlatReference {
+            position: place.xyz(),
+            velocity: third.velocity.xyz(),
+            acceleration: third.acceleration.xyz(),
+            jerk: jerk.xyz(),
+            snap: ((jerk_before - jerk) * per_s).xyz(),
+            yaw: math::wrap_angle(place.w),
+            yaw_rate: third.velocity.w,
+            yaw_acceleration: third.acceleration.w,
+        }
+    }
+}
+
+/// The greatest size of a vector in a direction whose horizontal and vertical parts are limited.
+fn within(direction: &Vector3<f32>, horizontal: f32, vertical: f32) -> f32 {
+    let across = math::sqrt(direction.x * direction.x + direction.y * direction.y);
+    let up = math::abs(direction.z);
+    // One of the two is 0.7 at least, but for no direction at all.
+    math::min(horizontal / math::max(across, 1e-6), vertical / math::max(up, 1e-6))
+}
+
+/// A horizontal vector made `most` long at most.
+fn shorten(x: f32, y: f32, most: f32) -> (f32, f32) {
+    let size = math::sqrt(x * x + y * y);
+    let scale = if size > most { most / size } else { 1.0 };
+    (x * scale, y * scale)
+}
+
+#[cfg(test)]
+#[path = "setpoint_tests.rs"]
+mod tests;

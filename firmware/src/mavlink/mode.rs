@@ -1,0 +1,40 @@
+//! The vehicle's modes in PX4's coding: a main and a sub mode, in the third and fourth byte of `custom_mode`.
+
+use crate::commander::{Mode, Request, TAKE_OFF_HEIGHT_M};
+
+const AUTO: u8 = 4;
+const OFFBOARD: u8 = 6;
+const TAKE_OFF: u8 = 2;
+const LOITER: u8 = 3;
+const MISSION: u8 = 4;
+const RETURN: u8 = 5;
+const LAND: u8 = 6;
+
+/// `custom_mode` of a mode. PX4 has none for a descent that a failure has caused which clients know: it lands.
+pub(super) fn custom_mode(mode: Mode) -> u32 {
+    let (main, sub) = match mode {
+        Mode::Disarmed | Mode::Idle | Mode::Hold => (AUTO, LOITER),
+        Mode::TakeOff => (AUTO, TAKE_OFF),
+        Mode::Follow => (AUTO, MISSION),
+        Mode::Return => (AUTO, RETURN),
+        Mode::Land | Mode::Descent | Mode::MotorOut => (AUTO, LAND),
+        Mode::GoTo | Mode::Velocity => (OFFBOARD, 0),
+    };
+    u32::from(main) << 16 | u32::from(sub) << 24
+}
+
+/// What a mode asks for that a pilot sets; `None` for one that cannot be set.
+pub(super) fn request(main: f32, sub: f32) -> Option<Request> {
+    if main != f32::from(AUTO) {
+        return None;
+    }
+    [
+        (TAKE_OFF, Request::TakeOff { height_m: TAKE_OFF_HEIGHT_M }),
+        (LOITER, Request::Hold),
+        (MISSION, Request::Follow),
+        (RETURN, Request::Return),
+        (LAND, Request::Land),
+    ]
+    .into_iter()
+    .find_map(|(number, request)| (sub == f32::from(number)).then_some(request))
+}

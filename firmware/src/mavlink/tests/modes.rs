@@ -1,0 +1,143 @@
+//! Modes: what is heard of them, and the commands that ask for them.
+
+use super::*;
+use crate::commander::TAKE_OFF_HEIGHT_M;
+
+const RETURN_TO_LAUNCH: u16 = 20;
+const LAND: u16 = 21;
+const TAKEOFF: u16 = 22;
+const SET_MODE: u16 = 176;
+
+#[test]
+fn modes_and_landed_states_are_those_that_px4s_clients_know() {
+    let mut bench = Bench::new();
+    bench.input.armed = true;
+    bench.input.landed = false;
+    for (mode, (main, sub), landed_state, state) in [
+        (Mode::Hold, (4, 3), 2, 4),
+        (Mode::TakeOff, (4, 2), 3, 4),
+        (Mode::Follow, (4, 4), 2, 4),
+        (Mode::Return, (4, 5), 2, 4),
+        (Mode::Land, (4, 6), 4, 4),
+        (Mode::GoTo, (6, 0), 2, 4),
+        (Mode::Velocity, (6, 0), 2, 4),
+        (Mode::Descent, (4, 6), 4, 5),
+        (Mode::MotorOut, (4, 6), 4, 5),
+    ] {
+        bench.input.mode = mode;
+        let messages = bench.jobs(100);
+        let heartbeat = messages.iter().find_map(|m| if let MavMessage::HEARTBEAT(m) = m { Some(m) } else { None });
+        let heartbeat = heartbeat.expect("sent");
+        assert_eq!((heartbeat.custom_mode >> 16 & 0xff, heartbeat.custom_mode >> 24), (main, sub), "{mode:?}");
+        assert_eq!(heartbeat.system_status as u8, state, "{mode:?}");
+        let landed =
+            messages.iter().rev().find_map(|m| if let MavMessage::EXTENDED_SYS_STATE(m) = m { Some(m) } else { None });
+        assert_eq!(landed.expect("sent").landed_state as u8, landed_state, "{mode:?}");
+    }
+}
+
+#[test]
+fn commands_to_fly_become_requests() {
+    let mut bench = Bench::silent();
+    let custom = 1.0;
+    let take_off = |height_m| Request::TakeOff { height_m };
+    for (number, [param1, param2, param3, param7], request) in [
+        (TAKEOFF, [0.0, 0.0, 0.0, 4.0], take_off(4.0)),
+        (TAKEOFF, [0.0, 0.0, 0.0, f32::NAN], take_off(TAKE_OFF_HEIGHT_M)),
+        (LAND, [0.0; 4], Request::Land),
+        (RETURN_TO_LAUNCH, [0.0; 4], Request::Return),
+        (SET_MODE, [custom, 4.0, 2.0, 0.0], take_off(TAKE_OFF_HEIGHT_M)),
+        (SET_MODE, [custom, 4.0, 3.0, 0.0], Request::Hold),
+        (SET_MODE, [129.0, 4.0, 4.0, 0.0], Request::Follow),
+        (SET_MODE, [custom, 4.0, 5.0, 0.0], Request::Return),
+        (SET_MODE, [custom, 4.0, 6.0, 0.0], Request::Land),
+    ] {
+        let long = COMMAND_LONG_DATA {
+            target_system: 1,
+            target_component: 1,
+            command: number,
+            param1,
+            param2,
+            param3,
+            param7,
+            ..COMMAND_LONG_DATA::DEFAULT
+        };
+        let int = COMMAND_INT_DATA {
+            target_system: 1,
+            target_component: 1,
+            command: number,
+            param1,
+            param2,
+            param3,
+            z: param7,
+            ..COMMAND_INT_DATA::DEFAULT
+        };
+        for bytes in [frame(&long), frame(&int)] {
+            assert_eq!(bench.result_of(&bytes), None, "{number}: the commander decides");
+            assert_eq!(bench.commands.pop(), Some(from_station(number, request)));
+        }
+    }
+}
+
+#[test]
+fn modes_that_cannot_be_set_are_denied() {
+    let mut bench = Bench::silent();
+    for [param1, param2, param3] in [
+        [0.0, 4.0, 3.0],
+        [1.0, 1.0, 0.0],
+        [1.0, 6.0, 0.0],
+        [1.0, 4.0, 1.0],
+        [1.0, 4.0, f32::NAN],
+        [f32::NAN, 4.0, 3.0],
+        [1.0, f32::NAN, 3.0],
+        [1.0, 4.5, 3.0],
+    ] {
+        let long = COMMAND_LONG_DATA {
+            target_system: 1,
+            command: SET_MODE,
+            param1,
+            param2,
+            param3,
+            ..COMMAND_LONG_DATA::DEFAULT
+        };
+        let result = bench.result_of(&frame(&long));
+        assert_eq!(result, Some(MavResult::MAV_RESULT_DENIED), "{param1} {param2} {param3}");
+    }
+}
+
+#[test]
+fn requests_of_programs_on_board_are_not_acknowledged_and_numbers_without_sense_are_denied() {
+    let mut bench = Bench::silent();
+    let outcome = Outcome::TemporarilyRejected(Refusal::OnGround);
+    let _ = bench
+        .input
+        .replies
+        .push(Reply { command: Command { request: Request::Hold, origin: Origin::OnBoard }, outcome });
+    assert!(bench.job(&[]).is_empty());
+    let command = from_station(TAKEOFF, Request::TakeOff { height_m: -1.0 });
+    let _ = bench.input.replies.push(Reply { command, outcome: Outcome::Denied });
+    let messages = bench.job(&[]);
+    let [MavMessage::COMMAND_ACK(ack)] = messages.as_slice() else { panic!("{messages:?}") };
+    assert_eq!((ack.command, ack.result), (TAKEOFF, MavResult::MAV_RESULT_DENIED));
+}
+
+#[test]
+fn what_fails_is_told_in_words() {
+    let mut bench = Bench::silent();
+    for (event, words) in [
+        (Event::SensorsLost, "Sensors lost: descending blind"),
+        (Event::SensorsGone, "Sensors lost: rotors stopped"),
+        (Event::AttitudeLost, "Attitude lost: descending blind"),
+        (Event::HeightLost, "Height lost: descending blind"),
+        (Event::VelocityLost, "Velocity lost: descending level"),
+        (Event::PositionLost, "Position lost: descending"),
+        (Event::BatteryLow, "Battery low: returning"),
+        (Event::BatteryCritical, "Battery critical: landing"),
+        (Event::RotorFailed { rotor: 2 }, "Rotor 3 failed: descending, turning"),
+    ] {
+        let _ = bench.input.events.push(event);
+        let messages = bench.job(&[]);
+        let [MavMessage::STATUSTEXT(text)] = messages.as_slice() else { panic!("{messages:?}") };
+        assert_eq!((text.text.to_str(), text.severity as u8), (Ok(words), 2));
+    }
+}

@@ -1,0 +1,97 @@
+//! Whether a filter is as wrong as it believes to be: its innovations and its errors, each in units of what it says of
+//! them (Bar-Shalom, Li and Kirubarajan 2001, §5.4).
+
+use std::collections::BTreeMap;
+
+use firmware::estimator::Source;
+use nalgebra::{SMatrix, SVector, Vector3};
+
+use crate::record::Navigation;
+
+/// States of the error that are looked at: attitude, velocity and position.
+pub const STATES: usize = 9;
+/// Between two looks at the error, s: they are far apart, because one error is much like the one a second later.
+const LOOK_EVERY_S: f64 = 5.0;
+
+/// The normalised innovations of one kind of reading.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Innovations {
+    /// Readings.
+    pub count: u64,
+    /// Sum of their normalised innovations squared.
+    pub sum: f64,
+    /// How many were within the 95 % quantile of χ².
+    pub within: u64,
+    /// How many were refused.
+    pub refused: u64,
+}
+
+/// What a flight has shown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Consistency {
+    /// By kind of reading.
+    pub innovations: BTreeMap<&'static str, Innovations>,
+    /// Normalised estimation errors squared, one every five seconds of what is judged.
+    pub nees: Vec<f64>,
+    next_look_s: f64,
+    last_tick: Option<u32>,
+}
+
+/// Name and degrees of freedom of a kind of reading.
+pub fn kind(source: Source) -> (&'static str, u32) {
+    match source {
+        Source::Heading => ("heading", 1),
+        Source::Baro => ("baro", 1),
+        Source::GnssPosition => ("gnss-position", 2),
+        Source::GnssHeight => ("gnss-height", 1),
+        Source::GnssVelocity => ("gnss-velocity", 3),
+        Source::PosePosition => ("pose-position", 3),
+        Source::PoseAttitude => ("pose-attitude", 3),
+        Source::Drag => ("drag", 2),
+        Source::Rest => ("rest", 3),
+    }
+}
+
+/// 95 % quantile of χ² with one to three degrees of freedom.
+fn quantile(degrees: u32) -> f64 {
+    match degrees {
+        1 => 3.841,
+        2 => 5.991,
+        _ => 7.815,
+    }
+}
+
+impl Consistency {
+    /// One tick's readings, and now and then the error: `attitude` is that of the attitude in the world, rad.
+    pub fn take(&mut self, navigation: &Navigation, attitude: &Vector3<f64>) {
+        if self.last_tick != navigation.filtered_at {
+            self.last_tick = navigation.filtered_at;
+            for reading in &navigation.filter.consistency {
+                let (name, degrees) = kind(reading.source);
+                let all = self.innovations.entry(name).or_default();
+                let nis = f64::from(reading.verdict.nis);
+                all.count += 1;
+                all.refused += u64::from(!reading.verdict.accepted);
+                all.within += u64::from(nis <= quantile(degrees));
+                if reading.verdict.accepted {
+                    all.sum += nis;
+                }
+            }
+        }
+        if navigation.t >= self.next_look_s {
+            self.next_look_s = navigation.t + LOOK_EVERY_S;
+            self.nees.extend(nees(navigation, attitude));
+        }
+    }
+}
+
+/// eᵀ P⁻¹ e of attitude, velocity and position.
+fn nees(navigation: &Navigation, attitude: &Vector3<f64>) -> Option<f64> {
+    let (truth, nav) = (navigation.truth, navigation.nav);
+    let velocity = truth.velocity - nav.velocity.cast();
+    let position = truth.position - nav.position.cast();
+    let error =
+        SVector::<f64, STATES>::from_iterator(attitude.iter().chain(velocity.iter()).chain(position.iter()).copied());
+    let covariance = SMatrix::<f64, STATES, STATES>::from_fn(|i, j| f64::from(navigation.covariance.get(i, j)));
+    Some(error.dot(&covariance.cholesky()?.solve(&error)))
+}

@@ -1,0 +1,275 @@
+//! Many seeds of a scenario: percentiles of what they measured, and whether these are as expected.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use anyhow::{Context, Result};
+use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+use serde::Serialize;
+
+use super::consistency::{Innovations, STATES};
+use super::{Assess, Expectation, Measure, Measures};
+use crate::flight;
+use crate::scenario::Scenario;
+use crate::seeds::Seeds;
+
+/// Percentiles of a measure over the seeds. A flight without the number counts as worse than any.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// What.
+    pub measure: Measure,
+    /// Flights that have the number.
+    pub count: usize,
+    /// 5th, 50th, 95th percentile and the greatest; null where too few have the number.
+    pub p5: Option<f64>,
+    /// The median.
+    pub p50: Option<f64>,
+    /// The 95th percentile.
+    pub p95: Option<f64>,
+    /// The greatest.
+    pub max: Option<f64>,
+}
+
+/// An expectation and what came of it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// What was expected.
+    #[serde(flatten)]
+    pub expected: Expectation,
+    /// The percentile found.
+    pub found: Option<f64>,
+    /// Whether it is as expected.
+    pub met: bool,
+}
+
+/// How the innovations of one kind of reading agree with what was expected of them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Nis {
+    /// Of what.
+    pub reading: String,
+    /// How many.
+    pub count: u64,
+    /// Mean of the normalised innovation squared over its degrees of freedom: 1 if all is as believed.
+    pub mean: f64,
+    /// Part within the 95 % quantile of χ².
+    pub within_95: f64,
+    /// Part refused.
+    pub refused: f64,
+}
+
+/// How the errors agree with what was believed of them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Nees {
+    /// Times at which all flights were looked at.
+    pub looks: usize,
+    /// Mean over flights and times of eᵀP⁻¹e over its degrees of freedom: 1 if all is as believed.
+    pub mean: f64,
+    /// Band that holds such a mean of as many flights at one time with 95 % probability.
+    pub band: (f64, f64),
+    /// Part of the times at which the mean over the flights is within it.
+    pub within_band: f64,
+    /// Part of all errors below the 95 % quantile of χ².
+    pub within_95: f64,
+}
+
+/// What many seeds of a scenario have shown.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Seeds flown.
+    pub seeds: Seeds,
+    /// By measure.
+    pub rows: Vec<Row>,
+    /// By kind of reading.
+    pub nis: Vec<Nis>,
+    /// Of attitude, velocity and position.
+    pub nees: Option<Nees>,
+    /// What was expected.
+    pub verdicts: Vec<Verdict>,
+}
+
+/// A percentile of sorted values by nearest rank; none without any.
+pub fn percentile(sorted: &[f64], percent: f64) -> Option<f64> {
+    let rank = (percent / 100.0 * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.clamp(1, sorted.len().max(1)) - 1).copied()
+}
+
+/// Flies a scenario under every seed and judges what came of it.
+///
+/// # Errors
+/// The scenario's name, if it is not one that is judged, or what of it the firmware refuses.
+pub fn fly(scenario: &Scenario, seeds: Seeds, flown: impl Fn() + Sync) -> Result<Report> {
+    let assess = scenario.file.assess.as_ref().with_context(|| {
+        format!("scenario `{}` has no `[assess]`: it says nothing of what is expected of it", scenario.name)
+    })?;
+    let measured: Vec<Measures> = (seeds.first..=seeds.last)
+        .into_par_iter()
+        .map(|seed| {
+            let measures = flight::assess(scenario, assess, seed);
+            flown();
+            measures
+        })
+        .collect::<Result<_>>()?;
+    Ok(report(&scenario.name, seeds, assess, &measured))
+}
+
+fn report(scenario: &str, seeds: Seeds, assess: &Assess, flights: &[Measures]) -> Report {
+    let verdict = |expected: &Expectation| {
+        let found = percentile(&sorted(flights, expected.measure), expected.percentile).filter(|v| v.is_finite());
+        let met = found.is_some_and(|value| {
+            expected.at_most.is_none_or(|most| value <= most) && expected.at_least.is_none_or(|least| value >= least)
+        });
+        Verdict { expected: *expected, found, met }
+    };
+    Report {
+        scenario: scenario.to_owned(),
+        seeds,
+        rows: Measure::ALL.iter().filter_map(|measure| row(flights, *measure)).collect(),
+        nis: nis(flights),
+        nees: nees(flights),
+        verdicts: assess.expect.iter().map(verdict).collect(),
+    }
+}
+
+/// A measure over the flights; infinite for those that have none.
+fn sorted(flights: &[Measures], measure: Measure) -> Vec<f64> {
+    let mut values: Vec<f64> = flights.iter().map(|flight| flight.get(measure).unwrap_or(f64::INFINITY)).collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+fn row(flights: &[Measures], measure: Measure) -> Option<Row> {
+    let values = sorted(flights, measure);
+    let count = values.iter().filter(|value| value.is_finite()).count();
+    let at = |percent| percentile(&values, percent).filter(|value| value.is_finite());
+    (count > 0).then(|| Row { measure, count, p5: at(5.0), p50: at(50.0), p95: at(95.0), max: at(100.0) })
+}
+
+fn nis(flights: &[Measures]) -> Vec<Nis> {
+    let mut all: BTreeMap<&str, Innovations> = BTreeMap::new();
+    for (name, one) in flights.iter().flat_map(|flight| &flight.consistency.innovations) {
+        let sum = all.entry(name).or_default();
+        sum.count += one.count;
+        sum.sum += one.sum;
+        sum.within += one.within;
+        sum.refused += one.refused;
+    }
+    let degrees = |name: &str| match name {
+        "heading" | "baro" | "gnss-height" => 1.0,
+        "gnss-position" | "drag" => 2.0,
+        _ => 3.0,
+    };
+    let one = |(name, all): (&str, Innovations)| {
+        let accepted = (all.count - all.refused).max(1) as f64;
+        let count = all.count.max(1) as f64;
+        Nis {
+            reading: name.to_owned(),
+            count: all.count,
+            mean: all.sum / accepted / degrees(name),
+            within_95: all.within as f64 / count,
+            refused: all.refused as f64 / count,
+        }
+    };
+    all.into_iter().map(one).collect()
+}
+
+/// χ² quantile by the approximation of Wilson and Hilferty (1931), good to 0.1 % beyond 30 degrees of freedom.
+fn chi_square(degrees: f64, normal: f64) -> f64 {
+    let spread = 2.0 / (9.0 * degrees);
+    degrees * (1.0 - spread + normal * spread.sqrt()).powi(3)
+}
+
+fn nees(flights: &[Measures]) -> Option<Nees> {
+    /// 97.5 % quantile of the normal distribution.
+    const TWO_SIDED: f64 = 1.96;
+    /// 95 % quantile of χ² with nine degrees of freedom.
+    const QUANTILE: f64 = 16.919;
+    let looks = flights.iter().map(|flight| flight.consistency.nees.len()).min()?;
+    let (count, states) = (flights.len() as f64, STATES as f64);
+    let at = |look: usize| flights.iter().map(|flight| flight.consistency.nees[look]).sum::<f64>() / count / states;
+    let means: Vec<f64> = (0..looks).map(at).collect();
+    let limit = |normal: f64| chi_square(count * states, normal) / (count * states);
+    let band = (limit(-TWO_SIDED), limit(TWO_SIDED));
+    let within = means.iter().filter(|mean| (band.0..=band.1).contains(*mean)).count();
+    let below = flights.iter().flat_map(|f| &f.consistency.nees[..looks]).filter(|nees| **nees <= QUANTILE).count();
+    (looks > 0).then(|| Nees {
+        looks,
+        mean: means.iter().sum::<f64>() / looks as f64,
+        band,
+        within_band: within as f64 / looks as f64,
+        within_95: below as f64 / (looks as f64 * count),
+    })
+}
+
+impl Report {
+    /// Whether everything is as expected.
+    pub fn is_met(&self) -> bool {
+        self.verdicts.iter().all(|verdict| verdict.met)
+    }
+
+    /// As a text for the terminal.
+    pub fn render(&self) -> String {
+        let mut text = format!("{}, seeds {}..{}\n\n", self.scenario, self.seeds.first, self.seeds.last);
+        let _ = writeln!(text, "{:26} {:>6} {:>10} {:>10} {:>10} {:>10}", "", "count", "p5", "p50", "p95", "max");
+        for row in &self.rows {
+            let [p5, p50, p95, max] = [row.p5, row.p50, row.p95, row.max].map(number);
+            let name = row.measure.name();
+            let _ = writeln!(text, "{name:26} {:>6} {p5:>10} {p50:>10} {p95:>10} {max:>10}", row.count);
+        }
+        let _ = writeln!(
+            text,
+            "\n{:26} {:>8} {:>10} {:>10} {:>10}",
+            "innovations", "count", "mean/dof", "within 95", "refused"
+        );
+        for nis in &self.nis {
+            let Nis { reading, count, mean, within_95, refused } = nis;
+            let _ = writeln!(text, "{reading:26} {count:>8} {mean:>10.3} {within_95:>10.3} {refused:>10.4}");
+        }
+        if let Some(nees) = &self.nees {
+            let Nees { mean, band: (low, high), within_band, within_95, .. } = nees;
+            let _ = writeln!(
+                text,
+                "\nerrors (attitude, velocity, position): mean/dof {mean:.3}, band {low:.3} to {high:.3} held {within_band:.2} of the time, within 95 %: {within_95:.3}"
+            );
+        }
+        for verdict in &self.verdicts {
+            let Verdict { expected, found, met } = verdict;
+            let bound = match (expected.at_most, expected.at_least) {
+                (Some(most), _) => format!("at most {most}"),
+                (None, Some(least)) => format!("at least {least}"),
+                (None, None) => String::new(),
+            };
+            let verdict = if *met { "met" } else { "NOT MET" };
+            let (name, percent) = (expected.measure.name(), expected.percentile);
+            let _ = writeln!(text, "p{percent} of {name}: {} ({bound}): {verdict}", number(*found));
+        }
+        text
+    }
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.4}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_percentile_is_the_value_of_its_rank() {
+        let values: Vec<f64> = (1..=100).map(f64::from).collect();
+        assert_eq!(percentile(&values, 95.0), Some(95.0));
+        assert_eq!(percentile(&values, 100.0), Some(100.0));
+        assert_eq!(percentile(&values, 0.0), Some(1.0));
+        assert_eq!(percentile(&values[..3], 50.0), Some(2.0));
+        assert_eq!(percentile(&[], 50.0), None);
+    }
+
+    #[test]
+    fn the_band_is_that_of_tables() {
+        // χ² of 100 degrees of freedom: 74.22 and 129.56.
+        assert!((chi_square(100.0, -1.96) - 74.22).abs() < 0.1);
+        assert!((chi_square(100.0, 1.96) - 129.56).abs() < 0.1);
+    }
+}

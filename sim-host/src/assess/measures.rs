@@ -1,0 +1,293 @@
+//! What one flight has measured.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+
+use super::Assess;
+use super::consistency::Consistency;
+use crate::record::{Navigation, Recorder, Row};
+
+/// A number that a flight has measured; over the time that is judged, unless it says otherwise. Errors are true minus
+/// wanted, wherever nothing else is said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Measure {
+    /// From leaving the ground until the height is within 0.35 m of where it ought to be, s.
+    ClimbS,
+    /// Greatest error of the height, m.
+    HeightErrorMaxM,
+    /// Greatest departure of the height from its mean, m.
+    HeightWanderMaxM,
+    /// 95th percentile of the distance across the ground, m.
+    HorizontalErrorP95M,
+    /// Greatest of it, m.
+    HorizontalErrorMaxM,
+    /// Root mean square of the error along x, m.
+    XErrorRmsM,
+    /// Along y, m.
+    YErrorRmsM,
+    /// Along z, m.
+    ZErrorRmsM,
+    /// Greatest roll, °.
+    RollMaxDeg,
+    /// Root mean square of what the vehicle's idea of its roll and pitch is off by, °.
+    TiltKnownRmsDeg,
+    /// The same of its heading, °.
+    HeadingKnownRmsDeg,
+    /// The same of its attitude as a whole: one angle.
+    AttitudeKnownRmsDeg,
+    /// Root mean square of what its idea of its position is off by, m.
+    PositionKnownRmsM,
+    /// The whole flight: vertical speed of the first touchdown, downwards, m/s.
+    TouchdownMS,
+    /// The whole flight: time of it, s.
+    TouchdownS,
+    /// The whole flight: when the rotors stopped after it, s.
+    DisarmedS,
+    /// The whole flight: greatest of the least distances to the places that the pilot sent it to, m.
+    MissMaxM,
+    /// 1 if the vehicle was neither lost nor given a motor command that is no number, else 0.
+    Survived,
+}
+
+impl Measure {
+    /// All of them.
+    pub const ALL: [Self; 18] = [
+        Self::ClimbS,
+        Self::HeightErrorMaxM,
+        Self::HeightWanderMaxM,
+        Self::HorizontalErrorP95M,
+        Self::HorizontalErrorMaxM,
+        Self::XErrorRmsM,
+        Self::YErrorRmsM,
+        Self::ZErrorRmsM,
+        Self::RollMaxDeg,
+        Self::TiltKnownRmsDeg,
+        Self::HeadingKnownRmsDeg,
+        Self::AttitudeKnownRmsDeg,
+        Self::PositionKnownRmsM,
+        Self::TouchdownMS,
+        Self::TouchdownS,
+        Self::DisarmedS,
+        Self::MissMaxM,
+        Self::Survived,
+    ];
+
+    /// As files write it.
+    pub fn name(self) -> String {
+        serde_json::to_value(self).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
+    }
+}
+
+/// What a flight has measured: of each measure a number, if it has one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measures {
+    values: [Option<f64>; Measure::ALL.len()],
+    /// How far what the vehicle believed of its errors was true.
+    pub consistency: Consistency,
+}
+
+impl Measures {
+    /// A measure's number.
+    pub fn get(&self, measure: Measure) -> Option<f64> {
+        self.values[measure as usize]
+    }
+}
+
+/// A root mean square in the making.
+#[derive(Clone, Copy, Debug, Default)]
+struct MeanSquare {
+    sum: f64,
+    count: u64,
+}
+
+impl MeanSquare {
+    fn take(&mut self, value: f64) {
+        self.sum += value * value;
+        self.count += 1;
+    }
+
+    fn root(self) -> Option<f64> {
+        (self.count > 0).then(|| (self.sum / self.count as f64).sqrt())
+    }
+}
+
+/// The least and the greatest of what is taken.
+#[derive(Clone, Copy, Debug)]
+struct Range {
+    least: f64,
+    greatest: f64,
+}
+
+impl Range {
+    const EMPTY: Self = Self { least: f64::INFINITY, greatest: f64::NEG_INFINITY };
+
+    fn take(&mut self, value: f64) {
+        self.least = self.least.min(value);
+        self.greatest = self.greatest.max(value);
+    }
+
+    fn some(self, value: impl Fn(Self) -> f64) -> Option<f64> {
+        (self.least <= self.greatest).then(|| value(self))
+    }
+}
+
+/// Heights from which a fall counts as a flight, and from which it has touched down, over the start, m.
+const AIRBORNE_M: f64 = 0.5;
+const TOUCHED_M: f64 = 0.02;
+/// Off the ground.
+const LIFTED_M: f64 = 0.05;
+/// Height that counts as reached, m.
+const REACHED_M: f64 = 0.35;
+
+/// What happens once in a flight.
+#[derive(Clone, Copy, Debug, Default)]
+struct Events {
+    lifted_s: Option<f64>,
+    reached_s: Option<f64>,
+    airborne: bool,
+    touchdown: Option<(f64, f64)>,
+    disarmed_s: Option<f64>,
+}
+
+/// Measures a flight as it is flown.
+#[derive(Clone, Debug)]
+pub struct Assessor {
+    from_s: f64,
+    to_s: f64,
+    hold: Option<Vector3<f64>>,
+    start_height: f64,
+    events: Events,
+    height: Range,
+    height_error: Range,
+    height_sum: (f64, f64),
+    horizontal: Vec<f64>,
+    axes: [MeanSquare; 3],
+    roll: Range,
+    known: [MeanSquare; 4],
+    /// Where the pilot sent it, and the least distance so far.
+    places: Vec<(Vector3<f64>, f64)>,
+    sound: bool,
+    consistency: Consistency,
+}
+
+impl Assessor {
+    /// Before a flight of `duration_s` from `start`, in which the pilot sends the vehicle to `places` (m).
+    pub fn new(assess: &Assess, duration_s: f64, start: &Vector3<f64>, places: &[Vector3<f64>]) -> Self {
+        Self {
+            from_s: assess.from_s,
+            to_s: assess.to_s.unwrap_or(duration_s),
+            hold: assess.hold_m.map(Vector3::from),
+            start_height: start.z,
+            events: Events::default(),
+            height: Range::EMPTY,
+            height_error: Range::EMPTY,
+            height_sum: (0.0, 0.0),
+            horizontal: Vec::new(),
+            axes: [MeanSquare::default(); 3],
+            roll: Range::EMPTY,
+            known: [MeanSquare::default(); 4],
+            places: places.iter().map(|place| (*place, f64::INFINITY)).collect(),
+            sound: true,
+            consistency: Consistency::default(),
+        }
+    }
+
+    fn is_judged(&self, t: f64) -> bool {
+        t >= self.from_s && t < self.to_s
+    }
+
+    fn once(&mut self, row: &Row, wanted_height: f64) {
+        let height = row.position[2] - self.start_height;
+        let events = &mut self.events;
+        if height > LIFTED_M {
+            events.lifted_s.get_or_insert(row.t);
+        }
+        if events.lifted_s.is_some() && (row.position[2] - wanted_height).abs() < REACHED_M {
+            events.reached_s.get_or_insert(row.t);
+        }
+        events.airborne |= height > AIRBORNE_M;
+        if events.airborne && height < TOUCHED_M {
+            events.touchdown.get_or_insert((row.t, -row.velocity[2]));
+        }
+        let stopped = row.omega_command.iter().all(|omega| *omega == 0.0);
+        if events.touchdown.is_some() && stopped {
+            events.disarmed_s.get_or_insert(row.t);
+        }
+    }
+
+    fn judge(&mut self, row: &Row, wanted: &Vector3<f64>) {
+        let error = Vector3::from(row.position) - wanted;
+        self.height.take(row.position[2]);
+        self.height_error.take(error.z.abs());
+        self.height_sum = (self.height_sum.0 + row.position[2], self.height_sum.1 + 1.0);
+        self.horizontal.push(error.x.hypot(error.y));
+        for (axis, error) in self.axes.iter_mut().zip(error.iter()) {
+            axis.take(*error);
+        }
+        self.roll.take(crate::report::angles::roll_pitch_yaw(row.attitude)[0].abs().to_degrees());
+    }
+
+    /// What the flight has measured; `survived` as its outcome has it.
+    pub fn finish(self, survived: bool) -> Measures {
+        let events = self.events;
+        let mean = self.height_sum.0 / self.height_sum.1;
+        let mut horizontal = self.horizontal;
+        horizontal.sort_by(f64::total_cmp);
+        let miss = self.places.iter().map(|(_, least)| *least).reduce(f64::max);
+        let [tilt, heading, attitude, position] = self.known.map(MeanSquare::root);
+        let [x, y, z] = self.axes.map(MeanSquare::root);
+        let climb = events.reached_s.zip(events.lifted_s).map(|(reached, lifted)| reached - lifted);
+        let value = |measure: Measure| match measure {
+            Measure::ClimbS => climb,
+            Measure::HeightErrorMaxM => self.height_error.some(|range| range.greatest),
+            Measure::HeightWanderMaxM => self.height.some(|range| (range.greatest - mean).max(mean - range.least)),
+            Measure::HorizontalErrorP95M => super::ensemble::percentile(&horizontal, 95.0),
+            Measure::HorizontalErrorMaxM => horizontal.last().copied(),
+            Measure::XErrorRmsM => x,
+            Measure::YErrorRmsM => y,
+            Measure::ZErrorRmsM => z,
+            Measure::RollMaxDeg => self.roll.some(|range| range.greatest),
+            Measure::TiltKnownRmsDeg => tilt.map(f64::to_degrees),
+            Measure::HeadingKnownRmsDeg => heading.map(f64::to_degrees),
+            Measure::AttitudeKnownRmsDeg => attitude.map(f64::to_degrees),
+            Measure::PositionKnownRmsM => position,
+            Measure::TouchdownMS => events.touchdown.map(|(_, speed)| speed),
+            Measure::TouchdownS => events.touchdown.map(|(time, _)| time),
+            Measure::DisarmedS => events.disarmed_s,
+            Measure::MissMaxM => miss,
+            Measure::Survived => Some(f64::from(survived && self.sound)),
+        };
+        Measures { values: Measure::ALL.map(value), consistency: self.consistency }
+    }
+}
+
+impl Recorder for Assessor {
+    fn record(&mut self, row: &Row) {
+        let [x, y, z, _] = row.reference;
+        let wanted = self.hold.unwrap_or_else(|| Vector3::new(x, y, z));
+        self.once(row, wanted.z);
+        self.sound &= row.omega_command.iter().all(|omega| omega.is_finite());
+        for (place, least) in &mut self.places {
+            *least = least.min((Vector3::from(row.position) - *place).norm());
+        }
+        if self.is_judged(row.t) {
+            self.judge(row, &wanted);
+        }
+    }
+
+    fn navigate(&mut self, navigation: &Navigation) {
+        if !self.is_judged(navigation.t) {
+            return;
+        }
+        let is = UnitQuaternion::new_normalize(navigation.truth.attitude);
+        let believed = navigation.nav.attitude.cast::<f64>();
+        let error = (is * believed.inverse()).scaled_axis();
+        let [tilt, heading, attitude, position] = &mut self.known;
+        tilt.take(error.x.hypot(error.y));
+        heading.take(error.z);
+        attitude.take(error.norm());
+        position.take((navigation.truth.position - navigation.nav.position.cast()).norm());
+        self.consistency.take(navigation, &error);
+    }
+}

@@ -1,0 +1,41 @@
+//! `assess`: many seeds of scenarios that say what is expected of them.
+
+use anyhow::{Context, Result, ensure};
+
+use super::AssessArgs;
+use crate::assess::{Report, ensemble};
+use crate::report::progress;
+use crate::scenario::{self, Scenario};
+
+pub(super) fn run(args: &AssessArgs) -> Result<()> {
+    ensure!(args.jobs != Some(0), "--jobs must be at least 1");
+    let scenarios = load(args)?;
+    let bar = progress::of_flights(args.seeds.count() * scenarios.len() as u64, !args.json);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.jobs.map_or(0, |jobs| jobs.min(super::MOST_THREADS)))
+        .build()
+        .context("cannot start the threads that --jobs asks for")?;
+    let reports: Vec<Report> = pool.install(|| {
+        scenarios.iter().map(|scenario| ensemble::fly(scenario, args.seeds, || bar.inc(1))).collect::<Result<_>>()
+    })?;
+    bar.finish_and_clear();
+    if args.json {
+        return super::say(&serde_json::to_string(&reports)?);
+    }
+    let texts: Vec<String> = reports.iter().map(Report::render).collect();
+    let unmet = reports.iter().filter(|report| !report.is_met()).count();
+    let end = if unmet == 0 { "all as expected".to_owned() } else { format!("{unmet} not as expected") };
+    super::say(&format!("{}\n{} scenarios: {end}", texts.join("\n"), reports.len()))
+}
+
+/// Those asked for; without a name, all built-in ones that are judged, but for those that take hours.
+fn load(args: &AssessArgs) -> Result<Vec<Scenario>> {
+    /// Simulated time that is flown unasked, s.
+    const LONGEST_S: f64 = 1000.0;
+    if !args.scenarios.is_empty() {
+        return args.scenarios.iter().map(|name| Scenario::load(name, &args.settings.set)).collect();
+    }
+    let all = scenario::list()?;
+    let all = all.iter().map(|(name, _)| Scenario::load(name, &args.settings.set)).collect::<Result<Vec<_>>>()?;
+    Ok(all.into_iter().filter(|s| s.file.assess.is_some() && s.file.duration_s <= LONGEST_S).collect())
+}

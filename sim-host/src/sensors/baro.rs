@@ -1,0 +1,115 @@
+//! Barometer: the static pressure of the standard atmosphere, with noise, a slow drift and the drift of warming up.
+
+use anyhow::Result;
+use firmware::sensors::BaroSample;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::check::Check;
+use super::home::Home;
+use super::process::{GaussMarkov, Period, WarmUp, quantise, ticks};
+use super::{Model, Truth};
+use crate::noise::gaussian::{Source, Stream};
+
+/// What a barometer is like. Near the ground 1 Pa is 8.5 cm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Baro {
+    /// Name of the part, or path of its file.
+    pub part: String,
+    /// Samples a second.
+    pub rate_hz: f64,
+    /// From the measurement to its delivery, s.
+    pub delay_s: f64,
+    /// White noise of a sample, Pa.
+    pub noise_pa: f64,
+    /// Resolution, Pa.
+    pub resolution_pa: f64,
+    /// Deviation of the offset over the seeds, Pa.
+    pub offset_pa: f64,
+    /// Deviation of the slow drift, of the weather and of the part, Pa.
+    pub drift_pa: f64,
+    /// Its correlation time, s.
+    pub drift_time_s: f64,
+    /// Deviation of the offset's temperature coefficient over the seeds, Pa/K.
+    pub offset_pa_k: f64,
+    /// How it warms up.
+    pub warm_up: WarmUp,
+}
+
+impl Baro {
+    /// # Errors
+    /// The first key that is out of its range.
+    pub(super) fn validate(&self) -> Result<()> {
+        let check = Check("baro");
+        check.rate(self.rate_hz)?;
+        check.latency("delay_s", self.delay_s)?;
+        check.within(
+            0.0,
+            1e4,
+            &[
+                ("noise_pa", self.noise_pa),
+                ("resolution_pa", self.resolution_pa),
+                ("offset_pa", self.offset_pa),
+                ("drift_pa", self.drift_pa),
+                ("offset_pa_k", self.offset_pa_k),
+            ],
+        )?;
+        check.within(1.0, 1e6, &[("drift_time_s", self.drift_time_s)])?;
+        self.warm_up.validate(&check)
+    }
+}
+
+/// A barometer of a seed.
+#[derive(Clone, Debug)]
+pub(super) struct Barometer {
+    period: Period,
+    delay: u32,
+    part: Baro,
+    home: Home,
+    offset_pa: f64,
+    /// Pa/K.
+    warmth: f64,
+    drift: GaussMarkov,
+    drifts: Stream,
+    noise: Stream,
+}
+
+impl Barometer {
+    pub(super) fn new(part: &Baro, home: &Home, seed: u64) -> Self {
+        let period = Period::of_rate(part.rate_hz);
+        let (offset, warmth) = Stream::new(seed, Source::BaroErrors).normal_pair();
+        let mut drifts = Stream::new(seed, Source::BaroDrift);
+        let sigma = Vector3::new(part.drift_pa, 0.0, 0.0);
+        Self {
+            period,
+            delay: ticks(part.delay_s),
+            part: part.clone(),
+            home: *home,
+            offset_pa: part.offset_pa * offset,
+            warmth: part.offset_pa_k * warmth,
+            drift: GaussMarkov::new(&mut drifts, sigma, part.drift_time_s, period.seconds()),
+            drifts,
+            noise: Stream::new(seed, Source::BaroNoise),
+        }
+    }
+}
+
+impl Model for Barometer {
+    type Sample = BaroSample;
+
+    fn period(&self) -> Period {
+        self.period
+    }
+
+    fn delay(&mut self) -> u32 {
+        self.delay
+    }
+
+    fn measure(&mut self, truth: &Truth) -> BaroSample {
+        let drift = self.drift.sample(&mut self.drifts).x + self.warmth * self.part.warm_up.at(truth.tick);
+        let noise = self.noise.normal_pair().0 * self.part.noise_pa;
+        let pressure = self.home.pressure(truth.motion.position.z) + self.offset_pa + drift + noise;
+        BaroSample { at: truth.tick, pressure_pa: quantise(pressure, self.part.resolution_pa) as f32 }
+    }
+}

@@ -1,0 +1,93 @@
+//! Battery monitor: voltage and current as a power module tells them.
+
+use anyhow::Result;
+use firmware::sensors::BatterySample;
+use serde::{Deserialize, Serialize};
+
+use super::check::Check;
+use super::process::{Period, quantise, ticks};
+use super::{Model, Truth};
+use crate::noise::gaussian::{Source, Stream};
+
+/// What a battery monitor is like.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Battery {
+    /// Name of the part, or path of its file.
+    pub part: String,
+    /// Samples a second.
+    pub rate_hz: f64,
+    /// From the measurement to its delivery, s.
+    pub delay_s: f64,
+    /// White noise of the voltage, V.
+    pub voltage_v: f64,
+    /// White noise of the current, A.
+    pub current_a: f64,
+    /// Resolution of the voltage, V.
+    pub voltage_resolution_v: f64,
+    /// Resolution of the current, A.
+    pub current_resolution_a: f64,
+}
+
+impl Battery {
+    /// # Errors
+    /// The first key that is out of its range.
+    pub(super) fn validate(&self) -> Result<()> {
+        let check = Check("battery");
+        check.rate(self.rate_hz)?;
+        check.latency("delay_s", self.delay_s)?;
+        check.within(
+            0.0,
+            100.0,
+            &[
+                ("voltage_v", self.voltage_v),
+                ("current_a", self.current_a),
+                ("voltage_resolution_v", self.voltage_resolution_v),
+                ("current_resolution_a", self.current_resolution_a),
+            ],
+        )
+    }
+}
+
+/// A battery monitor of a seed.
+#[derive(Clone, Debug)]
+pub(super) struct Monitor {
+    period: Period,
+    delay: u32,
+    part: Battery,
+    noise: Stream,
+}
+
+impl Monitor {
+    pub(super) fn new(part: &Battery, seed: u64) -> Self {
+        Self {
+            period: Period::of_rate(part.rate_hz),
+            delay: ticks(part.delay_s),
+            part: part.clone(),
+            noise: Stream::new(seed, Source::BatteryNoise),
+        }
+    }
+}
+
+impl Model for Monitor {
+    type Sample = BatterySample;
+
+    fn period(&self) -> Period {
+        self.period
+    }
+
+    fn delay(&mut self) -> u32 {
+        self.delay
+    }
+
+    fn measure(&mut self, truth: &Truth) -> BatterySample {
+        let (volts, amperes) = self.noise.normal_pair();
+        let part = &self.part;
+        let voltage = truth.battery.voltage_v + volts * part.voltage_v;
+        let current = truth.battery.current_a + amperes * part.current_a;
+        BatterySample {
+            voltage_v: quantise(voltage, part.voltage_resolution_v) as f32,
+            current_a: quantise(current, part.current_resolution_a) as f32,
+        }
+    }
+}

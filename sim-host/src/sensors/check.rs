@@ -1,0 +1,41 @@
+//! What every part's numbers are held against.
+
+use anyhow::{Result, ensure};
+
+use super::process::TICKS_PER_S;
+
+/// Longest latency of a sound sensor, s.
+pub(super) const LATENCY_MAX_S: f64 = 1.0;
+
+/// A number within `low ..= high`.
+pub(super) fn within(key: &str, value: f64, low: f64, high: f64) -> Result<()> {
+    ensure!((low..=high).contains(&value), "`{key}` must be between {low} and {high}, not {value}");
+    Ok(())
+}
+
+/// The numbers of a sensor, each by its key below `sensors.<sensor>`.
+pub(super) struct Check(pub(super) &'static str);
+
+impl Check {
+    fn key(&self, key: &str) -> String {
+        format!("sensors.{}.{key}", self.0)
+    }
+
+    /// Numbers within `low ..= high`.
+    pub(super) fn within(&self, low: f64, high: f64, values: &[(&str, f64)]) -> Result<()> {
+        values.iter().try_for_each(|(key, value)| within(&self.key(key), *value, low, high))
+    }
+
+    /// A rate whose period is whole ticks.
+    pub(super) fn rate(&self, rate_hz: f64) -> Result<()> {
+        let (key, period) = (self.key("rate_hz"), TICKS_PER_S / rate_hz);
+        within(&key, rate_hz, 0.1, TICKS_PER_S)?;
+        ensure!((period - period.round()).abs() < 1e-6, "`{key}` must make a period of whole ms, not {rate_hz}");
+        Ok(())
+    }
+
+    /// A latency, s.
+    pub(super) fn latency(&self, key: &str, seconds: f64) -> Result<()> {
+        within(&self.key(key), seconds, 0.0, LATENCY_MAX_S)
+    }
+}

@@ -1,0 +1,112 @@
+//! Magnetometer: the world's field in the body's frame, through what is left of iron and currents after calibration.
+
+use anyhow::Result;
+use firmware::sensors::MagSample;
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+use super::check::Check;
+use super::home::Home;
+use super::process::{Period, quantise, ticks};
+use super::{Model, Truth};
+use crate::noise::gaussian::{Source, Stream};
+
+/// What a magnetometer is like. Deviations are those over the seeds, a component.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mag {
+    /// Name of the part, or path of its file.
+    pub part: String,
+    /// Samples a second.
+    pub rate_hz: f64,
+    /// From the measurement to its delivery, s.
+    pub delay_s: f64,
+    /// White noise of a sample, µT.
+    pub noise_ut: f64,
+    /// Resolution, µT.
+    pub resolution_ut: f64,
+    /// Range, ±µT.
+    pub range_ut: f64,
+    /// Deviation of what calibration left of the hard iron, µT.
+    pub hard_iron_ut: f64,
+    /// Deviation of what it left of the soft iron and of scales and axes: each entry of the matrix.
+    pub soft_iron: f64,
+    /// Deviation of the field of the battery's current, µT/A.
+    pub current_ut_a: f64,
+}
+
+impl Mag {
+    /// # Errors
+    /// The first key that is out of its range.
+    pub(super) fn validate(&self) -> Result<()> {
+        let check = Check("mag");
+        check.rate(self.rate_hz)?;
+        check.latency("delay_s", self.delay_s)?;
+        check.within(1.0, 1e4, &[("range_ut", self.range_ut)])?;
+        check.within(
+            0.0,
+            100.0,
+            &[
+                ("noise_ut", self.noise_ut),
+                ("resolution_ut", self.resolution_ut),
+                ("hard_iron_ut", self.hard_iron_ut),
+                ("current_ut_a", self.current_ut_a),
+            ],
+        )?;
+        check.within(0.0, 0.5, &[("soft_iron", self.soft_iron)])
+    }
+}
+
+/// A magnetometer of a seed.
+#[derive(Clone, Debug)]
+pub(super) struct Magnetometer {
+    period: Period,
+    delay: u32,
+    part: Mag,
+    field: Vector3<f64>,
+    pub(super) hard_iron: Vector3<f64>,
+    iron: Matrix3<f64>,
+    /// µT/A.
+    wires: Vector3<f64>,
+    noise: Stream,
+}
+
+impl Magnetometer {
+    pub(super) fn new(part: &Mag, home: &Home, seed: u64) -> Self {
+        let mut errors = Stream::new(seed, Source::MagErrors);
+        let hard_iron = errors.normal_vector() * part.hard_iron_ut;
+        let wires = errors.normal_vector() * part.current_ut_a;
+        let columns: [Vector3<f64>; 3] = core::array::from_fn(|_| errors.normal_vector() * part.soft_iron);
+        Self {
+            period: Period::of_rate(part.rate_hz),
+            delay: ticks(part.delay_s),
+            part: part.clone(),
+            field: home.field_nwu(),
+            hard_iron,
+            iron: Matrix3::identity() + Matrix3::from_columns(&columns),
+            wires,
+            noise: Stream::new(seed, Source::MagNoise),
+        }
+    }
+}
+
+impl Model for Magnetometer {
+    type Sample = MagSample;
+
+    fn period(&self) -> Period {
+        self.period
+    }
+
+    fn delay(&mut self) -> u32 {
+        self.delay
+    }
+
+    fn measure(&mut self, truth: &Truth) -> MagSample {
+        let field = truth.attitude().inverse() * self.field;
+        let noise = self.noise.normal_vector() * self.part.noise_ut;
+        let sensed = self.iron * field + self.hard_iron + self.wires * truth.battery.current_a + noise;
+        let range = self.part.range_ut;
+        let read = |value: f64| quantise(value.clamp(-range, range), self.part.resolution_ut) as f32;
+        MagSample { at: truth.tick, field_ut: sensed.map(read) }
+    }
+}

@@ -1,0 +1,180 @@
+//! The sensors of the vehicle: from the truth to what the firmware is given.
+//!
+//! ```text
+//! truth ──► sound model of a part ──► faults ──► latency ──► Measurements     each tick, 1 kHz
+//!           (imu, mag, baro, gnss, pose, battery)
+//! ```
+//!
+//! World frame NWU, body frame FLU, SI units. Each source of randomness has a stream of its own: a sensor that is
+//! added, changed or made to fail changes no other sensor's numbers. A tick allocates nothing.
+
+pub mod baro;
+pub mod battery;
+mod channel;
+mod check;
+pub mod faults;
+pub mod gnss;
+pub mod home;
+pub mod imu;
+pub mod mag;
+pub mod pose;
+mod process;
+pub mod suite;
+mod told;
+pub mod vibration;
+
+use anyhow::Result;
+use firmware::airframe::ROTORS;
+use firmware::sensors::Measurements;
+use firmware::signals::Tick;
+use nalgebra::{UnitQuaternion, Vector3};
+
+pub use faults::{Fault, FaultId, Faults};
+pub use home::Home;
+pub use process::WarmUp;
+pub use suite::SuiteFile;
+
+use crate::plant::Motion;
+use baro::Barometer;
+use battery::Monitor;
+use channel::Channel;
+use faults::Sample;
+use gnss::Receiver;
+use imu::InertialUnit;
+use mag::Magnetometer;
+use pose::MotionCapture;
+use process::Period;
+
+/// The state of the battery.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BatteryTruth {
+    /// At the terminals, V.
+    pub voltage_v: f64,
+    /// Drawn from it, A.
+    pub current_a: f64,
+}
+
+/// What is true at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Truth<'a> {
+    /// When.
+    pub tick: Tick,
+    /// Motion of the body.
+    pub motion: &'a Motion,
+    /// Rᵀ(v̇ + g e3), in the body, m/s².
+    pub specific_force: Vector3<f64>,
+    /// Rotor speeds, rad/s.
+    pub omega: [f64; ROTORS],
+    /// The battery.
+    pub battery: BatteryTruth,
+}
+
+impl Truth<'_> {
+    /// Body to world.
+    fn attitude(&self) -> UnitQuaternion<f64> {
+        UnitQuaternion::new_unchecked(self.motion.attitude)
+    }
+}
+
+/// The sound model of a sensor.
+trait Model {
+    /// What it measures.
+    type Sample: Sample;
+
+    /// When it measures.
+    fn period(&self) -> Period;
+
+    /// From the next measurement to its delivery, ticks. Asked for once a measurement.
+    fn delay(&mut self) -> u32;
+
+    /// Measures. Called when the period is due.
+    fn measure(&mut self, truth: &Truth) -> Self::Sample;
+}
+
+/// A sensor with the way that its samples take.
+#[derive(Clone, Debug)]
+struct Fitted<M: Model> {
+    model: M,
+    channel: Channel<M::Sample>,
+}
+
+impl<M: Model> Fitted<M> {
+    fn new(model: M) -> Self {
+        Self { channel: Channel::new(model.period()), model }
+    }
+
+    /// What arrives at a tick.
+    fn deliver(&mut self, truth: &Truth, faults: &mut Faults) -> Option<M::Sample> {
+        if self.model.period().is_due(truth.tick) {
+            let (delay, sample) = (self.model.delay(), self.model.measure(truth));
+            self.channel.send(truth.tick, delay, sample, faults);
+        }
+        self.channel.arrival(truth.tick)
+    }
+}
+
+/// The sensors of a flight.
+#[derive(Clone, Debug)]
+pub struct Suite {
+    imu: Fitted<InertialUnit>,
+    mag: Option<Fitted<Magnetometer>>,
+    baro: Option<Fitted<Barometer>>,
+    gnss: Option<Fitted<Receiver>>,
+    pose: Option<Fitted<MotionCapture>>,
+    battery: Option<Fitted<Monitor>>,
+    faults: Faults,
+}
+
+impl Suite {
+    /// Valid parts at home, under a schedule of faults and a seed.
+    pub fn new(parts: &SuiteFile, home: &Home, faults: &[Fault], seed: u64) -> Self {
+        Self {
+            imu: Fitted::new(InertialUnit::new(&parts.imu, seed)),
+            mag: parts.mag.as_ref().map(|part| Fitted::new(Magnetometer::new(part, home, seed))),
+            baro: parts.baro.as_ref().map(|part| Fitted::new(Barometer::new(part, home, seed))),
+            gnss: parts.gnss.as_ref().map(|part| Fitted::new(Receiver::new(part, home, seed))),
+            pose: parts.pose.as_ref().map(|part| Fitted::new(MotionCapture::new(part, seed))),
+            battery: parts.battery.as_ref().map(|part| Fitted::new(Monitor::new(part, seed))),
+            faults: Faults::new(faults, seed),
+        }
+    }
+
+    /// What arrives at a tick. To be asked for each tick in turn, once.
+    pub fn measure(&mut self, truth: &Truth) -> Measurements {
+        let faults = &mut self.faults;
+        Measurements {
+            imu: self.imu.deliver(truth, faults),
+            mag: self.mag.as_mut().and_then(|mag| mag.deliver(truth, faults)),
+            baro: self.baro.as_mut().and_then(|baro| baro.deliver(truth, faults)),
+            gnss: self.gnss.as_mut().and_then(|gnss| gnss.deliver(truth, faults)),
+            pose: self.pose.as_mut().and_then(|pose| pose.deliver(truth, faults)),
+            battery: self.battery.as_mut().and_then(|battery| battery.deliver(truth, faults)),
+        }
+    }
+
+    /// The faults, those of rotors and battery too.
+    pub fn faults(&self) -> &Faults {
+        &self.faults
+    }
+
+    /// Adds a fault while flying.
+    ///
+    /// # Errors
+    /// A fault that cannot be, or one too many.
+    pub fn inject(&mut self, fault: &Fault) -> Result<FaultId> {
+        self.faults.inject(fault)
+    }
+
+    /// Ends a fault.
+    pub fn clear(&mut self, id: FaultId) {
+        self.faults.clear(id);
+    }
+
+    /// Ends all faults, those to come too.
+    pub fn clear_all(&mut self) {
+        self.faults.clear_all();
+    }
+}
+
+#[cfg(test)]
+mod tests;

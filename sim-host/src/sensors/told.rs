@@ -1,0 +1,70 @@
+//! What the firmware is told of its sensors: what stands in their data sheets, with what their models leave to noise.
+
+use firmware::estimator::EstimatorSettings;
+
+use super::imu::Triad;
+use super::{Home, SuiteFile};
+
+/// Pressure to height near the ground, m/Pa: 1/(ρ g) at 1.2 kg/m³.
+const M_PER_PA: f64 = 0.085;
+/// What rotors' vibration leaves in the accelerometer's integral, m/s²/√Hz.
+const VIBRATION: f64 = 2e-3;
+
+impl SuiteFile {
+    /// The filter's settings for this suite at home. What a suite does not have keeps its default, and is not asked for.
+    pub fn told(&self, home: &Home) -> EstimatorSettings {
+        let mut settings = EstimatorSettings {
+            magnetic_field_ut: home.field_nwu().map(|v| v as f32).into(),
+            ..EstimatorSettings::default()
+        };
+        self.tell_imu(&mut settings);
+        if let Some(mag) = &self.mag {
+            settings.mag_noise_ut = rounded(mag.noise_ut, mag.resolution_ut);
+            let horizontal = home.strength_ut * libm::cos(home.inclination_deg.to_radians());
+            let left = libm::hypot(mag.hard_iron_ut, mag.soft_iron * home.strength_ut);
+            settings.heading_offset = (left / horizontal).max(1e-3) as f32;
+        }
+        if let Some(baro) = &self.baro {
+            settings.baro_noise_m = rounded(baro.noise_pa * M_PER_PA, baro.resolution_pa * M_PER_PA);
+            let wander = baro.drift_pa * (2.0 / baro.drift_time_s).sqrt();
+            let warming = baro.offset_pa_k * baro.warm_up.rise_k / baro.warm_up.time_s.sqrt();
+            settings.baro_walk = (libm::hypot(wander, warming) * M_PER_PA) as f32;
+        }
+        if let Some(gnss) = &self.gnss {
+            settings.gnss_noise_m = [rounded(gnss.horizontal_noise_m, 0.011), gnss.vertical_noise_m as f32];
+            settings.gnss_walk = (gnss.horizontal_m * (2.0 / gnss.wander_time_s).sqrt()) as f32;
+            settings.gnss_speed_m_s = [gnss.speed_m_s as f32, gnss.climb_m_s as f32];
+        }
+        if let Some(pose) = &self.pose {
+            settings.pose_position_m = pose.position_m.max(1e-4) as f32;
+            settings.pose_attitude_rad = pose.attitude_deg.to_radians().max(1e-4) as f32;
+        }
+        settings
+    }
+
+    fn tell_imu(&self, settings: &mut EstimatorSettings) {
+        let (gyro, accel) = (&self.imu.gyro, &self.imu.accel);
+        let warming = |triad: &Triad| triad.bias_per_k * self.imu.warm_up.rise_k / self.imu.warm_up.time_s.sqrt();
+        let wander = |triad: &Triad| triad.bias_instability * (2.0 / triad.bias_time_s).sqrt();
+        let walk = |triad: &Triad| libm::hypot(libm::hypot(triad.bias_walk, wander(triad)), warming(triad));
+        settings.gyro_noise = noise(gyro, 0.0).to_radians() as f32;
+        settings.gyro_bias_walk = walk(gyro).to_radians() as f32;
+        settings.gyro_bias = gyro.turn_on_bias.max(1e-3).to_radians() as f32;
+        settings.gyro_scale = libm::hypot(gyro.scale_error, gyro.misalignment) as f32;
+        settings.accel_noise = noise(accel, VIBRATION) as f32;
+        settings.accel_bias_walk = walk(accel) as f32;
+        settings.accel_bias = libm::hypot(accel.turn_on_bias, accel.scale_error * 9.81).max(1e-3) as f32;
+    }
+}
+
+/// Density of the worst axis' noise with that of rounding at 1 kHz and of what else there is, unit/√Hz.
+fn noise(triad: &Triad, more: f64) -> f64 {
+    let worst = triad.noise_density.iter().fold(0.0_f64, |worst, density| worst.max(*density));
+    let rounding = triad.resolution / 12.0_f64.sqrt() / 500.0_f64.sqrt();
+    libm::hypot(libm::hypot(worst, rounding), more)
+}
+
+/// Noise with that of rounding.
+fn rounded(noise: f64, resolution: f64) -> f32 {
+    libm::hypot(noise, resolution / 12.0_f64.sqrt()).max(1e-4) as f32
+}
