@@ -215,10 +215,10 @@ impl Flight {
     fn inner_step(&mut self, tick: Tick) {
         let sample = SensorFrame::Motion(self.plant.nav);
         self.inner.sense(Some(&sample));
-        let (inner, sample, reference) = black_box((&mut self.inner, &sample, &self.reference));
+        let (inner, reference) = black_box((&mut self.inner, &self.reference));
         let armed = black_box(true);
         let (instructions, output) =
-            self.counter.count(counter::mark_begin_attitude, || inner.step(tick, Some(sample), reference, armed));
+            self.counter.count(counter::mark_begin_attitude, || inner.step(tick, reference, armed));
         self.counts.attitude.add(instructions);
         if !output.saturated {
             self.counts.attitude_within_limits.add(instructions);
