@@ -12,6 +12,12 @@ from pymavlink.dialects.v20 import common as mavlink
 from conftest import HANG_S, Station
 
 ARM_DISARM = mavlink.MAV_CMD_COMPONENT_ARM_DISARM
+TAKEOFF = mavlink.MAV_CMD_NAV_TAKEOFF
+LAND = mavlink.MAV_CMD_NAV_LAND
+RETURN = mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH
+SET_MODE = mavlink.MAV_CMD_DO_SET_MODE
+CUSTOM = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+AUTO, AUTO_TAKEOFF, AUTO_LOITER, AUTO_MISSION, AUTO_RTL, AUTO_LAND = 4, 2, 3, 4, 5, 6
 FORCE = 21196
 # Commands that exist in MAVLink and are not supported here.
 UNSUPPORTED = [mavlink.MAV_CMD_DO_SET_SERVO, mavlink.MAV_CMD_NAV_WAYPOINT, mavlink.MAV_CMD_IMAGE_START_CAPTURE]
@@ -33,6 +39,8 @@ def arm(station):
 
 def climb(station):
     arm(station)
+    station.command_long(TAKEOFF, *[0] * 6, -HOVER_Z_M)
+    assert station.ack(TAKEOFF) == mavlink.MAV_RESULT_ACCEPTED
     station.wait("LOCAL_POSITION_NED", lambda position: abs(position.z - HOVER_Z_M) < 0.1)
 
 
@@ -80,7 +88,59 @@ def test_arming_is_acknowledged_and_shows_in_the_heartbeat(vehicle, station):
     assert is_armed(heartbeat) and heartbeat.system_status == mavlink.MAV_STATE_ACTIVE
 
 
-def test_it_climbs_to_two_metres_after_arming_and_holds(vehicle, station):
+def test_armed_it_stays_on_the_ground(vehicle, station):
+    arm(station)
+    for _, message in station.collect(3_000):
+        if message.get_type() == "LOCAL_POSITION_NED":
+            assert abs(message.z) < 0.1, message
+        if message.get_type() == "EXTENDED_SYS_STATE":
+            assert message.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND
+
+
+def mode_of(heartbeat):
+    return heartbeat.custom_mode >> 16 & 0xFF, heartbeat.custom_mode >> 24
+
+
+def wait_mode(station, sub):
+    station.wait("HEARTBEAT", lambda heartbeat: mode_of(heartbeat) == (AUTO, sub))
+
+
+def test_it_lands_and_disarms_by_itself(vehicle, station):
+    climb(station)
+    station.command_long(LAND)
+    assert station.ack(LAND) == mavlink.MAV_RESULT_ACCEPTED
+    wait_mode(station, AUTO_LAND)
+    station.wait("HEARTBEAT", lambda heartbeat: not is_armed(heartbeat))
+    assert abs(station.wait("LOCAL_POSITION_NED").z) < 0.1
+
+
+def test_modes_are_set_as_px4s_are(vehicle, station):
+    arm(station)
+    for sub in (AUTO_TAKEOFF, AUTO_LOITER, AUTO_MISSION, AUTO_LOITER, AUTO_RTL):
+        station.command_long(SET_MODE, CUSTOM, AUTO, sub)
+        assert station.ack(SET_MODE) == mavlink.MAV_RESULT_ACCEPTED, sub
+        wait_mode(station, sub)
+        if sub == AUTO_TAKEOFF:
+            station.wait("LOCAL_POSITION_NED", lambda position: position.z < -1)
+    station.command_long(SET_MODE, CUSTOM, 1, 0)
+    assert station.ack(SET_MODE) == mavlink.MAV_RESULT_DENIED
+
+
+def test_disarmed_it_does_not_fly(vehicle, station):
+    for command in (TAKEOFF, LAND, RETURN):
+        station.command_long(command, *[0] * 6, 2)
+        assert station.ack(command) == mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+        assert "disarmed" in station.wait("STATUSTEXT", within_ms=500).text
+
+
+def test_a_take_off_without_sense_is_denied(vehicle, station):
+    arm(station)
+    for height in (-1, 0, 1e6, math.inf):
+        station.command_long(TAKEOFF, *[0] * 6, height)
+        assert station.ack(TAKEOFF) == mavlink.MAV_RESULT_DENIED, height
+
+
+def test_it_climbs_to_two_metres_and_holds(vehicle, station):
     ground = station.wait("LOCAL_POSITION_NED")
     assert math.dist((ground.x, ground.y, ground.z), (0, 0, 0)) < 0.1
     climb(station)
@@ -194,6 +254,7 @@ def test_garbage_is_survived(vehicle, station):
 
 def test_a_repeated_command_is_answered_again_and_changes_nothing(vehicle, station):
     climb(station)
+    wait_mode(station, AUTO_LOITER)
     station.collect(2_000)
     for _ in range(3):
         station.command_long(ARM_DISARM, 1, confirmation=0)

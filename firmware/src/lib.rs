@@ -7,8 +7,8 @@
 //! SensorFrame ─► inner: attitude SMC ─► mixer ─► MotorCommand               every tick, 1 kHz
 //!                  ▲ AttitudeReference (φd, θd, ψd, rates, accelerations, U1)
 //!                outer: guidance ─► position SMC ─► flatness                250 Hz
-//!                  ▲ flight clock
-//!                commander: arming                                          50 Hz
+//!                  ▲ directive
+//!                commander: arming, modes, failures                         50 Hz
 //!                  ▲ commands, ▼ replies
 //!                ground: bytes ⇄ MAVLink                                    100 Hz, lowest
 //! ```

@@ -22,7 +22,7 @@ pub const OUTER: Timing = Timing { period: 4, offset: 2 };
 pub const OUTER_AHEAD_S: f32 = OUTER.offset as f32 * TICK_S;
 /// The estimator's covariance and late readings, in the outer partition's task: 250 Hz.
 pub const FILTER: Timing = OUTER;
-/// Arming: 50 Hz.
+/// Arming, modes, failures: 50 Hz.
 pub const COMMANDER: Timing = Timing { period: 20, offset: 4 };
 /// MAVLink: 100 Hz.
 pub const GROUND: Timing = Timing { period: 10, offset: 10 };

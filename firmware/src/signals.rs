@@ -55,6 +55,7 @@ impl NavState {
 
 /// What of the motion may be trusted. Angular rates always come with the attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is lost by itself")]
 pub struct NavHealth {
     /// Roll and pitch.
     pub attitude: bool,
@@ -77,7 +78,7 @@ impl NavHealth {
 
 /// What is delivered for one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "one a tick, handed on by reference; there is no heap to put it on")]
+#[allow(clippy::large_enum_variant, reason = "one a tick, handed on by reference; there is no heap to put it on")]
 pub enum SensorFrame {
     /// The vehicle's motion at this tick: what an ideal sensor gives, for comparing control laws.
     Motion(NavState),

@@ -159,8 +159,7 @@ fn a_rotor_fails_in_flight_and_may_heal() {
 
 #[test]
 fn failures_come_at_their_tick() {
-    let failures =
-        "fault=[{kind=\"rotor\",index=0,effectiveness=0.5,from_s=0.005,to_s=0.02}]";
+    let failures = "fault=[{kind=\"rotor\",index=0,effectiveness=0.5,from_s=0.005,to_s=0.02}]";
     let mut plant = plant(&[failures]);
     let hover = [plant.constants().hover_omega(); 4];
     let lift = |plant: &RigidBody| plant.constants().geometry[(0, 0)] / 8.54858e-6;

@@ -17,7 +17,7 @@ impl Commander {
         self.check_systems(input)?;
         if math::max(cos_tilt, -1.0) < COS_TILT_MAX {
             Err(Refusal::NotLevel)
-        } else if !is_slow(&input.nav) {
+        } else if self.ground.is_airborne() || !is_slow(&input.nav) {
             Err(Refusal::Moving)
         } else {
             Ok(())

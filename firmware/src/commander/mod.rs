@@ -319,9 +319,8 @@ impl Commander {
         }
         self.battery_answered = charge;
         match (charge, self.state) {
-            (_, State::Land | State::Descent { .. }) | (Charge::Good, _) => {}
+            (Charge::Good, _) | (_, State::Land | State::Descent { .. }) | (Charge::Low, State::Return { .. }) => {}
             (Charge::Critical, _) => self.state = State::Land,
-            (Charge::Low, State::Return { .. }) => {}
             (Charge::Low, _) => self.state = self.homewards(height),
         }
         Some(if charge == Charge::Critical { Event::BatteryCritical } else { Event::BatteryLow })

@@ -1,1 +1,443 @@
+//! The state machine against its diagram, what is refused and what fails.
 
+mod any;
+
+use std::collections::BTreeSet;
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::*;
+
+const PERIOD: Tick = COMMANDER.period;
+
+/// 30 m over the ground and away from everything, hovering.
+fn hovering() -> CommanderInput {
+    let nav = NavState { position: Vector3::new(50.0, 60.0, 30.0), ..NavState::at_rest() };
+    CommanderInput { nav, thrust_n: FlightConfig::default().airframe.weight_n(), ..standing() }
+}
+
+fn standing() -> CommanderInput {
+    CommanderInput {
+        nav: NavState::at_rest(),
+        nav_fresh: true,
+        health: NavHealth::ALL,
+        thrust_n: 0.0,
+        battery: None,
+        failed_rotor: None,
+        commands: Commands::new(),
+    }
+}
+
+fn asking(request: Request, input: &CommanderInput) -> CommanderInput {
+    let commands = [Command { request, origin: Origin::OnBoard }].into_iter().collect();
+    CommanderInput { commands, ..input.clone() }
+}
+
+fn settings() -> ModeSettings {
+    ModeSettings { battery_low_v: 14.0, battery_critical_v: 13.0, ..ModeSettings::default() }
+}
+
+fn volts(voltage_v: f32, input: &CommanderInput) -> CommanderInput {
+    CommanderInput { battery: Some(BatterySample { voltage_v, current_a: 10.0 }), ..input.clone() }
+}
+
+/// A commander in a state, in the air if the state is one that flies, and the clock.
+struct Bench {
+    commander: Commander,
+    tick: Tick,
+}
+
+impl Bench {
+    fn new(state: State) -> Self {
+        let mut commander = Commander::new(&FlightConfig { modes: settings(), ..FlightConfig::default() });
+        let flies = !matches!(state, State::Disarmed | State::Idle { .. });
+        commander.state = state;
+        commander.ground = GroundWatch::new(flies, 0.0);
+        Self { commander, tick: 1_000 }
+    }
+
+    fn step(&mut self, input: &CommanderInput) -> CommanderOutput {
+        let output = self.commander.step(self.tick, input);
+        self.tick += PERIOD;
+        output
+    }
+
+    fn run(&mut self, seconds: f32, input: &CommanderInput) -> Vec<Event> {
+        (0..watch::jobs(seconds)).filter_map(|_| self.step(input).event).collect()
+    }
+
+    fn ask(&mut self, request: Request, input: &CommanderInput) -> Outcome {
+        self.step(&asking(request, input)).replies[0].outcome
+    }
+}
+
+const FAR: Tick = 10_000_000;
+const GO_TO: Request = Request::GoTo { position_m: [1.0, 2.0, 3.0], yaw_rad: 0.5 };
+const VELOCITY: Request = Request::Velocity { velocity_m_s: [1.0, 0.0, 0.0], yaw_rate_rad_s: 0.1 };
+const TAKE_OFF: Request = Request::TakeOff { height_m: 2.0 };
+
+/// Every state, none of them about to end by itself.
+fn states() -> Vec<State> {
+    let velocity = Vector3::new(1.0, 0.0, 0.0);
+    vec![
+        State::Disarmed,
+        State::Idle { disarm_at: None },
+        State::TakeOff { to_m: 100.0 },
+        State::Hold,
+        State::GoTo { position: velocity, yaw: 0.0 },
+        State::Velocity { velocity, yaw_rate: 0.0, until: FAR },
+        State::Join,
+        State::Follow { since: 0 },
+        State::Return { at_m: 100.0, climbs: true },
+        State::Land,
+        State::Descent { known: Known::Position },
+        State::MotorOut,
+    ]
+}
+
+fn name(state: &State) -> String {
+    let text = format!("{state:?}");
+    text.split([' ', '{']).next().expect("a name").to_string()
+}
+
+/// Where a state leads to by each cause.
+fn outcomes(state: State) -> Vec<(&'static str, State)> {
+    let flies = !matches!(state, State::Disarmed | State::Idle { .. });
+    let quiet = if flies { hovering() } else { standing() };
+    let end = |run: &dyn Fn(&mut Bench)| {
+        let mut bench = Bench::new(state);
+        run(&mut bench);
+        bench.commander.state
+    };
+    let ask = |request: Request| end(&|bench| drop(bench.step(&asking(request, &quiet))));
+    let last = |seconds: f32, input: CommanderInput| end(&|bench| drop(bench.run(seconds, &input)));
+    let lost = NavHealth { position: false, ..NavHealth::ALL };
+    vec![
+        ("arm", ask(Request::Arm { force: false })),
+        ("disarm", ask(Request::Disarm { force: false })),
+        ("forced disarm", ask(Request::Disarm { force: true })),
+        ("take off", ask(TAKE_OFF)),
+        ("hold", ask(Request::Hold)),
+        ("go to", ask(GO_TO)),
+        ("velocity", ask(VELOCITY)),
+        ("land", ask(Request::Land)),
+        ("return", ask(Request::Return)),
+        ("follow", ask(Request::Follow)),
+        ("loss", last(1.1, CommanderInput { health: lost, ..quiet.clone() })),
+        ("gone", last(2.1, CommanderInput { nav_fresh: false, ..quiet.clone() })),
+        ("rotor failed", last(0.1, CommanderInput { failed_rotor: Some(1), ..quiet.clone() })),
+        ("battery low", last(2.1, volts(13.5, &quiet))),
+        ("battery critical", last(2.1, volts(12.5, &quiet))),
+        ("touchdown", last(0.6, CommanderInput { thrust_n: 0.0, ..quiet.clone() })),
+        ("rested", rested(state)),
+        ("arrived", arrived(state)),
+        ("timeout", timed_out(state)),
+    ]
+}
+
+fn rested(state: State) -> State {
+    let State::Idle { .. } = state else { return state };
+    let mut bench = Bench::new(State::Idle { disarm_at: Some(1_100) });
+    bench.run(0.2, &standing());
+    bench.commander.state
+}
+
+fn arrived(state: State) -> State {
+    let at = |state: State, position: Vector3<f32>| {
+        let mut bench = Bench::new(state);
+        let mut input = hovering();
+        input.nav.position = position;
+        bench.step(&input);
+        bench.commander.state
+    };
+    match state {
+        State::TakeOff { .. } => at(state, Vector3::new(0.0, 0.0, 99.8)),
+        State::Join => at(state, Bench::new(state).commander.entry),
+        State::Return { .. } => at(State::Return { at_m: 10.0, climbs: false }, Vector3::new(0.2, 0.0, 10.0)),
+        _ => state,
+    }
+}
+
+fn timed_out(state: State) -> State {
+    let State::Velocity { velocity, yaw_rate, .. } = state else { return state };
+    let mut bench = Bench::new(State::Velocity { velocity, yaw_rate, until: 1_100 });
+    bench.run(0.2, &hovering());
+    bench.commander.state
+}
+
+/// The diagram's rows as (state, cause, state).
+fn diagram() -> BTreeSet<(String, String, String)> {
+    let rows: Vec<&str> = include_str!("state.rs").lines().filter_map(|line| line.strip_prefix("//! ")).collect();
+    let group = rows.iter().find_map(|row| row.strip_prefix("Cruise = ")).expect("a group");
+    let mut transitions = BTreeSet::new();
+    for row in rows.iter().filter(|row| row.contains('►')) {
+        let (states, rest) = row.split_once('─').expect("an arrow");
+        let (causes, to) = rest.split_once('►').expect("a head");
+        let states = states.replace("Cruise", group);
+        for from in states.split(',').map(str::trim) {
+            for cause in causes.split([',', '─']).map(str::trim).filter(|cause| !cause.is_empty()) {
+                transitions.insert((from.to_string(), cause.to_string(), to.trim().to_string()));
+            }
+        }
+    }
+    transitions
+}
+
+#[test]
+fn the_diagram_is_what_the_code_does() {
+    let mut found = BTreeSet::new();
+    for state in states() {
+        for (cause, end) in outcomes(state) {
+            found.insert((name(&state), cause.to_string(), name(&end)));
+        }
+    }
+    found.retain(|(from, _, to)| from != to);
+    let mut drawn = diagram();
+    drawn.retain(|(from, _, to)| from != to);
+    let missing: Vec<_> = drawn.difference(&found).collect();
+    let extra: Vec<_> = found.difference(&drawn).collect();
+    assert!(missing.is_empty() && extra.is_empty(), "drawn, not done: {missing:?}\ndone, not drawn: {extra:?}");
+}
+
+#[test]
+fn arming_is_refused_with_the_reason_and_lets_the_rotors_idle() {
+    let spoil = |f: &dyn Fn(&mut CommanderInput)| {
+        let mut input = standing();
+        f(&mut input);
+        input
+    };
+    for (input, refusal) in [
+        (spoil(&|i| i.nav_fresh = false), Refusal::NoNavigation),
+        (spoil(&|i| i.health.attitude = false), Refusal::NotAligned),
+        (spoil(&|i| i.health.heading = false), Refusal::NotAligned),
+        (spoil(&|i| i.health.position = false), Refusal::NoPosition),
+        (spoil(&|i| i.health.velocity = false), Refusal::NoPosition),
+        (spoil(&|i| i.health.height = false), Refusal::NoHeight),
+        (spoil(&|i| i.nav.attitude = UnitQuaternion::from_euler_angles(0.4, 0.0, 0.0)), Refusal::NotLevel),
+        (spoil(&|i| i.nav.velocity.x = 0.6), Refusal::Moving),
+        (spoil(&|i| i.failed_rotor = Some(0)), Refusal::RotorFailed),
+    ] {
+        let mut bench = Bench::new(State::Disarmed);
+        let arm = Request::Arm { force: false };
+        assert_eq!(bench.ask(arm, &input), Outcome::TemporarilyRejected(refusal));
+        assert!(!bench.step(&input).armable);
+        assert_eq!(bench.ask(Request::Arm { force: true }, &input), Outcome::Accepted);
+    }
+    let mut bench = Bench::new(State::Disarmed);
+    bench.run(3.0, &volts(12.0, &standing()));
+    let refused = bench.ask(Request::Arm { force: false }, &volts(12.0, &standing()));
+    assert_eq!(refused, Outcome::TemporarilyRejected(Refusal::Battery));
+
+    let mut bench = Bench::new(State::Disarmed);
+    let output = bench.step(&asking(Request::Arm { force: false }, &standing()));
+    assert_eq!((output.armed, output.directive, output.mode), (true, Directive::Idle, Mode::Idle));
+    assert!(output.landed);
+}
+
+#[test]
+fn what_cannot_be_done_now_is_refused_with_the_reason() {
+    use Outcome::TemporarilyRejected as No;
+    let mut disarmed = Bench::new(State::Disarmed);
+    let mut idle = Bench::new(State::Idle { disarm_at: None });
+    for request in [Request::Hold, GO_TO, VELOCITY, Request::Return] {
+        assert_eq!(disarmed.ask(request, &standing()), No(Refusal::Disarmed));
+        assert_eq!(idle.ask(request, &standing()), No(Refusal::OnGround));
+    }
+    assert_eq!(idle.ask(Request::Land, &standing()), Outcome::Accepted, "it has");
+    let mut elsewhere = standing();
+    elsewhere.nav.position.x = 3.0;
+    assert_eq!(idle.ask(Request::Follow, &elsewhere), No(Refusal::NotAtStart));
+    let lost = CommanderInput { health: NavHealth { height: false, ..NavHealth::ALL }, ..standing() };
+    assert_eq!(idle.ask(TAKE_OFF, &lost), No(Refusal::NoHeight));
+    idle.run(2.1, &volts(13.5, &standing()));
+    assert_eq!(idle.ask(TAKE_OFF, &standing()), No(Refusal::Battery));
+
+    let mut hold = Bench::new(State::Hold);
+    assert_eq!(hold.ask(TAKE_OFF, &hovering()), No(Refusal::InAir));
+    assert_eq!(hold.ask(Request::Disarm { force: false }, &hovering()), No(Refusal::InAir));
+    let lost = CommanderInput { health: NavHealth { position: false, ..NavHealth::ALL }, ..hovering() };
+    assert_eq!(hold.ask(GO_TO, &lost), No(Refusal::NoPosition));
+    let mut falling = Bench::new(State::MotorOut);
+    assert_eq!(falling.ask(Request::Hold, &hovering()), No(Refusal::RotorFailed));
+}
+
+#[test]
+fn numbers_that_make_no_sense_are_denied() {
+    let go = |x: f32, yaw_rad: f32| Request::GoTo { position_m: [x, 0.0, 5.0], yaw_rad };
+    let fly = |z: f32, yaw_rate_rad_s: f32| Request::Velocity { velocity_m_s: [0.0, 0.0, z], yaw_rate_rad_s };
+    let climb = |height_m: f32| Request::TakeOff { height_m };
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e6, -1e6] {
+        for request in [go(bad, 0.0), go(0.0, bad), fly(bad, 0.0), fly(0.0, bad), climb(bad)] {
+            let mut bench = Bench::new(State::Hold);
+            assert_eq!(bench.ask(request, &hovering()), Outcome::Denied, "{request:?}");
+            assert_eq!(bench.commander.state, State::Hold);
+        }
+    }
+    assert_eq!(Bench::new(State::Idle { disarm_at: None }).ask(climb(0.1), &standing()), Outcome::Denied);
+}
+
+#[test]
+fn a_velocity_lasts_a_second_unless_it_is_asked_for_again() {
+    let mut bench = Bench::new(State::Hold);
+    for _ in 0..5 {
+        bench.ask(VELOCITY, &hovering());
+        bench.run(0.8, &hovering());
+        assert_eq!(name(&bench.commander.state), "Velocity");
+    }
+    bench.run(0.3, &hovering());
+    assert_eq!(bench.commander.state, State::Hold);
+}
+
+#[test]
+fn losses_are_answered_by_what_is_left_and_told_once() {
+    let health = |f: &dyn Fn(&mut NavHealth)| {
+        let mut health = NavHealth::ALL;
+        f(&mut health);
+        CommanderInput { health, ..hovering() }
+    };
+    let stale = CommanderInput { nav_fresh: false, ..hovering() };
+    for (input, known, event) in [
+        (health(&|h| h.position = false), Known::Velocity, Event::PositionLost),
+        (health(&|h| (h.position, h.velocity) = (false, false)), Known::Height, Event::VelocityLost),
+        (health(&|h| h.height = false), Known::Attitude, Event::HeightLost),
+        (health(&|h| h.attitude = false), Known::Attitude, Event::AttitudeLost),
+        (stale, Known::Attitude, Event::SensorsLost),
+    ] {
+        let mut bench = Bench::new(State::Hold);
+        assert_eq!(bench.run(1.5, &input), [event]);
+        let Directive::Descend { known: told, heading_free: false, rate_m_s } = bench.step(&input).directive else {
+            panic!("{event:?}")
+        };
+        assert_eq!((told, rate_m_s), (known, settings().descent_m_s));
+    }
+    let mut bench = Bench::new(State::Hold);
+    assert_eq!(bench.run(3.0, &health(&|h| h.heading = false)), [], "goes on without a heading");
+    for _ in 0..10 {
+        assert_eq!(bench.run(0.9, &health(&|h| h.position = false)), [], "a short loss is bridged");
+        bench.run(0.1, &hovering());
+    }
+    assert_eq!(bench.commander.state, State::Hold);
+}
+
+#[test]
+fn a_loss_that_gets_worse_is_told_and_one_that_ends_leaves_the_decision_to_the_pilot() {
+    let mut bench = Bench::new(State::Follow { since: 0 });
+    let position = CommanderInput { health: NavHealth { position: false, ..NavHealth::ALL }, ..hovering() };
+    let mut velocity = position.clone();
+    velocity.health.velocity = false;
+    assert_eq!(bench.run(2.0, &position), [Event::PositionLost]);
+    assert_eq!(bench.run(2.0, &velocity), [Event::VelocityLost]);
+    assert_eq!(bench.run(2.0, &hovering()), []);
+    assert_eq!(bench.commander.state, State::Descent { known: Known::Position });
+    assert_eq!(bench.ask(Request::Hold, &hovering()), Outcome::Accepted);
+    assert_eq!(bench.commander.state, State::Hold);
+}
+
+#[test]
+fn samples_that_stay_away_stop_the_rotors() {
+    let mut bench = Bench::new(State::Hold);
+    let stale = CommanderInput { nav_fresh: false, ..hovering() };
+    assert_eq!(bench.run(1.9, &stale), [Event::SensorsLost]);
+    assert!(bench.step(&stale).armed);
+    assert_eq!(bench.run(0.2, &stale), [Event::SensorsGone]);
+    assert_eq!(bench.step(&stale).directive, Directive::Stop);
+}
+
+#[test]
+fn a_rotor_lost_gives_up_the_heading_and_keeps_to_what_is_known() {
+    let mut bench = Bench::new(State::GoTo { position: Vector3::zeros(), yaw: 0.0 });
+    let failed = CommanderInput { failed_rotor: Some(3), ..hovering() };
+    assert_eq!(bench.run(1.0, &failed), [Event::RotorFailed { rotor: 3 }]);
+    let lost = CommanderInput { health: NavHealth { position: false, ..NavHealth::ALL }, ..failed };
+    assert_eq!(bench.run(2.0, &lost), []);
+    let output = bench.step(&lost);
+    assert_eq!(output.mode, Mode::MotorOut);
+    let rate_m_s = settings().descent_m_s;
+    let descend = Directive::Descend { rate_m_s, known: Known::Velocity, heading_free: true };
+    assert_eq!(output.directive, descend);
+}
+
+#[test]
+fn a_low_battery_returns_once_and_a_critical_one_lands() {
+    let mut bench = Bench::new(State::Hold);
+    assert_eq!(bench.run(1.9, &volts(12.0, &hovering())), [], "a dip is none");
+    bench.run(0.1, &volts(15.0, &hovering()));
+    assert_eq!(bench.run(3.0, &volts(13.5, &hovering())), [Event::BatteryLow]);
+    assert_eq!(name(&bench.commander.state), "Return");
+    bench.ask(Request::Hold, &volts(13.5, &hovering()));
+    assert_eq!(bench.run(5.0, &volts(13.5, &hovering())), [], "the pilot has decided");
+    assert_eq!(bench.run(3.0, &volts(12.5, &hovering())), [Event::BatteryCritical]);
+    assert_eq!(bench.commander.state, State::Land);
+    let mut unwatched = Bench::new(State::Hold);
+    assert_eq!(unwatched.run(5.0, &volts(f32::NAN, &hovering())), []);
+}
+
+#[test]
+fn a_return_climbs_goes_home_and_lands() {
+    let mut bench = Bench::new(State::Hold);
+    let at = |x: f32, z: f32| {
+        let mut input = hovering();
+        input.nav.position = Vector3::new(x, 0.0, z);
+        input
+    };
+    bench.ask(Request::Return, &at(20.0, 3.0));
+    let directive = bench.step(&at(20.0, 5.0)).directive;
+    assert_eq!(directive, Directive::Climb { height_m: 10.0, speed_m_s: settings().climb_m_s });
+    let directive = bench.step(&at(20.0, 9.9)).directive;
+    assert_eq!(directive, Directive::GoTo { position: Vector3::new(0.0, 0.0, 10.0), yaw: None });
+    let directive = bench.step(&at(0.1, 9.9)).directive;
+    let rate_m_s = settings().landing_m_s;
+    assert_eq!(directive, Directive::Descend { rate_m_s, known: Known::Position, heading_free: false });
+    let Directive::Descend { rate_m_s, .. } = bench.step(&at(0.1, 1.9)).directive else { panic!("lands") };
+    assert_eq!(rate_m_s, settings().touchdown_m_s, "slower near the ground");
+}
+
+#[test]
+fn it_has_landed_when_it_gives_little_thrust_and_does_not_fall_and_only_if_it_was_to() {
+    let weight = FlightConfig::default().airframe.weight_n();
+    let with = |thrust: f32, sink: f32| {
+        let mut input = CommanderInput { thrust_n: thrust * weight, ..hovering() };
+        input.nav.velocity.z = -sink;
+        input
+    };
+    for (state, input, seconds, lands) in [
+        (State::Land, with(0.5, 0.0), 0.6, true),
+        (State::Land, with(0.5, 0.5), 5.0, false),
+        (State::Land, with(0.9, 0.0), 2.1, true),
+        (State::Land, with(0.9, 0.0), 1.5, false),
+        (State::Land, with(0.9, 0.35), 5.0, false),
+        (State::Land, with(1.0, 0.0), 5.0, false),
+        (State::Hold, with(0.1, 0.0), 5.0, false),
+        (State::MotorOut, with(0.5, 0.0), 0.6, true),
+    ] {
+        let mut bench = Bench::new(state);
+        bench.run(seconds, &input);
+        assert_eq!(matches!(bench.commander.state, State::Idle { .. }), lands, "{state:?} {input:?}");
+    }
+    let blind = CommanderInput { health: NavHealth::NONE, ..with(0.3, 0.0) };
+    let mut bench = Bench::new(State::Hold);
+    bench.run(20.0, &blind);
+    assert!(matches!(bench.commander.state, State::Descent { .. }), "without a height nobody knows");
+}
+
+#[test]
+fn before_lift_off_it_may_be_disarmed_and_after_it_not() {
+    let mut bench = Bench::new(State::Idle { disarm_at: None });
+    bench.ask(TAKE_OFF, &standing());
+    assert!(bench.step(&standing()).landed);
+    let mut lifted = standing();
+    lifted.nav.position.z = 0.2;
+    assert!(!bench.step(&lifted).landed);
+    let disarm = Request::Disarm { force: false };
+    assert_eq!(bench.ask(disarm, &lifted), Outcome::TemporarilyRejected(Refusal::InAir));
+
+    let mut bench = Bench::new(State::Idle { disarm_at: None });
+    bench.ask(TAKE_OFF, &standing());
+    assert_eq!(bench.ask(disarm, &standing()), Outcome::Accepted);
+    // A height that does not move is no proof of standing, once there is thrust.
+    let mut bench = Bench::new(State::Idle { disarm_at: None });
+    bench.ask(TAKE_OFF, &standing());
+    let lifting = CommanderInput { thrust_n: FlightConfig::default().airframe.weight_n(), ..standing() };
+    bench.run(0.6, &lifting);
+    assert_eq!(bench.ask(disarm, &lifting), Outcome::TemporarilyRejected(Refusal::InAir));
+}

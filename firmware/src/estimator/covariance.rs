@@ -369,5 +369,6 @@ impl<const N: usize> Part<N> {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 #[path = "covariance/tests.rs"]
 mod tests;

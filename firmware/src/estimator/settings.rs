@@ -24,6 +24,8 @@ pub struct EstimatorSettings {
     pub accel_bias_walk: f32,
     /// Its bias when turned on, m/s².
     pub accel_bias: f32,
+    /// What its scale and axes are off by.
+    pub accel_scale: f32,
     /// Noise of the magnetometer, µT.
     pub mag_noise_ut: f32,
     /// What calibration leaves of the magnetic heading's error, rad.
@@ -56,6 +58,7 @@ impl Default for EstimatorSettings {
             accel_noise: 2e-3,
             accel_bias_walk: 1e-4,
             accel_bias: 0.02,
+            accel_scale: 2.5e-3,
             mag_noise_ut: 0.35,
             heading_offset: 4e-3,
             baro_noise_m: 0.08,
@@ -76,7 +79,7 @@ const WIND_WALK: f32 = 0.7;
 /// How fast the magnetic heading's error changes as the vehicle turns and draws current, rad/√s.
 const HEADING_WALK: f32 = 3e-5;
 /// A scale's error acts as noise of this correlation time, s: about as long as a manoeuvre turns one way.
-const MANOEUVRE_S: f32 = 0.5;
+const MANOEUVRE_S: f32 = 1.0;
 
 impl EstimatorSettings {
     /// Refuses settings with which the filter is not defined.
@@ -107,6 +110,7 @@ impl EstimatorSettings {
         }
         for (name, value) in [
             ("estimator.gyro_scale", self.gyro_scale),
+            ("estimator.accel_scale", self.accel_scale),
             ("estimator.baro_walk", self.baro_walk),
             ("estimator.gnss_walk", self.gnss_walk),
         ] {
@@ -119,15 +123,16 @@ impl EstimatorSettings {
         }
     }
 
-    /// Process noise of a step of `step_s`, turning at `rates` (rad/s) in an attitude given as a matrix.
-    pub(super) fn step_noise(&self, step_s: f32, rates_in_world: &Vector3<f32>) -> StepNoise {
+    /// Process noise of a step of `step_s`, turning at rates in the world (rad/s), with a specific force that is so much
+    /// off that at rest (m/s²): what scales make of that at rest are biases.
+    pub(super) fn step_noise(&self, step_s: f32, rates_in_world: &Vector3<f32>, force_off: f32) -> StepNoise {
         let square = |walk: f32| walk * walk * step_s;
         let scale = square(self.gyro_scale) * MANOEUVRE_S;
         let gyro = 0.5 * square(self.gyro_noise);
         let gnss = square(self.gnss_walk);
         StepNoise {
             theta: rates_in_world.map(|rate| gyro + scale * rate * rate),
-            velocity: 0.5 * square(self.accel_noise),
+            velocity: 0.5 * square(self.accel_noise) + square(self.accel_scale * force_off) * MANOEUVRE_S,
             gyro_bias: square(self.gyro_bias_walk),
             accel_bias: square(self.accel_bias_walk),
             offset: Vector3::new(gnss, gnss, square(self.baro_walk)),

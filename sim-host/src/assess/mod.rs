@@ -35,19 +35,23 @@ pub struct Assess {
     pub to_s: Option<f64>,
     /// Where the vehicle ought to be, m; what guidance asks for at the time without it.
     pub hold_m: Option<[f64; 3]>,
+    /// Least part of the looks, one every five seconds, at which errors, and innovations of each kind of reading, are to be
+    /// within the band that holds their mean over the seeds with 95 % probability.
+    pub consistent: Option<f64>,
     /// What is expected.
     #[serde(default)]
     pub expect: Vec<Expectation>,
 }
 
-/// A bound on a percentile of a measure over the seeds.
+/// A bound on a percentile of a measure over the seeds, or on its root mean square over them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
     /// Of what.
     pub measure: Measure,
-    /// Which percentile, 0 to 100: of 100 seeds, the 95th is the one that five are worse than.
-    pub percentile: f64,
+    /// Which percentile, 0 to 100: of 100 seeds, the 95th is the one that five are worse than. Without it, the root mean
+    /// square.
+    pub percentile: Option<f64>,
     /// Greatest value that is as expected.
     pub at_most: Option<f64>,
     /// Least value that is as expected.
@@ -72,8 +76,8 @@ impl Assess {
         for Expectation { measure, percentile, at_most, at_least } in &self.expect {
             let name = measure.name();
             ensure!(
-                (0.0..=100.0).contains(percentile),
-                "`assess.expect.percentile` of `{name}` must be between 0 and 100, not {percentile}"
+                percentile.is_none_or(|percentile| (0.0..=100.0).contains(&percentile)),
+                "`assess.expect.percentile` of `{name}` must be between 0 and 100, not {percentile:?}"
             );
             ensure!(
                 at_most.or(*at_least).is_some_and(f64::is_finite),

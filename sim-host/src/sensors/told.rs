@@ -5,8 +5,8 @@ use firmware::estimator::EstimatorSettings;
 use super::imu::Triad;
 use super::{Home, SuiteFile};
 
-/// Pressure to height near the ground, m/Pa: 1/(ρ g) at 1.2 kg/m³.
-const M_PER_PA: f64 = 0.085;
+/// Current of a vehicle of 2 kg in hover, A.
+const HOVER_A: f64 = 20.0;
 /// What rotors' vibration leaves in the accelerometer's integral, m/s²/√Hz.
 const VIBRATION: f64 = 2e-3;
 
@@ -21,14 +21,16 @@ impl SuiteFile {
         if let Some(mag) = &self.mag {
             settings.mag_noise_ut = rounded(mag.noise_ut, mag.resolution_ut);
             let horizontal = home.strength_ut * libm::cos(home.inclination_deg.to_radians());
-            let left = libm::hypot(mag.hard_iron_ut, mag.soft_iron * home.strength_ut);
+            let soft = mag.soft_iron * home.strength_ut * core::f64::consts::SQRT_2;
+            let left = libm::hypot(libm::hypot(mag.hard_iron_ut, soft), mag.current_ut_a * HOVER_A);
             settings.heading_offset = (left / horizontal).max(1e-3) as f32;
         }
         if let Some(baro) = &self.baro {
-            settings.baro_noise_m = rounded(baro.noise_pa * M_PER_PA, baro.resolution_pa * M_PER_PA);
+            let m_per_pa = 1.0 / (home.pressure(-0.5) - home.pressure(0.5));
+            settings.baro_noise_m = rounded(baro.noise_pa * m_per_pa, baro.resolution_pa * m_per_pa);
             let wander = baro.drift_pa * (2.0 / baro.drift_time_s).sqrt();
             let warming = baro.offset_pa_k * baro.warm_up.rise_k / baro.warm_up.time_s.sqrt();
-            settings.baro_walk = (libm::hypot(wander, warming) * M_PER_PA) as f32;
+            settings.baro_walk = (libm::hypot(wander, warming) * m_per_pa) as f32;
         }
         if let Some(gnss) = &self.gnss {
             settings.gnss_noise_m = [rounded(gnss.horizontal_noise_m, 0.011), gnss.vertical_noise_m as f32];
@@ -50,11 +52,17 @@ impl SuiteFile {
         settings.gyro_noise = noise(gyro, 0.0).to_radians() as f32;
         settings.gyro_bias_walk = walk(gyro).to_radians() as f32;
         settings.gyro_bias = gyro.turn_on_bias.max(1e-3).to_radians() as f32;
-        settings.gyro_scale = libm::hypot(gyro.scale_error, gyro.misalignment) as f32;
+        settings.gyro_scale = scale(gyro) as f32;
+        settings.accel_scale = scale(accel) as f32;
         settings.accel_noise = noise(accel, VIBRATION) as f32;
         settings.accel_bias_walk = walk(accel) as f32;
         settings.accel_bias = libm::hypot(accel.turn_on_bias, accel.scale_error * 9.81).max(1e-3) as f32;
     }
+}
+
+/// What an axis' scale, and its two neighbours in it, are off by.
+fn scale(triad: &Triad) -> f64 {
+    libm::hypot(triad.scale_error, core::f64::consts::SQRT_2 * triad.misalignment)
 }
 
 /// Density of the worst axis' noise with that of rounding at 1 kHz and of what else there is, unit/√Hz.

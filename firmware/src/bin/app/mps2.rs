@@ -5,7 +5,7 @@
 //!        6  inner      TIMER0, 1 kHz                    sample, publish, release, control, rotors
 //!        5  receive    UART 0 has a byte                drains it towards the ground partition
 //!        4  outer      inner, every 4th tick            the estimator's filter, guidance and position control
-//!        3  commander  inner, every 20th tick           arming
+//!        3  commander  inner, every 20th tick           arming, modes, failures
 //!        2  ground     inner, every 10th tick           MAVLink
 //!        1  transmit   inner or UART 0 is free          drains what MAVLink has to say
 //!        –  idle                                        log

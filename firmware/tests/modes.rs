@@ -1,0 +1,376 @@
+//! Whole flights through the partitions, on a rigid body over a flat ground: what a pilot asks for is done, and what is
+//! not known of the motion is not needed.
+
+use firmware::airframe::{Airframe, ROTORS};
+use firmware::autopilot::Autopilot;
+use firmware::commander::{
+    Command, Commander, CommanderInput, CommanderOutput, Commands, Directive, Event, Known, Mode, Origin, Request,
+};
+use firmware::config::{FlightConfig, Start};
+use firmware::control::attitude::{self, SlidingAttitude};
+use firmware::control::position::SlidingPosition;
+use firmware::guidance::Trajectory;
+use firmware::inner::Inner;
+use firmware::outer::{Outer, OuterInput, OuterOutput};
+use firmware::schedule::{COMMANDER, OUTER};
+use firmware::signals::{MotorCommand, NavHealth, NavState, SensorFrame, TICK_S, Tick};
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// A rigid body whose rotors follow at once, on a ground at z = 0 that takes every speed.
+struct Body {
+    airframe: Airframe,
+    nav: NavState,
+}
+
+impl Body {
+    fn step(&mut self, motors: &MotorCommand) {
+        let geometry = &self.airframe.geometry;
+        let omega = &motors.omega_rad_s;
+        let thrust: f32 = geometry.thrust.iter().zip(omega).map(|(lift, w)| lift * w * w).sum();
+        let nav = &mut self.nav;
+        let spin = self.airframe.rotor_spin_rad_s(omega);
+        let torque = geometry.torque(omega) - attitude::torque(&self.airframe, &Vector3::zeros(), &nav.rates, spin);
+        nav.rates += torque.component_div(&Vector3::from(self.airframe.inertia_kg_m2)) * TICK_S;
+        nav.attitude *= UnitQuaternion::from_scaled_axis(nav.rates * TICK_S);
+        let drag = Vector3::from(self.airframe.drag_n_s_m).component_mul(&nav.velocity);
+        let force = nav.attitude * Vector3::new(0.0, 0.0, thrust) - drag;
+        let gravity = Vector3::new(0.0, 0.0, self.airframe.gravity_m_s2);
+        nav.velocity += (force / self.airframe.mass_kg - gravity) * TICK_S;
+        nav.position += nav.velocity * TICK_S;
+        if nav.position.z <= 0.0 && nav.velocity.z <= 0.0 {
+            nav.position.z = 0.0;
+            nav.velocity = Vector3::zeros();
+            nav.rates = Vector3::zeros();
+            let (_, _, yaw) = nav.attitude.euler_angles();
+            nav.attitude = UnitQuaternion::from_euler_angles(0.0, 0.0, yaw);
+        }
+    }
+}
+
+/// The default, but for the paper's rotational drag: against it, the rotors could not turn the heading by 1 rad/s.
+fn config() -> FlightConfig {
+    let mut config = FlightConfig::default();
+    config.airframe.rotational_drag_n_m_s2 = [0.0; 3];
+    config
+}
+
+/// What a failing estimator makes of the motion.
+type Spoil = fn(&mut NavState, f32);
+
+/// The partitions, their outputs in effect at once, so that a test may come between them.
+struct Vehicle {
+    body: Body,
+    inner: Inner,
+    outer: Outer,
+    commander: Commander,
+    told: CommanderOutput,
+    reference: OuterOutput,
+    motors: MotorCommand,
+    tick: Tick,
+    commands: Commands,
+    health: NavHealth,
+    spoil: Spoil,
+    events: Vec<Event>,
+}
+
+impl Vehicle {
+    fn new(config: &FlightConfig) -> Self {
+        let airframe = config.airframe;
+        let nav = NavState { position: config.start_position(), ..NavState::at_rest() };
+        let commander = Commander::new(config);
+        let told = commander.initial_output();
+        let mut outer = Outer::new(config, SlidingPosition::new(&airframe, &config.position)).expect("valid");
+        let input = OuterInput { nav, thrust_n: airframe.weight_n(), directive: told.directive };
+        Self {
+            body: Body { airframe, nav },
+            inner: Inner::new(config, SlidingAttitude::new(&airframe, &config.attitude)).expect("valid"),
+            reference: outer.step(0_u32.wrapping_sub(OUTER.offset), &input),
+            outer,
+            commander,
+            told,
+            motors: MotorCommand::STOPPED,
+            tick: 0,
+            commands: Commands::new(),
+            health: NavHealth::ALL,
+            spoil: |_, _| {},
+            events: Vec::new(),
+        }
+    }
+
+    fn tick(&mut self) {
+        let mut nav = self.body.nav;
+        (self.spoil)(&mut nav, self.tick as f32 * TICK_S);
+        let sample = SensorFrame::Motion(nav);
+        self.inner.sense(Some(&sample));
+        if self.tick.is_multiple_of(COMMANDER.period) {
+            let input = CommanderInput {
+                nav,
+                nav_fresh: true,
+                health: self.health,
+                thrust_n: self.inner.thrust_n(),
+                battery: None,
+                failed_rotor: None,
+                commands: core::mem::take(&mut self.commands),
+            };
+            self.told = self.commander.step(self.tick, &input);
+            self.events.extend(self.told.event);
+        }
+        if self.tick.is_multiple_of(OUTER.period) {
+            let input = OuterInput { nav, thrust_n: self.inner.thrust_n(), directive: self.told.directive };
+            self.reference = self.outer.step(self.tick, &input);
+        }
+        let output = if self.told.armed && self.reference.idle {
+            self.inner.idle()
+        } else {
+            self.inner.step(self.tick, Some(&sample), &self.reference.attitude, self.told.armed)
+        };
+        self.motors = output.motors;
+        self.body.step(&self.motors);
+        self.tick += 1;
+    }
+
+    fn ask(&mut self, request: Request) {
+        let _ = self.commands.push(Command { request, origin: Origin::OnBoard });
+    }
+
+    fn run(&mut self, seconds: f32) {
+        for _ in 0..(seconds / TICK_S) as u32 {
+            self.tick();
+        }
+    }
+
+    /// Until it is in a mode, at most this long.
+    fn until(&mut self, mode: Mode, seconds: f32) {
+        let end = self.tick + (seconds / TICK_S) as u32;
+        while self.told.mode != mode {
+            self.tick();
+            assert!(self.tick < end, "{:?} instead of {mode:?}, at {:?}", self.told.mode, self.body.nav);
+        }
+    }
+
+    /// Armed, and holding 4 m over the ground.
+    fn airborne(config: &FlightConfig) -> Self {
+        let mut vehicle = Self::new(config);
+        vehicle.ask(Request::Arm { force: false });
+        vehicle.ask(Request::TakeOff { height_m: 4.0 });
+        vehicle.until(Mode::Hold, 8.0);
+        vehicle.run(2.0);
+        vehicle.assert_near([0.0, 0.0, 4.0], 0.05);
+        vehicle
+    }
+
+    fn assert_near(&self, place: [f32; 3], within: f32) {
+        let away = (self.body.nav.position - Vector3::from(place)).norm();
+        assert!(away < within, "{:?} is {away} m from {place:?}", self.body.nav.position);
+    }
+}
+
+fn is_stopped(vehicle: &Vehicle) -> bool {
+    vehicle.motors == MotorCommand::STOPPED
+}
+
+#[test]
+fn armed_it_idles_takes_off_holds_lands_and_stops() {
+    let config = config();
+    let mut vehicle = Vehicle::new(&config);
+    vehicle.run(0.5);
+    assert!(is_stopped(&vehicle));
+    vehicle.ask(Request::Arm { force: false });
+    vehicle.run(2.0);
+    let idle = config.modes.idle_part * config.airframe.omega_max_rad_s;
+    assert_eq!(vehicle.motors.omega_rad_s, [idle; ROTORS]);
+    vehicle.ask(Request::TakeOff { height_m: 3.0 });
+    vehicle.until(Mode::Hold, 6.0);
+    vehicle.run(3.0);
+    vehicle.assert_near([0.0, 0.0, 3.0], 0.05);
+    vehicle.ask(Request::Land);
+    vehicle.until(Mode::Idle, 12.0);
+    assert!(vehicle.told.landed && vehicle.body.nav.position.z == 0.0);
+    vehicle.run(1.1);
+    assert!(is_stopped(&vehicle) && !vehicle.told.armed);
+}
+
+#[test]
+fn it_goes_where_it_is_told_and_brakes_when_it_is_told_to_hold() {
+    let mut vehicle = Vehicle::airborne(&config());
+    vehicle.ask(Request::GoTo { position_m: [6.0, -3.0, 5.0], yaw_rad: 1.0 });
+    vehicle.run(8.0);
+    vehicle.assert_near([6.0, -3.0, 5.0], 0.05);
+    let (_, _, yaw) = vehicle.body.nav.attitude.euler_angles();
+    assert!((0.97..1.03).contains(&yaw), "{yaw}");
+    vehicle.ask(Request::GoTo { position_m: [60.0, -3.0, 5.0], yaw_rad: 1.0 });
+    vehicle.run(4.0);
+    assert!(vehicle.body.nav.velocity.x > 4.5, "{}", vehicle.body.nav.velocity);
+    vehicle.ask(Request::Hold);
+    let from = vehicle.body.nav.position;
+    vehicle.run(5.0);
+    let stopped = vehicle.body.nav.position;
+    assert!((4.0..8.0).contains(&(stopped - from).x) && vehicle.body.nav.velocity.norm() < 0.02);
+    vehicle.run(5.0);
+    vehicle.assert_near(stopped.into(), 0.02);
+}
+
+#[test]
+fn a_velocity_is_flown_and_ends_in_a_hold() {
+    let mut vehicle = Vehicle::airborne(&config());
+    for _ in 0..8 {
+        vehicle.ask(Request::Velocity { velocity_m_s: [0.0, 2.0, 0.0], yaw_rate_rad_s: 0.0 });
+        vehicle.run(0.5);
+    }
+    assert!((vehicle.body.nav.velocity - Vector3::new(0.0, 2.0, 0.0)).norm() < 0.05);
+    vehicle.until(Mode::Hold, 1.1);
+    vehicle.run(4.0);
+    assert!(vehicle.body.nav.velocity.norm() < 0.02);
+}
+
+#[test]
+fn it_returns_over_its_home_and_lands_there() {
+    let mut vehicle = Vehicle::airborne(&config());
+    vehicle.ask(Request::GoTo { position_m: [15.0, 10.0, 4.0], yaw_rad: 0.0 });
+    vehicle.run(10.0);
+    vehicle.ask(Request::Return);
+    vehicle.until(Mode::Land, 25.0);
+    vehicle.assert_near([0.0, 0.0, 10.0], 0.6);
+    vehicle.until(Mode::Disarmed, 25.0);
+    vehicle.assert_near([0.0; 3], 0.3);
+}
+
+#[test]
+fn a_trajectory_is_joined_from_anywhere_in_the_air() {
+    let config = FlightConfig {
+        trajectory: Trajectory::FigureEight {
+            center_m: [0.0, 0.0, 5.0],
+            amplitude_m: [3.0, 1.5],
+            rate_rad_s: 0.6,
+            yaw_rad: 0.0,
+        },
+        ..config()
+    };
+    let mut vehicle = Vehicle::airborne(&config);
+    vehicle.ask(Request::GoTo { position_m: [8.0, 4.0, 3.0], yaw_rad: 0.5 });
+    vehicle.run(6.0);
+    vehicle.ask(Request::Follow);
+    let mut furthest = 0.0;
+    for _ in 0..20_000 {
+        vehicle.tick();
+        let (speed, acceleration) = (vehicle.body.nav.velocity.norm(), vehicle.body.nav.attitude * Vector3::z());
+        assert!(speed < 5.5 && acceleration.z > 0.85, "no leap on the way: {speed} {acceleration}");
+        if let Some(since) = vehicle.told.flight_start()
+            && vehicle.tick > since + 6_000
+        {
+            let phase = 0.6 * (vehicle.tick - since) as f32 * TICK_S;
+            let (sine, twice) = (firmware::math::sin_cos(phase).0, firmware::math::sin_cos(2.0 * phase).0);
+            let away = vehicle.body.nav.position - Vector3::new(3.0 * sine, 1.5 * twice, 5.0);
+            furthest = firmware::math::max(furthest, away.norm());
+        }
+    }
+    assert!(vehicle.told.flight_start().is_some() && furthest < 0.05, "{furthest}");
+}
+
+#[test]
+fn from_the_ground_the_trajectory_is_what_it_always_was() {
+    let mut vehicle = Vehicle::new(&config());
+    vehicle.ask(Request::Arm { force: false });
+    vehicle.ask(Request::Follow);
+    vehicle.run(5.0);
+    assert_eq!(vehicle.told.mode, Mode::Follow);
+    vehicle.assert_near([0.0, 0.0, 2.0], 0.05);
+}
+
+#[test]
+fn a_hold_in_the_middle_of_a_trajectory_leaves_it_without_a_leap() {
+    let config = FlightConfig {
+        trajectory: Trajectory::PAPER_HELIX,
+        join: None,
+        start: Start::InFlight,
+        start_position_m: [0.0, 5.0, 2.0],
+        ..config()
+    };
+    let mut vehicle = Vehicle::new(&config);
+    vehicle.body.nav.velocity = Vector3::new(4.0, 0.0, 1.0);
+    vehicle.run(3.0);
+    vehicle.ask(Request::Hold);
+    let mut before = vehicle.reference.attitude.target.attitude;
+    for _ in 0..6_000 {
+        vehicle.tick();
+        let now = vehicle.reference.attitude.target.attitude;
+        assert!(before.angle_to(&now) < 0.06, "{} at {}", before.angle_to(&now), vehicle.tick);
+        before = now;
+    }
+    assert!(vehicle.body.nav.velocity.norm() < 0.02);
+}
+
+/// Comes down by what is known, with the rest of the motion spoilt, and how fast and far it went sideways.
+fn descend(health: NavHealth, spoil: Spoil, known: Known) -> (f32, f32, Vehicle) {
+    let mut vehicle = Vehicle::airborne(&config());
+    let from = vehicle.body.nav.position;
+    (vehicle.health, vehicle.spoil) = (health, spoil);
+    let (mut sideways, mut down) = (0.0, 0.0);
+    let end = vehicle.tick + 40_000;
+    while vehicle.tick < end && (vehicle.body.nav.position.z > 0.0) {
+        vehicle.tick();
+        if let Directive::Descend { known: told, .. } = vehicle.told.directive {
+            assert_eq!(told, known);
+        }
+        sideways = firmware::math::max(sideways, (vehicle.body.nav.position - from).xy().norm());
+        down = firmware::math::max(down, -vehicle.body.nav.velocity.z);
+    }
+    assert!(vehicle.tick < end, "{:?}", vehicle.body.nav);
+    (sideways, down, vehicle)
+}
+
+#[test]
+fn without_a_position_it_descends_where_it_is() {
+    let health = NavHealth { position: false, ..NavHealth::ALL };
+    // Once it is known to be lost, the position runs away.
+    let spoil: Spoil = |nav, t| nav.position.x += if t > 12.0 { 5.0 * (t - 12.0) } else { 0.0 };
+    let (sideways, down, mut vehicle) = descend(health, spoil, Known::Velocity);
+    assert!(sideways < 0.1 && down < 1.1, "{sideways} m, {down} m/s");
+    vehicle.until(Mode::Disarmed, 6.0);
+    assert_eq!(vehicle.events, [Event::PositionLost]);
+}
+
+#[test]
+fn without_a_velocity_it_descends_level() {
+    let health = NavHealth { position: false, velocity: false, ..NavHealth::ALL };
+    let spoil: Spoil = |nav, t| nav.velocity.y += if t > 12.0 { t - 12.0 } else { 0.0 };
+    let (sideways, down, mut vehicle) = descend(health, spoil, Known::Height);
+    assert!(sideways < 0.3 && down < 1.1, "{sideways} m, {down} m/s");
+    vehicle.until(Mode::Disarmed, 6.0);
+    assert_eq!(vehicle.events, [Event::VelocityLost]);
+}
+
+#[test]
+fn without_a_height_it_sinks_level() {
+    let health = NavHealth { height: false, ..NavHealth::ALL };
+    let spoil: Spoil = |nav, t| nav.position.z += if t > 12.0 { t - 12.0 } else { 0.0 };
+    let (sideways, down, vehicle) = descend(health, spoil, Known::Attitude);
+    assert!(sideways < 0.3 && down < 2.0, "{sideways} m, {down} m/s");
+    assert_eq!(vehicle.events, [Event::HeightLost]);
+}
+
+#[test]
+fn programs_on_board_fly_it_through_the_autopilots_door() {
+    let config = config();
+    let mut pilot = Autopilot::new(&config).expect("valid");
+    let mut body = Body { airframe: config.airframe, nav: NavState::at_rest() };
+    let mut fly = |pilot: &mut Autopilot, ticks: u32| {
+        for _ in 0..ticks {
+            let motors = pilot.tick(Some(&SensorFrame::Motion(body.nav))).motors;
+            body.step(&motors);
+        }
+        body.nav.position
+    };
+    for request in [Request::Arm { force: false }, Request::TakeOff { height_m: 2.5 }] {
+        assert_eq!(pilot.inner.request(request), Ok(()));
+    }
+    let position = fly(&mut pilot, 8_000);
+    assert!((position - Vector3::new(0.0, 0.0, 2.5)).norm() < 0.05, "{position}");
+    assert_eq!(pilot.inner.request(Request::Land), Ok(()));
+    let position = fly(&mut pilot, 12_000);
+    assert_eq!((position.z, pilot.inner.commander_output().mode), (0.0, Mode::Disarmed));
+    for _ in 0..4 {
+        assert_eq!(pilot.inner.request(Request::Land), Ok(()));
+    }
+    assert_eq!(pilot.inner.request(Request::Hold), Err(Request::Hold), "no more than four at once");
+}
