@@ -130,7 +130,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         if armed && self.outer.idle {
             self.inner.idle();
         } else {
-            self.inner.step(tick, sample, &self.outer.attitude, armed);
+            self.inner.step(tick, &self.outer.attitude, armed);
         }
         if self.inner.navigator().is_some() {
             self.inner.watch_rotors(armed, !self.commander.landed);
