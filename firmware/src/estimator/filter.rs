@@ -136,6 +136,8 @@ const HEADING_SIGMA_MAX: f32 = 0.4;
 const SPEED_SIGMA_MAX: f32 = 1.0;
 const POSITION_SIGMA_MAX: f32 = 10.0;
 const HEIGHT_SIGMA_MAX: f32 = 5.0;
+/// Part of the way in a job by which the force follows what is measured: 40 ms, some turns of the rotors.
+const FORCE_PART: f32 = 0.1;
 /// How long ago a motion capture's pose may be for an alignment, ticks.
 const POSE_FRESH: Tick = 200;
 
@@ -190,6 +192,8 @@ pub struct Filter {
     pub(super) jobs: u32,
     /// Sum of the accelerometer's samples since drag was last fused, m/s², and how many.
     pub(super) force: (Vector3<f32>, u32),
+    /// How far the specific force in the body's frame is from that at rest, smoothed, m/s².
+    force_off: Vector3<f32>,
 }
 
 /// What a job works with.
@@ -228,6 +232,7 @@ impl Filter {
             started: None,
             jobs: 0,
             force: (Vector3::zeros(), 0),
+            force_off: Vector3::zeros(),
         }
     }
 
@@ -325,7 +330,8 @@ impl Filter {
 
     fn predict(&mut self, input: &FilterInput, attitude: &UnitQuaternion<f32>) {
         let step_s = input.span.ticks as f32 * TICK_S;
-        let off = input.force - Vector3::z() * self.gravity;
+        self.force_off += (input.force - Vector3::z() * self.gravity - self.force_off) * FORCE_PART;
+        let off = &self.force_off;
         let noise = self.settings.step_noise(step_s, &(attitude * input.rates), math::sqrt(off.norm_squared()));
         let motion = covariance::Motion {
             step_s,

@@ -10,8 +10,8 @@ use crate::record::Navigation;
 
 /// States of the error that are looked at: attitude, velocity and position.
 pub const STATES: usize = 9;
-/// Between two looks at the error, s: they are far apart, because one error is much like the one a second later.
-const LOOK_EVERY_S: f64 = 5.0;
+/// Between two looks, s: far apart, because one error is much like the one a moment later.
+const LOOK_EVERY_S: f64 = 2.0;
 
 /// The normalised innovations of one kind of reading.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,7 +35,7 @@ pub struct Innovations {
 pub struct Consistency {
     /// By kind of reading.
     pub innovations: BTreeMap<&'static str, Innovations>,
-    /// Normalised estimation errors squared, one every five seconds of what is judged: of all nine states, and of
+    /// Normalised estimation errors squared, one every two seconds of what is judged: of all nine states, and of
     /// attitude, velocity and position alone.
     pub nees: Vec<[f64; 4]>,
     next_look_s: f64,
