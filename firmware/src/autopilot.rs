@@ -13,7 +13,7 @@ use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeLaw, PositionLaw};
 use crate::control::position::SlidingPosition;
-use crate::estimator::{Filter, FilterInput, FilterOutput};
+use crate::estimator::{Filter, FilterInput, FilterOutput, Nominal};
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::navigator::Navigator;
@@ -291,6 +291,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
     #[inline]
     pub fn outer_output(&self) -> &OuterOutput {
         &self.outer
+    }
+
+    /// What is believed of motion and of the IMU's biases; none on ideal state.
+    pub fn nominal(&self) -> Option<&Nominal> {
+        self.inner.navigator().map(Navigator::state)
     }
 
     /// When the filter's output came into effect.

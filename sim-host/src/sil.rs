@@ -143,6 +143,11 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         &mut self.plant
     }
 
+    /// The sensors, if it flies on any.
+    pub fn sensors(&self) -> Option<&Suite> {
+        self.sensors.as_deref()
+    }
+
     /// What an ideal accelerometer reads now, about the body's axes, m/s². Between two ticks it feels the push of the
     /// tick before.
     pub fn specific_force(&self) -> Vector3<f64> {

@@ -97,10 +97,10 @@ impl Predictor {
     }
 
     /// One tick, with the IMU's sample if a sound one has come. True if it was taken in: a sample that holds a number
-    /// which is not finite, or is no newer than the last, is as good as none.
+    /// which no sensor can read, or is no newer than the last, is as good as none.
     #[inline]
     pub fn step(&mut self, sample: Option<&ImuSample>) -> bool {
-        let fresh = sample.filter(|sample| self.is_new(sample.at) && sample.is_finite());
+        let fresh = sample.filter(|sample| self.is_new(sample.at) && sample.is_plausible());
         let (rates, force) = match fresh {
             Some(sample) => {
                 self.last = Some(sample.at);
@@ -291,6 +291,27 @@ mod tests {
         }
         assert_eq!(sound.state(), lossy.state());
         assert_eq!((lossy.take_span().samples, lossy.take_span().ticks), (25, 0));
+    }
+
+    /// Spikes of a bus rather than of a motion: what is refused leaves no trace, what is let through leaves a motion.
+    #[test]
+    fn a_sample_beyond_any_sensors_range_does_not_end_the_attitude() {
+        let still = (Vector3::zeros(), Vector3::new(0.0, 0.0, G));
+        let mut predictor = Predictor::new(Vector3::zeros(), G);
+        for (k, size) in (1..).zip([1.0_f32, 69.0, 130.0, 600.0, 1e4, 1e6, 1e20, f32::MAX, f32::INFINITY]) {
+            for (axis, accel) in [(0, false), (1, false), (2, false), (0, true), (1, true), (2, true)] {
+                let tick = k * 100 + axis as Tick * 10 + Tick::from(accel);
+                let mut spike = sample(tick, still.0, still.1);
+                let of = if accel { &mut spike.accel } else { &mut spike.gyro };
+                of[axis] = -size;
+                let range = if accel { 544.0 } else { 121.0 };
+                assert_eq!(predictor.step(Some(&spike)), size < range, "{spike:?}");
+                predictor.step(Some(&sample(tick + 5, still.0, still.1)));
+                let state = predictor.state();
+                assert!((state.attitude.norm() - 1.0).abs() < 1e-5, "{spike:?}: {state:?}");
+                assert!(state.velocity.norm() < 10.0 && state.position.norm() < 10.0, "{spike:?}: {state:?}");
+            }
+        }
     }
 
     #[test]

@@ -152,6 +152,12 @@ impl Suite {
         }
     }
 
+    /// What gyro (rad/s) and accelerometer (m/s²) read beyond what they are to measure, all but noise and rotors' shaking,
+    /// with the biases of the last sample: for tests of what is believed of them.
+    pub fn imu_error(&self, rates: &Vector3<f64>, force: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        self.imu.model.error(rates, force)
+    }
+
     /// The faults, those of rotors and battery too.
     pub fn faults(&self) -> &Faults {
         &self.faults
