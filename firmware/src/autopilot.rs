@@ -292,6 +292,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
         &self.outer
     }
 
+    /// Navigation on sensors; none on ideal state.
+    pub fn navigator(&self) -> Option<&Navigator> {
+        self.inner.navigator()
+    }
+
     /// When the filter's output came into effect.
     pub fn filtered_at(&self) -> Option<Tick> {
         self.filtered_at

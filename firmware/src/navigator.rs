@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use crate::airframe::ROTORS;
 use crate::config::FlightConfig;
 use crate::control::gyro::GyroFilter;
-use crate::estimator::{EstimatorSettings, FilterInput, Injection, Predictor, Readings};
+use crate::estimator::{EstimatorSettings, FilterInput, Injection, Nominal, Predictor, Readings};
 use crate::math;
 use crate::sensors::{BatterySample, Measurements};
 use crate::signals::NavState;
@@ -71,6 +71,11 @@ impl Navigator {
             attitude: state.attitude,
             rates: self.filtered - state.gyro_bias,
         }
+    }
+
+    /// What the predictor believes: motion and biases.
+    pub fn state(&self) -> &Nominal {
+        self.predictor.state()
     }
 
     /// f without its bias in the body's frame, m/s².

@@ -10,6 +10,7 @@ use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
 use firmware::guidance::Trajectory;
 use firmware::inner::InnerOutput;
+use firmware::navigator::Navigator;
 use firmware::outer::OuterOutput;
 use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -265,10 +266,14 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// What the vehicle believes, beside the truth.
     fn navigation(&self, t: f64) -> Navigation<'_> {
         let vehicle = &self.autopilot.inner;
+        let state = vehicle.navigator().map(Navigator::state);
         Navigation {
             t,
             truth: self.plant.motion(),
             nav: vehicle.nav(),
+            gyro_bias: state.map_or_else(Vector3::zeros, |state| state.gyro_bias),
+            accel_bias: state.map_or_else(Vector3::zeros, |state| state.accel_bias),
+            health: vehicle.nav_health(),
             filtered_at: vehicle.filtered_at(),
             filter: vehicle.filter_output(),
             covariance: self.autopilot.filter.covariance(),
