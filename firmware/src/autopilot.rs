@@ -13,7 +13,7 @@ use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeLaw, PositionLaw};
 use crate::control::position::SlidingPosition;
-use crate::estimator::{EstimatorSettings, Filter, FilterInput, FilterOutput};
+use crate::estimator::{Filter, FilterInput, FilterOutput};
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::navigator::Navigator;
@@ -56,6 +56,7 @@ impl Default for Mailboxes {
 
 /// Which partitions a tick has released.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "a set of partitions, each of them in it or not")]
 pub struct Released {
     /// The estimator's filter, in the same task as outer and before it.
     pub filter: bool,
@@ -129,7 +130,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         if armed && self.outer.idle {
             self.inner.idle();
         } else {
-            self.inner.step(tick, sample, &self.outer.attitude, armed);
+            self.inner.step(tick, &self.outer.attitude, armed);
         }
         if self.inner.navigator().is_some() {
             self.inner.watch_rotors(armed, !self.commander.landed);
@@ -410,6 +411,6 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
 fn filter(config: &FlightConfig) -> Filter {
     let airframe = &config.airframe;
     let [k, _, _] = airframe.drag_n_s_m;
-    let settings = config.estimator.unwrap_or_else(EstimatorSettings::default);
+    let settings = config.estimator.unwrap_or_default();
     Filter::new(&settings, airframe.gravity_m_s2, k / airframe.mass_kg)
 }

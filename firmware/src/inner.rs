@@ -3,12 +3,12 @@
 //! Owns the last good motion and the last motor command. Plain data in, plain data out; what it is told to
 //! follow comes from the outer partition, whether it may turn the rotors from the commander.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::Vector3;
 
 use crate::airframe::{Airframe, ROTORS};
 use crate::config::{FlightConfig, Start};
 use crate::control::attitude::SlidingAttitude;
-use crate::control::law::{AttitudeInput, AttitudeLaw, RotorEffect};
+use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, RotorEffect};
 use crate::control::mixer::Mixer;
 use crate::control::motor_out::MotorOut;
 use crate::control::rotor::{RotorModel, RotorTorque, YawInversion};
@@ -142,24 +142,12 @@ impl<A: AttitudeLaw> Inner<A> {
         self.refused_samples = self.refused_samples.saturating_add(u32::from(refused));
     }
 
-    /// One tick of control towards `reference`; rotors stopped unless `armed`. `sample` is the one that was just
-    /// [sensed](Self::sense): if it was taken in, it is used as it came, which spares the wait for its copy.
+    /// One tick of control towards `reference`, of the motion [sensed](Self::sense) last; rotors stopped unless `armed`.
     #[inline]
-    pub fn step(
-        &mut self,
-        tick: Tick,
-        sample: Option<&SensorFrame>,
-        reference: &AttitudeReference,
-        armed: bool,
-    ) -> &InnerOutput {
+    pub fn step(&mut self, tick: Tick, reference: &AttitudeReference, armed: bool) -> &InnerOutput {
         if armed {
             let age = tick.wrapping_sub(reference.valid_at).min(EXTRAPOLATED_AT_MOST);
-            let nav = match sample {
-                Some(SensorFrame::Motion(nav)) if self.stale_ticks == 0 => nav,
-                _ => &self.nav,
-            };
-            let (attitude, rates) = (nav.attitude, nav.rates);
-            self.control(&attitude, &rates, reference, age as f32 * TICK_S);
+            self.control(reference, age as f32 * TICK_S);
         } else {
             self.law.reset();
             self.follow(&MotorCommand::STOPPED);
@@ -179,24 +167,18 @@ impl<A: AttitudeLaw> Inner<A> {
 
     /// One tick of control, `dt` seconds after the reference holds.
     #[inline]
-    fn control(
-        &mut self,
-        attitude: &UnitQuaternion<f32>,
-        rates: &Vector3<f32>,
-        reference: &AttitudeReference,
-        dt: f32,
-    ) {
-        let input = AttitudeInput {
-            attitude,
-            rates,
-            target: &reference.target_after(dt),
-            rotor_speeds: self.rotors.omega_rad_s(),
-            rotors: &self.effect,
-            saturated: self.output.saturated,
-        };
-        let wanted = match &mut self.motor_out {
-            None => self.law.step(&input),
-            Some(law) => law.step(&input),
+    fn control(&mut self, reference: &AttitudeReference, dt: f32) {
+        let wanted = if self.motor_out.is_none() {
+            self.law.step(&AttitudeInput {
+                attitude: &self.nav.attitude,
+                rates: &self.nav.rates,
+                target: &reference.target_after(dt),
+                rotor_speeds: self.rotors.omega_rad_s(),
+                rotors: &self.effect,
+                saturated: self.output.saturated,
+            })
+        } else {
+            self.wanted_without_rotor(reference, dt)
         };
         let demand = ControlInput {
             // Below zero it is for the mixer to limit.
@@ -220,6 +202,21 @@ impl<A: AttitudeLaw> Inner<A> {
             saturated: allocation.saturated,
         };
         self.effect = self.believed.after(&self.effect, self.rotors.omega_rad_s());
+    }
+
+    /// By the law that flies once a rotor has failed; apart, so that what the sound vehicle's needs stays in registers.
+    #[cold]
+    #[inline(never)]
+    fn wanted_without_rotor(&mut self, reference: &AttitudeReference, dt: f32) -> AttitudeDemand {
+        let Some(law) = &mut self.motor_out else { return AttitudeDemand::default() };
+        law.step(&AttitudeInput {
+            attitude: &self.nav.attitude,
+            rates: &self.nav.rates,
+            target: &reference.target_after(dt),
+            rotor_speeds: self.rotors.omega_rad_s(),
+            rotors: &self.effect,
+            saturated: self.output.saturated,
+        })
     }
 
     /// A tick of looking for a rotor that has failed. Of one that has, nothing is asked any more; armed anew, all are

@@ -1,4 +1,4 @@
-//! Nothing but the top of the schedule, to look at: if anything in a tick could panic, the linked image would hold
+//! Nothing but the top of the schedule, flying on sensors, to look at: if anything in a tick could panic, the linked image would hold
 //! functions of `core::panicking`. It is never run.
 
 #![cfg_attr(all(target_arch = "arm", target_os = "none"), no_std, no_main)]
@@ -9,16 +9,21 @@ mod image {
 
     use firmware::autopilot::Autopilot;
     use firmware::config::FlightConfig;
+    use firmware::estimator::EstimatorSettings;
+    use firmware::sensors::Measurements;
     use firmware::signals::{NavState, SensorFrame};
 
     #[cortex_m_rt::entry]
     fn main() -> ! {
-        let Ok(Autopilot { mut inner, mut mail, .. }) = Autopilot::new(&black_box(FlightConfig::default())) else {
-            end()
-        };
-        let mut sample = Some(SensorFrame::Motion(NavState::at_rest()));
+        let config = FlightConfig { estimator: Some(EstimatorSettings::default()), ..FlightConfig::default() };
+        let Ok(Autopilot { mut inner, mut mail, .. }) = Autopilot::new(&black_box(config)) else { end() };
+        let motion = SensorFrame::Motion(NavState::at_rest());
+        let measured = SensorFrame::Measured(Measurements::default());
         loop {
-            black_box(inner.tick(black_box(&mut mail), black_box(&mut sample).as_ref()));
+            // On ideal state, on sensors, and with none of either.
+            for sample in [Some(&motion), Some(&measured), None] {
+                black_box(inner.tick(black_box(&mut mail), black_box(sample)));
+            }
         }
     }
 

@@ -44,6 +44,20 @@ marks! {
     mark_begin_mixer
     /// The mixer at a limit.
     mark_begin_mixer_saturated
+    /// The nominal state's prediction.
+    mark_begin_prediction
+    /// Notches and low-pass ahead of the controller.
+    mark_begin_gyro_filter
+    /// The covariance's prediction.
+    mark_begin_covariance
+    /// A correction by three numbers.
+    mark_begin_correction_3
+    /// A correction by one number.
+    mark_begin_correction_1
+    /// A job of the estimator's filter without a fix of the satellites.
+    mark_begin_filter
+    /// A job with one.
+    mark_begin_filter_gnss
     /// The end of any section.
     mark_end
 }

@@ -116,7 +116,6 @@ impl Default for GyroFilter {
 }
 
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 mod tests {
     use super::*;
 

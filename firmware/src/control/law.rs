@@ -39,7 +39,7 @@ pub struct AttitudeInput<'a> {
 }
 
 /// Sliding variables (zero for a law that has none) and the torque wanted.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AttitudeDemand {
     /// s1, s2, s3, rad/s.
     pub s: Vector3<f32>,

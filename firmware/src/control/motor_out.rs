@@ -69,6 +69,7 @@ impl MotorOut {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 mod tests {
     use super::*;
     use crate::control::rotor::RotorTorque;

@@ -252,34 +252,35 @@ impl Covariance {
         add(M, noise.magnetic_wind);
     }
 
-    /// P Hᵀ.
-    #[inline]
-    pub fn times(&self, row: &Row) -> ErrorState {
-        let mut product = [Vector3::zeros(); BLOCKS];
-        for (to, block) in product.iter_mut().zip(&self.blocks[T]) {
-            *to = block.tr_mul(&row.theta);
+    /// P Hᵀ, into `product`: its 84 bytes are dear to hand about.
+    pub fn times(&self, row: &Row, product: &mut ErrorState) {
+        let (parts, _) = product.as_mut_slice().as_chunks_mut::<3>();
+        let [x, y, z] = row.theta.into();
+        for (to, block) in parts.iter_mut().zip(&self.blocks[T]) {
+            let columns: &[[f32; 3]; 3] = block.as_ref();
+            *to = columns.map(|[a, b, c]| a * x + b * y + c * z);
         }
-        // On the diagonal either half will do: it is symmetric.
         for (state, factor) in row.entries {
             if factor != 0.0 {
-                self.add_column(state, factor, &mut product);
+                self.add_column(state, factor, parts);
             }
         }
-        ErrorState::from_iterator(product.iter().flat_map(|v| v.iter().copied()))
     }
 
-    /// Adds a column's multiple.
+    /// Adds a column's multiple: down to the diagonal the column itself, beyond it the row of the same number.
     #[inline]
-    fn add_column(&self, state: usize, factor: f32, product: &mut [Vector3<f32>; BLOCKS]) {
+    fn add_column(&self, state: usize, factor: f32, product: &mut [[f32; 3]]) {
         let (block, axis) = (state / 3, state % 3);
-        for (i, (to, row)) in product.iter_mut().zip(&self.blocks).enumerate() {
-            if i <= block {
-                if let Some(b) = row.get(block) {
-                    *to += b.column(axis) * factor;
-                }
-            } else if let Some(b) = self.blocks.get(block).and_then(|row| row.get(i)) {
-                *to += b.row(axis).transpose() * factor;
-            }
+        let Some((above, beyond)) = product.split_at_mut_checked(block) else { return };
+        for (to, row) in above.iter_mut().zip(&self.blocks) {
+            let columns: &[[f32; 3]; 3] = row[block].as_ref();
+            let column = &columns[axis];
+            *to = core::array::from_fn(|i| to[i] + column[i] * factor);
+        }
+        let row = self.blocks.get(block).map_or(&[][..], |row| row.get(block..).unwrap_or_default());
+        for (to, b) in beyond.iter_mut().zip(row) {
+            let columns: &[[f32; 3]; 3] = b.as_ref();
+            *to = core::array::from_fn(|i| to[i] + columns[i][axis] * factor);
         }
     }
 
@@ -290,51 +291,84 @@ impl Covariance {
     /// P ← (I − K H) P (I − K H)ᵀ + K R Kᵀ = P − K uᵀ − u Kᵀ,      u = c − s K/2
     /// ```
     ///
-    /// symmetric by construction, and to second order indifferent to the gain's rounding. Variances are then kept above
-    /// [`floor`](Self::floor), so that a state known too well in f32 stays positive.
-    #[inline]
-    pub fn correct<const N: usize>(&mut self, gains: &[ErrorState; N], c: &[ErrorState; N], s: &[f32; N]) {
-        let k: [_; N] = core::array::from_fn(|n| split(&gains[n]));
-        let u: [_; N] = core::array::from_fn(|n| split(&(c[n] - gains[n] * (0.5 * s[n]))));
-        for i in 0..BLOCKS {
-            for j in i..BLOCKS {
-                let b = &mut self.blocks[i][j];
-                for n in 0..N {
-                    *b -= k[n][i] * u[n][j].transpose() + u[n][i] * k[n][j].transpose();
-                }
+    /// to second order indifferent to the gain's rounding. The diagonal is then [settled](Self::settle).
+    pub fn correct<const N: usize>(&mut self, c: &[ErrorState; N], s: &[f32; N]) {
+        let mut parts = [Part::<N>::ZERO; BLOCKS];
+        for (n, (c, s)) in c.iter().zip(s).enumerate() {
+            for (part, c) in parts.iter_mut().zip(threes(c)) {
+                part.set(n, c, *s);
             }
         }
-        self.floor();
+        for (i, (row, one)) in self.blocks.iter_mut().zip(&parts).enumerate() {
+            for (block, other) in row.iter_mut().skip(i).zip(parts.iter().skip(i)) {
+                one.take_off(other, block);
+            }
+        }
+        self.settle();
     }
 
-    /// No state is known better than this; a variance that is not a number is brought up to it too.
+    /// Makes the diagonal's blocks symmetric again, which rounding may have made a little less so, and its variances not
+    /// less than what no state is known better than, in f32; one that is not a number is brought up to that too.
     #[inline]
-    fn floor(&mut self) {
+    fn settle(&mut self) {
         /// (1e-5 rad)², (1e-4 m/s)², (1e-4 m)², (1e-6 rad/s)², (1e-5 m/s²)², (1e-4 m)², (1e-5 rad or m/s)².
         const LEAST: [f32; BLOCKS] = [1e-10, 1e-8, 1e-8, 1e-12, 1e-10, 1e-10, 1e-10];
         for (i, (row, least)) in self.blocks.iter_mut().zip(LEAST).enumerate() {
-            if let Some(b) = row.get_mut(i) {
-                for axis in 0..3 {
-                    let variance = &mut b[(axis, axis)];
-                    if !(*variance >= least) {
-                        *variance = least;
-                    }
-                }
-            }
+            let Some(b) = row.get_mut(i) else { return };
+            let at_least = |variance: f32| if variance >= least { variance } else { least };
+            (b.m11, b.m22, b.m33) = (at_least(b.m11), at_least(b.m22), at_least(b.m33));
+            (b.m21, b.m31, b.m32) = (b.m12, b.m13, b.m23);
         }
     }
 }
 
-/// By blocks.
+/// By blocks. (An iterator of nalgebra's looks for the end of a column at every number.)
 #[inline]
-fn split(x: &ErrorState) -> [Vector3<f32>; BLOCKS] {
-    let mut parts = [Vector3::zeros(); BLOCKS];
-    for (part, three) in parts.iter_mut().zip(x.as_slice().chunks_exact(3)) {
-        part.copy_from_slice(three);
+fn threes(x: &ErrorState) -> &[[f32; 3]] {
+    x.as_slice().as_chunks().0
+}
+
+/// x ← x + a y.
+#[inline]
+pub(super) fn add_multiple(x: &mut ErrorState, a: f32, y: &ErrorState) {
+    for (x, y) in x.as_mut_slice().iter_mut().zip(y.as_slice()) {
+        *x += a * y;
     }
-    parts
+}
+
+/// Three states' part of what a correction takes off: K and u of each number.
+#[derive(Clone, Copy)]
+struct Part<const N: usize> {
+    k: [[f32; 3]; N],
+    u: [[f32; 3]; N],
+}
+
+impl<const N: usize> Part<N> {
+    const ZERO: Self = Self { k: [[0.0; 3]; N], u: [[0.0; 3]; N] };
+
+    /// Of the number `n`, by c and s.
+    #[inline]
+    fn set(&mut self, n: usize, c: &[f32; 3], s: f32) {
+        let k = c.map(|c| c * (1.0 / s));
+        self.k[n] = k;
+        self.u[n] = core::array::from_fn(|axis| c[axis] - k[axis] * (0.5 * s));
+    }
+
+    /// K uᵀ + u Kᵀ, rows from here and columns from there.
+    #[inline]
+    fn take_off(&self, other: &Self, block: &mut Matrix3<f32>) {
+        let columns: &mut [[f32; 3]; 3] = block.as_mut();
+        for (column, numbers) in columns.iter_mut().enumerate() {
+            *numbers = core::array::from_fn(|axis| {
+                (0..N).fold(numbers[axis], |rest, n| {
+                    rest - self.k[n][axis] * other.u[n][column] - self.u[n][axis] * other.k[n][column]
+                })
+            });
+        }
+    }
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 #[path = "covariance/tests.rs"]
 mod tests;

@@ -154,6 +154,7 @@ fn between(before: &Snapshot, after: &Snapshot, tick: Tick) -> (Snapshot, f32) {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 mod tests {
     use super::*;
 

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! [`predictor`] owns the nominal state, and integrates it. [`filter`] owns the [`covariance`] and the [`history`] of
-//! the last quarter of a second, in which a late reading is fused at its own time ([`models`]); what it finds goes back
+//! the last quarter of a second, in which a late reading is fused at its own time (`fusion`, by [`models`]); what it finds goes back
 //! as a correction. [`align`] is how it begins, [`update`] the gate and the correction, [`watch`] what is made of a
 //! sensor that goes wrong, [`settings`] what it is told of the sensors. Local frame: the world's axes, through the place
 //! where the vehicle was aligned.
@@ -19,6 +19,7 @@
 pub mod align;
 pub mod covariance;
 pub mod filter;
+mod fusion;
 pub mod history;
 pub mod models;
 pub mod predictor;

@@ -24,7 +24,7 @@ pub struct Age {
     /// Corrections since, as an error state.
     pub since: ErrorState,
     /// d, s.
-    age_s: f32,
+    old_s: f32,
     /// S1, m/s.
     first: Vector3<f32>,
     /// d S1 − S2, m.
@@ -35,12 +35,12 @@ impl Age {
     /// Of a reading's past, seen from the newest snapshot.
     pub fn new(past: &Past, now: &Snapshot, gravity: f32) -> Self {
         let Past { snapshot: then, since } = past;
-        let age_s = now.at.wrapping_sub(then.at) as f32 * TICK_S;
+        let old_s = now.at.wrapping_sub(then.at) as f32 * TICK_S;
         let mut first = now.velocity - then.velocity - since.velocity;
-        let mut second = now.position - then.position - since.position - then.velocity * age_s;
-        first.z += gravity * age_s;
-        second.z += 0.5 * gravity * age_s * age_s;
-        Self { then: *then, since: error_of(since), age_s, first, lever: first * age_s - second }
+        let mut second = now.position - then.position - since.position - then.velocity * old_s;
+        first.z += gravity * old_s;
+        second.z += 0.5 * gravity * old_s * old_s;
+        Self { then: *then, since: error_of(since), old_s, first, lever: first * old_s - second }
     }
 
     /// Row of the velocity along an axis (0 to 2).
@@ -50,7 +50,7 @@ impl Age {
 
     /// Row of the position along an axis, read with `offset` of another state in it.
     pub fn position(&self, axis: usize, offset: (usize, f32)) -> Row {
-        let entries = [(index::POSITION + axis, 1.0), (index::VELOCITY + axis, -self.age_s), offset];
+        let entries = [(index::POSITION + axis, 1.0), (index::VELOCITY + axis, -self.old_s), offset];
         Row { theta: -across(axis, &self.lever), entries }
     }
 }
@@ -117,10 +117,10 @@ pub struct HeadingReading {
 impl MagneticNorth {
     /// Of a field in the world, µT; none if it has no horizontal part by which to tell north.
     pub fn new(field_ut: Vector3<f32>) -> Option<Self> {
-        /// Within some 5° of a pole; also refuses what is no number.
+        /// Within some 5° of a pole.
         const LEAST_UT: f32 = 4.0;
         let horizontal_ut = math::sqrt(field_ut.x * field_ut.x + field_ut.y * field_ut.y);
-        if !(horizontal_ut > LEAST_UT) {
+        if horizontal_ut < LEAST_UT || !math::all_finite(field_ut.as_slice()) {
             return None;
         }
         let north = Vector3::new(field_ut.x, field_ut.y, 0.0) / horizontal_ut;
@@ -171,6 +171,7 @@ pub fn pressure_height(pressure_pa: f32) -> f32 {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 mod tests {
     use super::*;
 

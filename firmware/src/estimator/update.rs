@@ -1,6 +1,6 @@
 //! A measurement of one to three numbers: innovation, gate, correction.
 
-use super::covariance::{Covariance, ErrorState, Row};
+use super::covariance::{Covariance, ErrorState, Row, add_multiple};
 
 /// A measurement made linear about what is believed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,9 +38,11 @@ impl<const N: usize> Measurement<N> {
     /// The numbers are taken one after the other, each with what is left of the innovation and of P Hᵀ by those before:
     /// the sum of their squares over s is yᵀ S⁻¹ y, without an inverse, and known before the covariance is touched.
     pub fn apply(&self, covariance: &mut Covariance, error: &mut ErrorState, gate: f32) -> Verdict {
-        let mut c = self.rows.map(|row| covariance.times(&row));
+        let mut c = [ErrorState::zeros(); N];
+        for (c, row) in c.iter_mut().zip(&self.rows) {
+            covariance.times(row, c);
+        }
         let mut innovation: [f32; N] = core::array::from_fn(|n| self.innovation[n] - self.rows[n].dot(error));
-        let mut gains = [ErrorState::zeros(); N];
         let mut sums = [0.0; N];
         let mut nis = 0.0;
         for n in 0..N {
@@ -49,21 +51,22 @@ impl<const N: usize> Measurement<N> {
             if !(s > 0.0) {
                 return Verdict { nis: f32::INFINITY, accepted: false };
             }
-            let gain = c[n] / s;
-            nis += innovation[n] * innovation[n] / s;
-            for later in n + 1..N {
-                let shared = self.rows[later].dot(&c[n]);
-                c[later] -= gain * shared;
-                innovation[later] -= innovation[n] * shared / s;
+            sums[n] = s;
+            let y = innovation[n];
+            nis += y * y / s;
+            let (done, later) = c.split_at_mut(n + 1);
+            for ((c, row), innovation) in later.iter_mut().zip(&self.rows[n + 1..]).zip(&mut innovation[n + 1..]) {
+                let shared = row.dot(&done[n]) / s;
+                add_multiple(c, -shared, &done[n]);
+                *innovation -= y * shared;
             }
-            (gains[n], sums[n]) = (gain, s);
         }
         let accepted = nis <= gate;
         if accepted {
-            for n in 0..N {
-                *error += gains[n] * innovation[n];
+            for ((c, y), s) in c.iter().zip(innovation).zip(sums) {
+                add_multiple(error, y / s, c);
             }
-            covariance.correct(&gains, &c, &sums);
+            covariance.correct(&c, &sums);
         }
         Verdict { nis, accepted }
     }

@@ -14,7 +14,7 @@ pub const STATES: usize = 9;
 const LOOK_EVERY_S: f64 = 5.0;
 
 /// The normalised innovations of one kind of reading.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Innovations {
     /// Readings.
     pub count: u64,
@@ -24,6 +24,10 @@ pub struct Innovations {
     pub within: u64,
     /// How many were refused.
     pub refused: u64,
+    /// Of the first reading after each look.
+    pub looks: Vec<f64>,
+    /// Looks until now that have been given a reading, or passed without one.
+    seen: usize,
 }
 
 /// What a flight has shown.
@@ -35,6 +39,7 @@ pub struct Consistency {
     /// attitude, velocity and position alone.
     pub nees: Vec<[f64; 4]>,
     next_look_s: f64,
+    looks: usize,
     last_tick: Option<u32>,
 }
 
@@ -78,6 +83,11 @@ pub fn quantile(degrees: u32) -> f64 {
 impl Consistency {
     /// One tick's readings, and now and then the error: `attitude` is that of the attitude in the world, rad.
     pub fn take(&mut self, navigation: &Navigation, attitude: &Vector3<f64>) {
+        if navigation.t >= self.next_look_s {
+            self.next_look_s = navigation.t + LOOK_EVERY_S;
+            self.looks += 1;
+            self.nees.extend(nees(navigation, attitude));
+        }
         if self.last_tick != navigation.filtered_at {
             self.last_tick = navigation.filtered_at;
             for reading in &navigation.filter.consistency {
@@ -90,11 +100,11 @@ impl Consistency {
                 if reading.verdict.accepted {
                     all.sum += nis;
                 }
+                if all.seen < self.looks {
+                    all.seen = self.looks;
+                    all.looks.push(nis);
+                }
             }
-        }
-        if navigation.t >= self.next_look_s {
-            self.next_look_s = navigation.t + LOOK_EVERY_S;
-            self.nees.extend(nees(navigation, attitude));
         }
     }
 }

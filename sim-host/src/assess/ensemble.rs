@@ -57,6 +57,8 @@ pub struct Nis {
     pub within_95: f64,
     /// Part refused.
     pub refused: f64,
+    /// Part of the looks at which the mean over the flights is within the band that holds it with 95 % probability.
+    pub within_band: f64,
 }
 
 /// How the errors agree with what was believed of them.
@@ -91,6 +93,8 @@ pub struct Report {
     pub nees: Option<Nees>,
     /// What was expected.
     pub verdicts: Vec<Verdict>,
+    /// Whether the errors and innovations are within their bands as often as expected; none if nothing is.
+    pub consistent: Option<bool>,
 }
 
 /// A percentile of sorted values by nearest rank; none without any.
@@ -137,12 +141,20 @@ fn report(scenario: &str, seeds: Seeds, assess: &Assess, flights: &[Measures]) -
         });
         Verdict { expected: *expected, found, met }
     };
+    let (nis, nees) = (nis(flights), nees(flights));
+    let consistent = assess.consistent.map(|least| {
+        let errors = nees.as_ref().is_some_and(|nees| nees.within_band >= least);
+        // Standing and drag are no readings of a sensor: how still the ground is and how the wind turns nobody says.
+        let sensors = || nis.iter().filter(|nis| !matches!(nis.reading.as_str(), "rest" | "drag"));
+        errors && sensors().all(|nis| nis.within_band >= least)
+    });
     Report {
+        consistent,
         scenario: scenario.to_owned(),
         seeds,
         rows: Measure::ALL.iter().filter_map(|measure| row(flights, *measure)).collect(),
-        nis: nis(flights),
-        nees: nees(flights),
+        nis,
+        nees,
         verdicts: assess.expect.iter().map(verdict).collect(),
     }
 }
@@ -171,18 +183,17 @@ fn nis(flights: &[Measures]) -> Vec<Nis> {
         sum.within += one.within;
         sum.refused += one.refused;
     }
-    let degrees = |name: &str| match name {
-        "heading" | "baro" | "gnss-height" => 1.0,
-        "gnss-position" | "drag" => 2.0,
-        _ => 3.0,
-    };
     let one = |(name, all): (&str, Innovations)| {
         let accepted = (all.count - all.refused).max(1) as f64;
         let count = all.count.max(1) as f64;
+        let looks =
+            |flight: &Measures| flight.consistency.innovations.get(name).map(|i| i.looks.clone()).unwrap_or_default();
+        let looks: Vec<Vec<f64>> = flights.iter().map(looks).collect();
         Nis {
             reading: name.to_owned(),
             count: all.count,
             mean: all.sum / accepted / degrees(name),
+            within_band: within_band(&looks, degrees(name)).map_or(0.0, |(_, within)| within),
             within_95: all.within as f64 / count,
             refused: all.refused as f64 / count,
         }
@@ -196,34 +207,56 @@ fn chi_square(degrees: f64, normal: f64) -> f64 {
     degrees * (1.0 - spread + normal * spread.sqrt()).powi(3)
 }
 
-fn nees(flights: &[Measures]) -> Option<Nees> {
+/// Degrees of freedom of a kind of reading.
+fn degrees(name: &str) -> f64 {
+    match name {
+        "heading" | "baro" | "gnss-height" => 1.0,
+        "gnss-position" | "drag" => 2.0,
+        _ => 3.0,
+    }
+}
+
+/// Band that holds a mean over so many flights of χ²/degrees with 95 % probability.
+fn band(flights: usize, degrees: f64) -> (f64, f64) {
     /// 97.5 % quantile of the normal distribution.
     const TWO_SIDED: f64 = 1.96;
+    let all = flights as f64 * degrees;
+    (chi_square(all, -TWO_SIDED) / all, chi_square(all, TWO_SIDED) / all)
+}
+
+/// Means over the flights at each look that all have, over the degrees of freedom, and the part of them within the band.
+fn within_band(looks: &[Vec<f64>], degrees: f64) -> Option<(Vec<f64>, f64)> {
+    let count = looks.iter().map(Vec::len).min().filter(|count| *count > 0)?;
+    let at = |look: usize| looks.iter().map(|flight| flight[look]).sum::<f64>() / looks.len() as f64 / degrees;
+    let means: Vec<f64> = (0..count).map(at).collect();
+    let (low, high) = band(looks.len(), degrees);
+    let within = means.iter().filter(|mean| (low..=high).contains(*mean)).count();
+    Some((means, within as f64 / count as f64))
+}
+
+fn nees(flights: &[Measures]) -> Option<Nees> {
     /// 95 % quantile of χ² with nine degrees of freedom.
     const QUANTILE: f64 = 16.919;
-    let looks = flights.iter().map(|flight| flight.consistency.nees.len()).min()?;
-    let (count, states) = (flights.len() as f64, STATES as f64);
-    let at = |look: usize| flights.iter().map(|flight| flight.consistency.nees[look][0]).sum::<f64>() / count / states;
-    let means: Vec<f64> = (0..looks).map(at).collect();
-    let limit = |normal: f64| chi_square(count * states, normal) / (count * states);
-    let band = (limit(-TWO_SIDED), limit(TWO_SIDED));
-    let within = means.iter().filter(|mean| (band.0..=band.1).contains(*mean)).count();
+    let errors: Vec<Vec<f64>> =
+        flights.iter().map(|flight| flight.consistency.nees.iter().map(|nees| nees[0]).collect()).collect();
+    let (means, within_band) = within_band(&errors, STATES as f64)?;
+    let looks = means.len();
     let all = || flights.iter().flat_map(|flight| &flight.consistency.nees[..looks]);
-    let below = all().filter(|nees| nees[0] <= QUANTILE).count();
-    (looks > 0).then(|| Nees {
+    let count = (looks * flights.len()) as f64;
+    Some(Nees {
         looks,
         mean: means.iter().sum::<f64>() / looks as f64,
-        band,
-        within_band: within as f64 / looks as f64,
-        within_95: below as f64 / (looks as f64 * count),
-        parts: [1, 2, 3].map(|part| all().map(|nees| nees[part]).sum::<f64>() / (3.0 * looks as f64 * count)),
+        band: band(flights.len(), STATES as f64),
+        within_band,
+        within_95: all().filter(|nees| nees[0] <= QUANTILE).count() as f64 / count,
+        parts: [1, 2, 3].map(|part| all().map(|nees| nees[part]).sum::<f64>() / (3.0 * count)),
     })
 }
 
 impl Report {
     /// Whether everything is as expected.
     pub fn is_met(&self) -> bool {
-        self.verdicts.iter().all(|verdict| verdict.met)
+        self.verdicts.iter().all(|verdict| verdict.met) && self.consistent != Some(false)
     }
 
     /// As a text for the terminal.
@@ -245,8 +278,11 @@ impl Report {
             "innovations", "count", "mean/dof", "within 95", "refused"
         );
         for nis in &self.nis {
-            let Nis { reading, count, mean, within_95, refused } = nis;
-            let _ = writeln!(text, "{reading:26} {count:>8} {mean:>10.3} {within_95:>10.3} {refused:>10.4}");
+            let Nis { reading, count, mean, within_95, refused, within_band } = nis;
+            let _ = writeln!(
+                text,
+                "{reading:26} {count:>8} {mean:>10.3} {within_95:>10.3} {within_band:>10.3} {refused:>10.4}"
+            );
         }
         if let Some(nees) = &self.nees {
             let Nees { mean, band: (low, high), within_band, within_95, parts: [a, v, p], .. } = nees;
@@ -254,6 +290,10 @@ impl Report {
                 text,
                 "\nerrors (attitude, velocity, position): mean/dof {mean:.3}, band {low:.3} to {high:.3} held {within_band:.2} of the time, within 95 %: {within_95:.3}; apart {a:.3} {v:.3} {p:.3}"
             );
+        }
+        if let Some(met) = self.consistent {
+            let _ =
+                writeln!(text, "errors and innovations within their bands: {}", if met { "met" } else { "NOT MET" });
         }
         for verdict in &self.verdicts {
             let Verdict { expected, found, met } = verdict;

@@ -35,6 +35,9 @@ pub struct Assess {
     pub to_s: Option<f64>,
     /// Where the vehicle ought to be, m; what guidance asks for at the time without it.
     pub hold_m: Option<[f64; 3]>,
+    /// Least part of the looks, one every five seconds, at which errors, and innovations of each kind of reading, are to be
+    /// within the band that holds their mean over the seeds with 95 % probability.
+    pub consistent: Option<f64>,
     /// What is expected.
     #[serde(default)]
     pub expect: Vec<Expectation>,

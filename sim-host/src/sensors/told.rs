@@ -5,8 +5,6 @@ use firmware::estimator::EstimatorSettings;
 use super::imu::Triad;
 use super::{Home, SuiteFile};
 
-/// Pressure to height near the ground, m/Pa: 1/(ρ g) at 1.2 kg/m³.
-const M_PER_PA: f64 = 0.085;
 /// Current of a vehicle of 2 kg in hover, A.
 const HOVER_A: f64 = 20.0;
 /// What rotors' vibration leaves in the accelerometer's integral, m/s²/√Hz.
@@ -28,10 +26,11 @@ impl SuiteFile {
             settings.heading_offset = (left / horizontal).max(1e-3) as f32;
         }
         if let Some(baro) = &self.baro {
-            settings.baro_noise_m = rounded(baro.noise_pa * M_PER_PA, baro.resolution_pa * M_PER_PA);
+            let m_per_pa = 1.0 / (home.pressure(-0.5) - home.pressure(0.5));
+            settings.baro_noise_m = rounded(baro.noise_pa * m_per_pa, baro.resolution_pa * m_per_pa);
             let wander = baro.drift_pa * (2.0 / baro.drift_time_s).sqrt();
             let warming = baro.offset_pa_k * baro.warm_up.rise_k / baro.warm_up.time_s.sqrt();
-            settings.baro_walk = (libm::hypot(wander, warming) * M_PER_PA) as f32;
+            settings.baro_walk = (libm::hypot(wander, warming) * m_per_pa) as f32;
         }
         if let Some(gnss) = &self.gnss {
             settings.gnss_noise_m = [rounded(gnss.horizontal_noise_m, 0.011), gnss.vertical_noise_m as f32];

@@ -15,35 +15,20 @@ use firmware::guidance::{Guidance, JoinPlan, Trajectory};
 use firmware::inner::Inner;
 use firmware::math;
 use firmware::outer::{Outer, OuterInput};
-use firmware::schedule::OUTER;
+use firmware::schedule::{FILTER, OUTER};
 use firmware::signals::{AttitudeReference, NavState, SensorFrame, Tick};
 use firmware::validate::ConfigError;
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::navigation::{Navigation, NavigationCounts};
 use crate::plant::Plant;
+use crate::sensors::Sensors;
+use crate::tally::Tally;
 
 /// 4 s to join the eight, and two and a half rounds of it.
 const TICKS: Tick = 20_000;
-
-/// Calls of a section, and their instructions.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Tally {
-    pub(crate) calls: u32,
-    pub(crate) max: u32,
-    sum: u64,
-}
-
-impl Tally {
-    fn add(&mut self, instructions: u32) {
-        self.calls += 1;
-        self.max = self.max.max(instructions);
-        self.sum += u64::from(instructions);
-    }
-
-    pub(crate) fn mean(&self) -> f32 {
-        self.sum as f32 / self.calls as f32
-    }
-}
+/// Before it, for the estimator to find out where north is.
+const STANDING: Tick = 1_200;
 
 /// What a flight has taken.
 #[derive(Default)]
@@ -54,8 +39,11 @@ pub(crate) struct Counts {
     pub(crate) guidance: Tally,
     pub(crate) mixer: Tally,
     pub(crate) mixer_saturated: Tally,
+    pub(crate) navigation: NavigationCounts,
     /// Distance from the reference at the end, m: the flight must have been one.
     pub(crate) final_error_m: f32,
+    /// Distance of the estimate from the truth there, m: and this one an estimate.
+    pub(crate) estimate_error_m: f32,
 }
 
 /// A vehicle of 2 kg with 0.25 m arms in X layout, after PX4's x500 in Gazebo.
@@ -130,6 +118,8 @@ pub(crate) struct Flight {
     counter: Counter,
     counts: Counts,
     plant: Plant,
+    sensors: Sensors,
+    navigation: Navigation,
     inner: Inner,
     outer: Outer,
     guidance: Guidance,
@@ -156,6 +146,8 @@ impl Flight {
             inner: Inner::new(&config, SlidingAttitude::new(&config.airframe, &config.attitude))?,
             outer: Outer::new(&config, SlidingPosition::new(airframe, &config.position))?,
             guidance: Guidance::new(config.trajectory, config.join.as_ref(), config.start_position())?,
+            navigation: Navigation::new(counter, &config, &plant.nav),
+            sensors: Sensors::new(),
             mixer: Mixer::new(&airframe.geometry.rows(), airframe.omega_max_rad_s)
                 .map_err(|_| ConfigError::SingularGeometry)?,
             plant,
@@ -166,6 +158,9 @@ impl Flight {
 
     /// The whole flight.
     pub(crate) fn fly(mut self) -> Counts {
+        for tick in 0..STANDING {
+            self.navigate(tick, true);
+        }
         for tick in 0..TICKS {
             if tick % OUTER.period == OUTER.offset {
                 self.reference = self.next;
@@ -173,12 +168,27 @@ impl Flight {
             if tick % OUTER.period == 0 {
                 self.outer_job(tick);
             }
+            self.navigate(STANDING + tick, false);
             self.inner_step(tick);
             self.plant.step(&self.inner.output().motors);
         }
         let end = self.guidance.at(TICKS).position;
         self.counts.final_error_m = math::sqrt((self.plant.nav.position - end).norm_squared());
+        self.counts.estimate_error_m = self.navigation.error_m(&self.plant.nav);
+        self.counts.navigation = self.navigation.counts;
         self.counts
+    }
+
+    /// The estimator flies along; what it finds is not flown by.
+    fn navigate(&mut self, tick: Tick, at_rest: bool) {
+        let measured = self.sensors.measure(tick, &self.plant.nav, &self.plant.specific_force);
+        if tick % FILTER.period == FILTER.offset {
+            self.navigation.publish();
+        }
+        self.navigation.step(&measured, self.plant.omega_rad_s());
+        if tick % FILTER.period == 0 {
+            self.navigation.job(tick, at_rest);
+        }
     }
 
     /// Guidance, position control and flatness.
@@ -205,10 +215,10 @@ impl Flight {
     fn inner_step(&mut self, tick: Tick) {
         let sample = SensorFrame::Motion(self.plant.nav);
         self.inner.sense(Some(&sample));
-        let (inner, sample, reference) = black_box((&mut self.inner, &sample, &self.reference));
+        let (inner, reference) = black_box((&mut self.inner, &self.reference));
         let armed = black_box(true);
         let (instructions, output) =
-            self.counter.count(counter::mark_begin_attitude, || inner.step(tick, Some(sample), reference, armed));
+            self.counter.count(counter::mark_begin_attitude, || inner.step(tick, reference, armed));
         self.counts.attitude.add(instructions);
         if !output.saturated {
             self.counts.attitude_within_limits.add(instructions);

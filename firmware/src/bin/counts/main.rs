@@ -6,7 +6,13 @@
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 mod flight;
 #[cfg(all(target_arch = "arm", target_os = "none"))]
+mod navigation;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
 mod plant;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod sensors;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod tally;
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 mod image {
@@ -15,7 +21,8 @@ mod image {
     use firmware::board::mps2::Peripherals;
     use semihosting::println;
 
-    use crate::flight::{Counts, Flight, Tally};
+    use crate::flight::{Counts, Flight};
+    use crate::tally::Tally;
 
     /// Instructions of a call that may not be exceeded, by the mean and by any call.
     struct Budget {
@@ -28,8 +35,14 @@ mod image {
     const ATTITUDE_WITHIN_LIMITS: Budget = Budget { mean: 600, max: 600 };
     const POSITION: Budget = Budget { mean: 1_000, max: 1_000 };
 
+    const PREDICTION: Budget = Budget { mean: 600, max: 600 };
+    const COVARIANCE: Budget = Budget { mean: 8_000, max: 8_000 };
+    const CORRECTION: Budget = Budget { mean: 8_000, max: 8_000 };
+
     /// A vehicle that ends farther than this from its reference, m, has not flown what is to be counted.
     const TRACKED_WITHIN_M: f32 = 0.3;
+    /// An estimate that ends farther than this from the truth, m, is none.
+    const ESTIMATED_WITHIN_M: f32 = 1.0;
 
     #[cortex_m_rt::entry]
     fn main() -> ! {
@@ -48,6 +61,7 @@ mod image {
     /// Prints what a flight has taken. True if it was a flight with everything in it, and within its budgets.
     fn report(counts: &Counts) -> bool {
         println!("instructions a call         calls    mean   max  budgets");
+        let navigation = &counts.navigation;
         let rows = [
             ("attitude and mixer", &counts.attitude, Some(ATTITUDE)),
             ("the same, no limit acting", &counts.attitude_within_limits, Some(ATTITUDE_WITHIN_LIMITS)),
@@ -55,13 +69,21 @@ mod image {
             ("guidance", &counts.guidance, None),
             ("mixer", &counts.mixer, None),
             ("mixer at a limit", &counts.mixer_saturated, None),
+            ("state prediction", &navigation.prediction, Some(PREDICTION)),
+            ("filter of the gyroscope", &navigation.gyro_filter, None),
+            ("covariance prediction", &navigation.covariance, Some(COVARIANCE)),
+            ("correction by 3 numbers", &navigation.correction_3, Some(CORRECTION)),
+            ("correction by 1 number", &navigation.correction_1, Some(CORRECTION)),
+            ("filter job", &navigation.job, None),
+            ("filter job with satellites", &navigation.job_with_gnss, None),
         ];
         let mut good = true;
         for (name, tally, budget) in rows {
             good &= row(name, tally, budget);
         }
-        println!("{:.3} m from its reference at the end", counts.final_error_m);
-        good && counts.final_error_m < TRACKED_WITHIN_M
+        let (flown, estimated) = (counts.final_error_m, counts.estimate_error_m);
+        println!("{flown:.3} m from its reference at the end, the estimate {estimated:.3} m from the truth");
+        good && flown < TRACKED_WITHIN_M && estimated < ESTIMATED_WITHIN_M
     }
 
     fn row(name: &str, tally: &Tally, budget: Option<Budget>) -> bool {

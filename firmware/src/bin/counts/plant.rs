@@ -12,13 +12,21 @@ pub(crate) struct Plant {
     model: Translation,
     omega_rad_s: [f32; ROTORS],
     pub(crate) nav: NavState,
+    /// Rᵀ(v̇ + g e3), m/s².
+    pub(crate) specific_force: Vector3<f32>,
 }
 
 impl Plant {
     /// Rotors at the speed of hover.
     pub(crate) fn new(airframe: &Airframe, nav: NavState) -> Self {
         let omega_rad_s = [airframe.omega_for_thrust_to_weight(1.0); ROTORS];
-        Self { airframe: *airframe, model: Translation::new(airframe), omega_rad_s, nav }
+        let specific_force = Vector3::new(0.0, 0.0, airframe.gravity_m_s2);
+        Self { airframe: *airframe, model: Translation::new(airframe), omega_rad_s, nav, specific_force }
+    }
+
+    /// How fast the rotors turn.
+    pub(crate) fn omega_rad_s(&self) -> &[f32; ROTORS] {
+        &self.omega_rad_s
     }
 
     /// One tick with these commands.
@@ -38,12 +46,14 @@ impl Plant {
         let nav = &mut self.nav;
         let force = nav.attitude * Vector3::new(0.0, 0.0, thrust_n / airframe.mass_kg);
         nav.position += nav.velocity * TICK_S;
-        nav.velocity += self.model.acceleration(&force, &nav.velocity) * TICK_S;
+        let acceleration = self.model.acceleration(&force, &nav.velocity);
+        nav.velocity += acceleration * TICK_S;
         let half_turn = nav.rates * (0.5 * TICK_S);
         let turn = Quaternion::new(1.0, half_turn.x, half_turn.y, half_turn.z);
         let attitude = nav.attitude.quaternion() * turn;
         nav.attitude = UnitQuaternion::new_unchecked(attitude / math::sqrt(attitude.norm_squared()));
         let gyroscopic = nav.rates.cross(&inertia.component_mul(&nav.rates));
+        self.specific_force = nav.attitude.inverse() * (acceleration + Vector3::z() * airframe.gravity_m_s2);
         nav.rates += (torque - gyroscopic).component_div(&inertia) * TICK_S;
     }
 }

@@ -72,9 +72,10 @@ fn row(n: &mut Numbers) -> Row {
 }
 
 fn correct(p: &mut Covariance, row: &Row, variance: f32) {
-    let c = p.times(row);
+    let mut c = ErrorState::zeros();
+    p.times(row, &mut c);
     let s = row.dot(&c) + variance;
-    p.correct(&[c / s], &[c], &[s]);
+    p.correct(&[c], &[s]);
 }
 
 fn h(row: &Row) -> SMatrix<f64, 1, STATES> {
