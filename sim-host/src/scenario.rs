@@ -360,12 +360,16 @@ fn moves_the_bound(setting: &str) -> bool {
 
 fn split_setting(setting: &str) -> Result<(&str, toml::Value)> {
     let (key, text) = setting.split_once('=').ok_or_else(|| anyhow!("--set {setting}: use KEY=VALUE"))?;
-    let value = format!("value = {text}")
+    Ok((key, value(text)))
+}
+
+/// A value as TOML has it; what is none, is a string.
+pub(crate) fn value(text: &str) -> toml::Value {
+    format!("value = {text}")
         .parse::<toml::Table>()
         .ok()
         .and_then(|mut table| table.remove("value"))
-        .unwrap_or_else(|| toml::Value::String(text.to_owned()));
-    Ok((key, value))
+        .unwrap_or_else(|| toml::Value::String(text.to_owned()))
 }
 
 /// Sets a dotted key; integers become floats where a float stood.
