@@ -415,6 +415,9 @@ mod tests {
         assert!(refusal("helix", &["control.roll.colour=1"]).contains("colour"));
         assert!(refusal("helix", &["duration_s=soon"]).contains("duration_s"));
         assert!(refusal("helix", &["duration_s"]).contains("KEY=VALUE"));
+        assert!(refusal("helix", &["modes.colour=1"]).contains("colour"));
+        assert!(refusal("helix", &["modes.cruise_m_s=0"]).contains("modes.cruise_m_s"));
+        assert!(refusal("helix", &["modes.cruise_m_s=\"fast\""]).contains("cruise_m_s"));
         assert!(refusal("/nowhere/x.toml", &[]).contains("/nowhere/x.toml"));
     }
 

@@ -4,6 +4,7 @@ use glissade_dialect::{ESTIMATOR_STATUS_DATA, EstimatorStatusFlags, MavSysStatus
 
 use super::GroundInput;
 use crate::estimator::status::{Sensor, Status};
+use crate::math;
 use crate::sensors::BatterySample;
 use crate::signals::{TICK_US, Tick};
 
@@ -73,12 +74,12 @@ fn bits(sensors: &[(MavSysStatusSensor, Sensor)]) -> (MavSysStatusSensor, MavSys
 
 /// Up to 65.534 V: the greatest number means that it is not known.
 fn millivolts(sample: BatterySample) -> u16 {
-    (sample.voltage_v * 1e3).clamp(0.0, f32::from(u16::MAX - 1)) as u16
+    math::clamp(sample.voltage_v * 1e3, 0.0, f32::from(u16::MAX - 1)) as u16
 }
 
 /// Up to 327.67 A.
 fn centiamperes(sample: BatterySample) -> i16 {
-    (sample.current_a * 1e2).clamp(0.0, f32::from(i16::MAX)) as i16
+    math::clamp(sample.current_a * 1e2, 0.0, f32::from(i16::MAX)) as i16
 }
 
 fn saturate(count: u32) -> u16 {
