@@ -35,7 +35,6 @@ pub const REPLY_BYTES: usize = 4 * Reply::WORDS;
 
 /// What the host asks for in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "one a tick, on its way into bytes or out of them")]
 pub enum Request {
     /// Fly a tick with this sample.
     Sample(SensorFrame),
