@@ -20,6 +20,8 @@ pub struct Navigator {
     filtered: Vector3<f32>,
     readings: Readings,
     battery: Option<BatterySample>,
+    /// Ticks since that was measured.
+    battery_age: u32,
     /// Whether the last job's injection has been taken in.
     injected: bool,
 }
@@ -33,6 +35,7 @@ impl Navigator {
             filtered: Vector3::zeros(),
             readings: Readings::default(),
             battery: None,
+            battery_age: 0,
             injected: false,
         })
     }
@@ -44,6 +47,7 @@ impl Navigator {
         let fresh = self.predictor.step(measured.and_then(|m| m.imu.as_ref()));
         let raw = self.predictor.rates() + self.predictor.state().gyro_bias;
         self.filtered = self.gyro.step(&raw, omega_rad_s);
+        self.battery_age = self.battery_age.saturating_add(1);
         if let Some(measured) = measured {
             self.keep(measured);
         }
@@ -57,8 +61,9 @@ impl Navigator {
         readings.baro = measured.baro.or(readings.baro);
         readings.gnss = measured.gnss.or(readings.gnss);
         readings.pose = measured.pose.or(readings.pose);
-        let sound = measured.battery.filter(|b| math::all_finite(&[b.voltage_v, b.current_a]));
-        self.battery = sound.or(self.battery);
+        if let Some(battery) = measured.battery.filter(|b| math::all_finite(&[b.voltage_v, b.current_a])) {
+            (self.battery, self.battery_age) = (Some(battery), 0);
+        }
     }
 
     /// The motion now; its rates are the filtered ones.
@@ -73,7 +78,7 @@ impl Navigator {
         }
     }
 
-    /// The motion as integrated, and the IMU's biases.
+    /// What the predictor believes: motion and biases.
     pub fn state(&self) -> &Nominal {
         self.predictor.state()
     }
@@ -87,6 +92,11 @@ impl Navigator {
     /// The battery as last measured.
     pub fn battery(&self) -> Option<BatterySample> {
         self.battery
+    }
+
+    /// The same, and how many ticks ago that was.
+    pub fn battery_with_age(&self) -> Option<(BatterySample, u32)> {
+        self.battery.map(|battery| (battery, self.battery_age))
     }
 
     /// The filter's snapshot; `at_rest` if the vehicle is known to stand.

@@ -106,7 +106,9 @@ impl RotorMonitor {
         for ((eta, lack), square) in self.effectiveness.iter_mut().zip(&lacking).zip(&self.square.0) {
             *eta = if *square > self.least { 1.0 + lack / square } else { 1.0 };
         }
-        let weak = self.effectiveness.iter().position(|eta| *eta < FAILED_BELOW);
+        // A rotor that fails leaves less thrust than is believed; what is held up by more of it touches the ground.
+        let lifted_less = missing.x < 0.0;
+        let weak = self.effectiveness.iter().position(|eta| *eta < FAILED_BELOW).filter(|_| lifted_less);
         let alone = |rotor: usize| {
             self.effectiveness.iter().enumerate().all(|(other, eta)| other == rotor || *eta > SOUND_ABOVE)
         };

@@ -43,6 +43,19 @@ pub struct Consistency {
     last_tick: Option<u32>,
 }
 
+/// Every kind of reading, in the order of its number.
+pub const SOURCES: [Source; 9] = [
+    Source::Heading,
+    Source::Baro,
+    Source::GnssPosition,
+    Source::GnssHeight,
+    Source::GnssVelocity,
+    Source::PosePosition,
+    Source::PoseAttitude,
+    Source::Drag,
+    Source::Rest,
+];
+
 /// Name and degrees of freedom of a kind of reading.
 pub fn kind(source: Source) -> (&'static str, u32) {
     match source {
@@ -59,7 +72,7 @@ pub fn kind(source: Source) -> (&'static str, u32) {
 }
 
 /// 95 % quantile of χ² with one to three degrees of freedom.
-fn quantile(degrees: u32) -> f64 {
+pub fn quantile(degrees: u32) -> f64 {
     match degrees {
         1 => 3.841,
         2 => 5.991,
