@@ -198,9 +198,10 @@ impl<A: AttitudeLaw> InnerTask<A> {
             ground: mail.ground.is_due(tick),
         };
         if released.filter {
-            let at_rest = self.commander.landed && !self.is_armed();
+            let landed = self.commander.landed;
+            let at_rest = landed && !self.is_armed();
             if let Some(navigator) = self.inner.navigator_mut() {
-                mail.filter.release(tick, navigator.release(at_rest));
+                mail.filter.release(tick, navigator.release(landed, at_rest));
             }
         }
         if released.outer {
@@ -445,5 +446,5 @@ fn filter(config: &FlightConfig) -> Filter {
     let airframe = &config.airframe;
     let [k, _, _] = airframe.drag_n_s_m;
     let settings = config.estimator.unwrap_or_default();
-    Filter::new(&settings, airframe.gravity_m_s2, k / airframe.mass_kg)
+    Filter::new(&settings, airframe.gravity_m_s2, k / airframe.mass_kg, config.start_position())
 }

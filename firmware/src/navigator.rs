@@ -89,9 +89,11 @@ impl Navigator {
         self.predictor.specific_force()
     }
 
-    /// The battery as last measured.
+    /// The battery as last measured, unless that is too long ago to say anything.
     pub fn battery(&self) -> Option<BatterySample> {
-        self.battery
+        /// Ticks.
+        const SILENT_AFTER: u32 = 1_000;
+        self.battery.filter(|_| self.battery_age < SILENT_AFTER)
     }
 
     /// The same, and how many ticks ago that was.
@@ -99,14 +101,15 @@ impl Navigator {
         self.battery.map(|battery| (battery, self.battery_age))
     }
 
-    /// The filter's snapshot; `at_rest` if the vehicle is known to stand.
-    pub fn release(&mut self, at_rest: bool) -> FilterInput {
+    /// The filter's snapshot, of a vehicle that is on the ground and, disarmed, at rest; or is not.
+    pub fn release(&mut self, landed: bool, at_rest: bool) -> FilterInput {
         FilterInput {
             state: *self.predictor.state(),
             rates: *self.predictor.rates(),
             force: *self.predictor.specific_force(),
             span: self.predictor.take_span(),
             injected: core::mem::take(&mut self.injected),
+            landed,
             at_rest,
             readings: core::mem::take(&mut self.readings),
         }

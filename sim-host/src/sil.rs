@@ -203,11 +203,6 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         self.sensors.as_deref_mut().context("nothing fails on ideal state: fly a scenario with `sensors`")
     }
 
-    /// The sensors; none on ideal state.
-    pub fn sensors(&self) -> Option<&Suite> {
-        self.sensors.as_deref()
-    }
-
     /// The tick that comes next.
     pub fn next_tick(&self) -> Tick {
         self.tick

@@ -10,11 +10,16 @@ use nalgebra::{Matrix4, Vector3, Vector4};
 use crate::airframe::{Airframe, ROTORS};
 use crate::control::attitude;
 use crate::control::law::RotorEffect;
+use crate::math;
 use crate::signals::TICK_S;
 
 /// Time constant of the comparison, s: longer than vibration, shorter than a fall.
 const LAG_S: f32 = 0.02;
-/// A rotor that gives less than this part of its thrust has failed…
+/// How slowly what is thought of a sound rotor follows, s: a spent battery, thin air, a frame that is a little twisted.
+const BASELINE_S: f32 = 5.0;
+/// How far it follows: below, a rotor that fades is not lost sight of.
+const BASELINE: (f32, f32) = (0.5, 1.5);
+/// A rotor that gives less than this part of what it gave has failed…
 const FAILED_BELOW: f32 = 0.4;
 /// …if every other gives more than this.
 const SOUND_ABOVE: f32 = 0.55;
@@ -38,8 +43,9 @@ pub struct RotorMonitor {
     rates: Lagged<Vector3<f32>>,
     missing: Lagged<Vector4<f32>>,
     square: Lagged<Vector4<f32>>,
-    /// η as last found.
+    /// η as last found, and as it is in the long run.
     effectiveness: [f32; ROTORS],
+    baseline: [f32; ROTORS],
     suspect: Option<(u8, u32)>,
     failed: Option<u8>,
 }
@@ -57,6 +63,7 @@ impl RotorMonitor {
             missing: Lagged::default(),
             square: Lagged::default(),
             effectiveness: [1.0; ROTORS],
+            baseline: [1.0; ROTORS],
             suspect: None,
             failed: None,
         }
@@ -78,8 +85,16 @@ impl RotorMonitor {
         self.missing = Lagged::default();
         self.square = Lagged::default();
         self.effectiveness = [1.0; ROTORS];
+        self.baseline = [1.0; ROTORS];
         self.suspect = None;
         self.failed = None;
+    }
+
+    /// A tick whose motion was not measured: nothing may be concluded from it.
+    pub fn miss(&mut self, rates: &Vector3<f32>) {
+        self.rates = Lagged(*rates);
+        self.missing = Lagged::default();
+        self.suspect = None;
     }
 
     /// A tick in the air: Ω (rad/s), the thrust axis' specific force (m/s²), and what the rotors are believed to do at
@@ -108,10 +123,16 @@ impl RotorMonitor {
         }
         // A rotor that fails leaves less thrust than is believed; what is held up by more of it touches the ground.
         let lifted_less = missing.x < 0.0;
-        let weak = self.effectiveness.iter().position(|eta| *eta < FAILED_BELOW).filter(|_| lifted_less);
-        let alone = |rotor: usize| {
-            self.effectiveness.iter().enumerate().all(|(other, eta)| other == rotor || *eta > SOUND_ABOVE)
-        };
+        let mut parts = self.effectiveness;
+        parts.iter_mut().zip(&self.baseline).for_each(|(part, baseline)| *part /= baseline);
+        let weak = parts.iter().position(|part| *part < FAILED_BELOW).filter(|_| lifted_less);
+        let alone = |rotor: usize| parts.iter().enumerate().all(|(other, part)| other == rotor || *part > SOUND_ABOVE);
+        if weak.is_none() {
+            for (baseline, eta) in self.baseline.iter_mut().zip(&self.effectiveness) {
+                let next = *baseline + (eta - *baseline) * (TICK_S / BASELINE_S);
+                *baseline = math::clamp(next, BASELINE.0, BASELINE.1);
+            }
+        }
         self.suspect = match (weak.filter(|rotor| alone(*rotor)), self.suspect) {
             (Some(rotor), Some((before, ticks))) if usize::from(before) == rotor => Some((before, ticks + 1)),
             (Some(rotor), _) => Some((rotor as u8, 1)),
