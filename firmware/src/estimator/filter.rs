@@ -9,7 +9,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::align::{self, Aligner, Alignment};
 use super::covariance::{self, Covariance, ErrorState, StepNoise, index};
-use super::fusion::REST_NOISE;
+use super::fusion::{REST_NOISE, STILL_JOBS};
 use super::history::{History, Moved, Snapshot};
 use super::models::MagneticNorth;
 use super::predictor::{Correction, Nominal, Span};
@@ -196,6 +196,8 @@ pub struct Filter {
     ordered: Correction,
     started: Option<Nominal>,
     pub(super) jobs: u32,
+    /// For how many jobs it has been still.
+    pub(super) still_jobs: u32,
     /// Sum of the accelerometer's samples since drag was last fused, m/s², and how many.
     pub(super) force: (Vector3<f32>, u32),
     /// How far the specific force in the body's frame is from that at rest, smoothed, m/s².
@@ -239,6 +241,7 @@ impl Filter {
             ordered: Correction::default(),
             started: None,
             jobs: 0,
+            still_jobs: 0,
             force: (Vector3::zeros(), 0),
             force_off: Vector3::zeros(),
         }
@@ -316,6 +319,8 @@ impl Filter {
     fn begin(&mut self, alignment: &Alignment, pose: Option<&PoseSample>) -> Nominal {
         let settings = &self.settings;
         let still = alignment.gyro_bias.is_some();
+        // The window has shown it.
+        self.still_jobs = if still { STILL_JOBS } else { 0 };
         let tilt = align::tilt_sigma(still, settings.accel_bias, self.gravity);
         let heading = match (alignment.has_heading, pose) {
             (_, Some(_)) => settings.pose_attitude_rad,

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::covariance::{ErrorState, Row, index};
-use super::filter::{Filter, HeightSource, JUMPED_AFTER, Job, LOST_AFTER, Source};
+use super::filter::{Filter, FilterInput, HeightSource, JUMPED_AFTER, Job, LOST_AFTER, Source};
 use super::history::Snapshot;
 use super::models::{Age, NONE, attitude_row, pressure_height, turn_between};
 use super::update::{Measurement, Verdict, gate};
@@ -18,6 +18,11 @@ const STUCK_AFTER: u32 = 8;
 const DRAG_EVERY: u32 = 20;
 /// And standing.
 const REST_EVERY: u32 = 25;
+/// A vehicle stands once it has been still for so many jobs, 1 s: whatever is carried is still for a moment now and then.
+pub(super) const STILL_JOBS: u32 = 250;
+/// Still: below this, rad/s and m/s².
+const STILL_RAD_S: f32 = 0.03;
+const STILL_M_S2: f32 = 0.5;
 /// Noise of drag as a specific force, m/s²: what gusts, tilting and the model leave of a mean over as many jobs.
 const DRAG_NOISE: f32 = 0.08;
 /// Deviation of a state that is forgotten: beyond any that is flown with, in any unit, and few enough for an f32.
@@ -45,7 +50,8 @@ impl Filter {
         if let Some(mag) = readings.mag.filter(|mag| math::all_finite(mag.field_ut.as_slice())) {
             self.fuse_mag(job, &mag);
         }
-        if job.input.at_rest && self.jobs.is_multiple_of(REST_EVERY) {
+        self.still_jobs = if self.is_still(job.input) { self.still_jobs.saturating_add(1) } else { 0 };
+        if self.still_jobs >= STILL_JOBS && self.jobs.is_multiple_of(REST_EVERY) {
             self.fuse_rest(job);
         }
         let span = &job.input.span;
@@ -243,12 +249,14 @@ impl Filter {
         }
     }
 
-    /// A vehicle that stands does not move; one that is carried about is not taken to stand.
+    /// Whether a vehicle that ought to stand neither turns nor is pushed.
+    fn is_still(&self, input: &FilterInput) -> bool {
+        let off = math::sqrt(input.force.norm_squared()) - self.gravity;
+        input.at_rest && input.rates.norm_squared() < STILL_RAD_S * STILL_RAD_S && math::abs(off) < STILL_M_S2
+    }
+
+    /// A vehicle that stands does not move; one that is carried about, or stands on a boat, is not taken to stand.
     fn fuse_rest(&mut self, job: &mut Job) {
-        let force = math::sqrt(job.input.force.norm_squared());
-        if job.input.rates.norm_squared() > 0.01 || math::abs(force - self.gravity) > 0.5 {
-            return;
-        }
         let rows =
             [0, 1, 2].map(|axis| Row { theta: Vector3::zeros(), entries: [(index::VELOCITY + axis, 1.0), NONE, NONE] });
         let v = job.now.velocity;
