@@ -116,7 +116,7 @@ fn not_a_number_is_none() {
         let spoilt = last.iter().any(|m| {
             m.mag.is_some_and(|mag| mag.field_ut.x.is_nan())
                 || m.baro.is_some_and(|baro| baro.pressure_pa.is_nan())
-                || m.gnss.is_some_and(|gnss| !gnss.is_finite())
+                || m.gnss.is_some_and(|gnss| !gnss.is_usable())
                 || m.pose.is_some_and(|pose| !pose.is_valid())
                 || m.battery.is_some_and(|battery| battery.voltage_v.is_nan())
         });
