@@ -20,8 +20,8 @@ pub struct Navigator {
     filtered: Vector3<f32>,
     readings: Readings,
     battery: Option<BatterySample>,
-    /// Ticks since that was measured.
-    battery_age: u32,
+    /// Ticks since that was measured, as far as they can be counted.
+    battery_age: u16,
     /// Whether the last job's injection has been taken in.
     injected: bool,
 }
@@ -98,7 +98,7 @@ impl Navigator {
 
     /// The same, and how many ticks ago that was.
     pub fn battery_with_age(&self) -> Option<(BatterySample, u32)> {
-        self.battery.map(|battery| (battery, self.battery_age))
+        self.battery.map(|battery| (battery, u32::from(self.battery_age)))
     }
 
     /// The filter's snapshot, of a vehicle that is on the ground and, disarmed, at rest; or is not.

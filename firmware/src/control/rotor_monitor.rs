@@ -154,6 +154,11 @@ mod tests {
     /// A body at rest whose rotors turn at hover, with these parts of their thrust, and pushed by a torque (N m): rates
     /// as they grow from it.
     fn watch(parts: [f32; ROTORS], push: Vector3<f32>, ticks: u32) -> RotorMonitor {
+        watch_held_up(parts, push, 0.0, ticks)
+    }
+
+    /// The same with something from below that bears a part of the weight.
+    fn watch_held_up(parts: [f32; ROTORS], push: Vector3<f32>, held_up: f32, ticks: u32) -> RotorMonitor {
         let airframe = Airframe::paper(2.0);
         let mut monitor = RotorMonitor::new(&airframe);
         let omega = [airframe.omega_for_thrust_to_weight(1.0); ROTORS];
@@ -166,7 +171,8 @@ mod tests {
         let mut rates = Vector3::zeros();
         monitor.reset(&rates);
         for _ in 0..ticks {
-            monitor.step(&rates, sum(g.thrust) / airframe.mass_kg, &effect, &omega);
+            let force = sum(g.thrust) / airframe.mass_kg + held_up * airframe.gravity_m_s2;
+            monitor.step(&rates, force, &effect, &omega);
             let holding = attitude::torque(&airframe, &Vector3::zeros(), &rates, effect.spin_rad_s);
             rates += (torque - holding).component_div(&inertia) * TICK_S;
         }
@@ -180,6 +186,12 @@ mod tests {
             parts[rotor] = 0.0;
             assert_eq!(watch(parts, Vector3::zeros(), 125).failed(), Some(rotor as u8));
         }
+    }
+
+    #[test]
+    fn feet_on_the_ground_are_no_failed_rotor() {
+        // The torque of a rotor that is gone, but the vehicle is lifted by more than its rotors.
+        assert_eq!(watch_held_up([0.0, 1.0, 1.0, 1.0], Vector3::zeros(), 0.5, 300).failed(), None);
     }
 
     #[test]

@@ -63,11 +63,10 @@ impl Assess {
     ///
     /// # Errors
     /// The first key that is out of its range.
-    pub fn validate(&self, duration_s: f64) -> Result<()> {
-        let to_s = self.to_s.unwrap_or(duration_s);
+    pub fn validate(&self) -> Result<()> {
         ensure!(
-            self.from_s >= 0.0 && self.from_s < to_s && to_s <= duration_s,
-            "`assess` must be a part of the flight, not from {} to {to_s} of {duration_s} s",
+            self.from_s >= 0.0 && self.to_s.is_none_or(|to_s| self.from_s < to_s),
+            "`assess.from_s` must be from 0 up to `assess.to_s`, not {}",
             self.from_s
         );
         for value in self.hold_m.iter().flatten() {
@@ -84,6 +83,20 @@ impl Assess {
                 "`assess.expect` of `{name}` must have a number for `at_most` or `at_least`"
             );
         }
+        Ok(())
+    }
+
+    /// Refuses a flight of `duration_s` that ends before what is judged of it; it may be flown all the same.
+    ///
+    /// # Errors
+    /// The key to look at.
+    pub fn require_part_of(&self, duration_s: f64) -> Result<()> {
+        let to_s = self.to_s.unwrap_or(duration_s);
+        ensure!(
+            self.from_s < to_s && to_s <= duration_s,
+            "`assess` must be a part of the flight, not from {} to {to_s} of {duration_s} s",
+            self.from_s
+        );
         Ok(())
     }
 }

@@ -96,7 +96,7 @@ impl SensedRecorder {
         let is = UnitQuaternion::new_normalize(truth.attitude);
         let attitude = (is * nav.attitude.cast::<f64>().inverse()).scaled_axis();
         let [tilt, heading, position, velocity] = &mut self.known;
-        tilt.take(attitude.x.hypot(attitude.y));
+        tilt.take(libm::hypot(attitude.x, attitude.y));
         heading.take(attitude.z);
         position.take((truth.position - nav.position.cast()).norm());
         velocity.take((truth.velocity - nav.velocity.cast()).norm());
