@@ -139,6 +139,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
         let armed = self.is_armed();
         if armed && self.outer.idle {
             self.inner.idle();
+        } else if armed && self.outer.descends {
+            self.inner.step_gently(tick, &self.outer.attitude);
         } else {
             self.inner.step(tick, &self.outer.attitude, armed);
         }

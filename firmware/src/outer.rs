@@ -44,6 +44,8 @@ pub struct OuterOutput {
     pub idle: bool,
     /// True if the heading is given up.
     pub heading_free: bool,
+    /// True in a descent with all rotors sound: the ground may come at any time.
+    pub descends: bool,
     /// Where the vehicle ought to be, m, and its heading, rad.
     pub wanted: Vector4<f32>,
 }
@@ -155,7 +157,7 @@ impl<P: PositionLaw> Outer<P> {
                 let target = velocity(Vector3::new(0.0, 0.0, -rate_m_s), 0.0);
                 let reference = self.steer(input, &target);
                 let output = self.descend(effective, input, reference, known, heading_free);
-                OuterOutput { heading_free, ..output }
+                OuterOutput { heading_free, descends: !heading_free, ..output }
             }
             Directive::GoTo { position, yaw } => {
                 let reference = self.steer(input, &Target::Place { position, yaw });
@@ -177,7 +179,15 @@ impl<P: PositionLaw> Outer<P> {
         self.reset();
         let attitude = AttitudeReference::idle(nav.attitude);
         let wanted = nav.position.push(nav.yaw());
-        OuterOutput { attitude, s: Vector3::zeros(), limited: false, idle: true, heading_free: false, wanted }
+        OuterOutput {
+            attitude,
+            s: Vector3::zeros(),
+            limited: false,
+            idle: true,
+            heading_free: false,
+            descends: false,
+            wanted,
+        }
     }
 
     /// The trajectory at a time on the flight's clock, joined from the air if the vehicle was there.
@@ -338,6 +348,7 @@ impl<P: PositionLaw> Outer<P> {
             limited: self.limited,
             idle: false,
             heading_free: false,
+            descends: false,
             wanted: reference.position.push(reference.yaw),
         }
     }

@@ -79,7 +79,7 @@ const WIND_WALK: f32 = 0.7;
 /// How fast the magnetic heading's error changes as the vehicle turns and draws current, rad/√s.
 const HEADING_WALK: f32 = 3e-5;
 /// A scale's error acts as noise of this correlation time, s: about as long as a manoeuvre turns one way.
-const MANOEUVRE_S: f32 = 1.0;
+const MANOEUVRE_S: f32 = 0.7;
 
 impl EstimatorSettings {
     /// Refuses settings with which the filter is not defined.
@@ -130,8 +130,8 @@ impl EstimatorSettings {
         let scale = square(self.gyro_scale) * MANOEUVRE_S;
         let gyro = 0.5 * square(self.gyro_noise);
         let gnss = square(self.gnss_walk);
-        // A quarter for axes that see each other's rates.
-        let skew = 0.25 * scale * rates_in_world.norm_squared();
+        // A tenth for axes that see each other's rates.
+        let skew = 0.1 * scale * rates_in_world.norm_squared();
         StepNoise {
             theta: rates_in_world.map(|rate| gyro + scale * rate * rate + skew),
             velocity: 0.5 * square(self.accel_noise) + square(self.accel_scale * force_off) * MANOEUVRE_S,
