@@ -128,6 +128,15 @@ impl Airframe {
         if reacts && per_speed > 0.0 { self.rotor_inertia_kg_m2 / per_speed } else { 0.0 }
     }
 
+    /// Distance of the farthest rotor from the roll axis or the pitch axis, m.
+    pub fn arm_m(&self) -> f32 {
+        let g = &self.geometry;
+        let arms = |row: &[f32; ROTORS]| {
+            row.iter().zip(&g.thrust).map(|(torque, lift)| math::abs(torque / lift)).fold(0.0, math::max)
+        };
+        math::max(arms(&g.roll), arms(&g.pitch))
+    }
+
     /// Greatest thrust of all rotors together, N.
     pub fn thrust_max_n(&self) -> f32 {
         let lift: f32 = self.geometry.thrust.iter().sum();

@@ -22,6 +22,9 @@ use crate::validate::ConfigError;
 /// After this many ticks without a valid sample the motion is no longer trusted.
 pub const STALE_AFTER: u32 = 50;
 
+/// Torque in a descent, as a part of what turns all thrust to one side.
+const GENTLE_PART: f32 = 0.5;
+
 /// A reference is followed this many ticks beyond the one it holds for: an outer loop that has stopped answering must
 /// not have its last accelerations flown for ever.
 const EXTRAPOLATED_AT_MOST: Tick = 20;
@@ -63,9 +66,13 @@ pub struct Inner<A = SlidingAttitude> {
     /// None on ideal state.
     navigator: Option<Navigator>,
     idle_rad_s: f32,
+    /// Torque for each unit of thrust that is asked for at most in a descent, m.
+    gentle_arm_m: f32,
     monitor: RotorMonitor,
     /// Once a rotor has failed, in place of the law.
     motor_out: Option<MotorOut>,
+    /// Whether the vehicle was armed in the tick before.
+    was_armed: bool,
     nav: NavState,
     stale_ticks: u32,
     refused_samples: u32,
@@ -98,8 +105,10 @@ impl<A: AttitudeLaw> Inner<A> {
             yaw: config.yaw_inversion(),
             navigator: Navigator::new(config),
             idle_rad_s: config.modes.idle_part * omega_max,
+            gentle_arm_m: GENTLE_PART * airframe.arm_m(),
             monitor: RotorMonitor::new(&airframe),
             motor_out: None,
+            was_armed: false,
             nav,
             stale_ticks: 0,
             refused_samples: 0,
@@ -147,12 +156,21 @@ impl<A: AttitudeLaw> Inner<A> {
     pub fn step(&mut self, tick: Tick, reference: &AttitudeReference, armed: bool) -> &InnerOutput {
         if armed {
             let age = tick.wrapping_sub(reference.valid_at).min(EXTRAPOLATED_AT_MOST);
-            self.control(reference, age as f32 * TICK_S);
+            self.control::<false>(reference, age as f32 * TICK_S);
         } else {
             self.law.reset();
             self.follow(&MotorCommand::STOPPED);
             self.output = InnerOutput::IDLE;
         }
+        &self.output
+    }
+
+    /// One tick in place of [`step`](Self::step) of a descent that may meet the ground at any time: torque is asked for in
+    /// proportion to thrust. On its feet and with little thrust a vehicle does not follow its rotors, and a law that
+    /// answers with more of them would shake it until it falls over.
+    pub fn step_gently(&mut self, tick: Tick, reference: &AttitudeReference) -> &InnerOutput {
+        let age = tick.wrapping_sub(reference.valid_at).min(EXTRAPOLATED_AT_MOST);
+        self.control::<true>(reference, age as f32 * TICK_S);
         &self.output
     }
 
@@ -167,7 +185,7 @@ impl<A: AttitudeLaw> Inner<A> {
 
     /// One tick of control, `dt` seconds after the reference holds.
     #[inline]
-    fn control(&mut self, reference: &AttitudeReference, dt: f32) {
+    fn control<const GENTLE: bool>(&mut self, reference: &AttitudeReference, dt: f32) {
         let wanted = if self.motor_out.is_none() {
             self.law.step(&AttitudeInput {
                 attitude: &self.nav.attitude,
@@ -180,13 +198,18 @@ impl<A: AttitudeLaw> Inner<A> {
         } else {
             self.wanted_without_rotor(reference, dt)
         };
-        let demand = ControlInput {
+        let mut demand = ControlInput {
             // Below zero it is for the mixer to limit.
             thrust_n: reference.thrust_n + reference.thrust_rate_n_s * dt,
             roll_n_m: wanted.torque.x,
             pitch_n_m: wanted.torque.y,
             yaw_n_m: self.yaw.demand(self.effect.yaw_n_m, wanted.torque.z),
         };
+        if GENTLE {
+            let most = self.gentle_arm_m * math::max(demand.thrust_n, 0.0);
+            demand.roll_n_m = math::limit(demand.roll_n_m, most);
+            demand.pitch_n_m = math::limit(demand.pitch_n_m, most);
+        }
         let Ok(allocation) = self.mixer.allocate(&demand) else {
             // A sample so wild that a product overflowed. The last command is safer than none; what the law has made
             // of the sample is not to stay.
@@ -219,19 +242,30 @@ impl<A: AttitudeLaw> Inner<A> {
         })
     }
 
-    /// A tick of looking for a rotor that has failed. Of one that has, nothing is asked any more; armed anew, all are
-    /// taken to be sound.
+    /// A tick of looking for a rotor that has failed. Of one that has, nothing is asked any more, and the vehicle is not
+    /// armed again unless that is forced; then all are taken to be sound.
     pub fn watch_rotors(&mut self, armed: bool, in_air: bool) {
         let Some(navigator) = &self.navigator else { return };
-        if !armed {
+        if armed && !self.was_armed {
             self.monitor.reset(&self.nav.rates);
             if self.motor_out.take().is_some() {
                 // Parts of 1 are within their range.
                 let _ = self.mixer.set_limits([1.0; ROTORS]);
             }
+        }
+        self.was_armed = armed;
+        if !armed {
             return;
         }
         if !in_air || self.motor_out.is_some() {
+            return;
+        }
+        if self.stale_ticks > 0 {
+            /// Longer gaps end what has been seen before them.
+            const LONG: u32 = 5;
+            if self.stale_ticks >= LONG {
+                self.monitor.miss(&self.nav.rates);
+            }
             return;
         }
         let force_z = navigator.specific_force().z;
