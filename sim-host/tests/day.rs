@@ -81,9 +81,10 @@ fn look(flight: &Flight<RigidBody>, minute: u32) -> Look {
 }
 
 /// In hover with one heading, a bias across the thrust and a tilt are felt as one: neither comes to be known better than
-/// calibration has left it, 0.025 m/s² an axis with what scales make of gravity, and 2.5 mrad of tilt. 4 σ.
-const ACROSS_M_S2: f64 = 0.1;
-const TILT_RAD: f64 = 0.01;
+/// calibration has left it, 0.025 m/s² an axis with what scales make of gravity, and 2.5 mrad of tilt. 5 σ, beyond which
+/// chance puts none of a day's looks.
+const ACROSS_M_S2: f64 = 0.125;
+const TILT_RAD: f64 = 0.0125;
 
 /// Biases that hover shows within 3 σ, the filter's own; those that it does not, and the tilt, within what is left anyway.
 fn assert_biases_are_known(looks: &[Look]) {
