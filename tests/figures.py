@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The README's figures are the program's own output: flies the cases and compares, digit by digit.
 
-`tests/figures.py --write` puts the figures of this build into the README and docs/comparison.md, and the pictures into
-docs/images. A flight is
+`tests/figures.py --write` puts the figures of this build into the README, docs/comparison.md and docs/sensors.md, and
+the pictures into docs/images. A flight is
 the same bit for bit everywhere, so there is nothing to tolerate.
 """
 
@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SIMULATOR = Path(os.environ.get("GLISSADE_SIM", ROOT / "target" / "release" / "sim-host"))
 README = ROOT / "README.md"
 COMPARISON = ROOT / "docs" / "comparison.md"
+SENSORS = ROOT / "docs" / "sensors.md"
 IMAGES = ROOT / "docs" / "images"
 
 
@@ -150,6 +151,74 @@ def comparison_table(result):
     )
 
 
+# What of the flights on sensors stands in the README: scenario, measure, how it reads there, what is asked for.
+ON_SENSORS = [
+    ("outdoor-hover", "climb-s", "take-off to 10 m, within 0.35 m after, s", "30; PX4’s test 30"),
+    ("outdoor-hover", "height-wander-max-m", "then height over 60 s, 5 m/s of wind, m", "0.15; PX4’s test 0.25"),
+    ("outdoor-hover", "horizontal-error-p95-m", "and distance, 95 % of the time, m", "1.0"),
+    ("indoor-hover", "horizontal-error-p95-m", "the same on motion capture, m", "0.05"),
+    ("outdoor-hover", "attitude-known-rms-deg", "attitude known in hover, °", "0.3 (root mean square)"),
+    ("outdoor-eight", "attitude-known-rms-deg", "and in an eight of 8 m/s, °", "1.0 (root mean square)"),
+    ("indoor-helix", "y-error-rms-m", "the helix on motion capture, 3 m/s of wind: y, m", "0.03"),
+    ("path-gnss-lost", "disarmed-s", "GNSS lost at 30 s: on the ground, rotors stopped, at s", "60; PX4’s test 60"),
+    ("gnss-glitch", "horizontal-error-max-m", "GNSS jumps by 50 m: true distance, m", "5; ArduPilot’s test 20"),
+    ("path-mag-off", "miss-max-m", "magnetometer silent on the way: places missed by, m", "1.5"),
+    ("path-mag-stuck", "miss-max-m", "magnetometer stuck, m", "1.5"),
+    ("path-baro-off", "miss-max-m", "barometer silent, m", "1.5"),
+    ("path-baro-stuck", "miss-max-m", "barometer stuck, m", "1.5"),
+    ("twist", "roll-max-deg", "torque worth 40 rad/s² about roll for 3 s: roll, °", "20; ArduPilot’s test 20"),
+    ("weak-rotor", "height-error-max-m", "a rotor at 65 % for 30 s: height, m", "1; ArduPilot’s test 5"),
+    ("weak-rotor", "horizontal-error-max-m", "and drift, m", "2; ArduPilot’s test 10"),
+    ("lost-rotor", "touchdown-m-s", "a rotor lost at 20 m: touches down at, m/s", "3"),
+]
+
+
+def assess():
+    """What a hundred seeds of each scenario that is judged have measured."""
+    command = [str(SIMULATOR), "assess", "--json"]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+def short(value):
+    return "–" if value is None else f"{value:.3g}" if abs(value) < 100 else f"{value:.0f}"
+
+
+def sensors_table(reports):
+    measured = {(report["scenario"], row["measure"]): row for report in reports for row in report["rows"]}
+    row = lambda scenario, measure: [short(measured[scenario, measure][key]) for key in ("p50", "p95", "max", "rms")]
+    return table(
+        ["flight", "scenario", "median", "95 %", "worst", "rms", "asked for"],
+        [[text, f"`{name}`", *row(name, measure), asked] for name, measure, text, asked in ON_SENSORS],
+    )
+
+
+def sensors_page(reports):
+    """Every scenario: what is expected of it, what was measured, how consistent the filter is."""
+    parts = []
+    for report in reports:
+        parts.append(f"### `{report['scenario']}`\n")
+        parts.append(table(["expected", "found", ""], [expectation(verdict) for verdict in report["verdicts"]]) + "\n")
+        rows = [[row["measure"], *(short(row[key]) for key in ("p5", "p50", "p95", "max", "rms"))] for row in report["rows"]]
+        parts.append(table(["measure", "5 %", "median", "95 %", "worst", "rms"], rows) + "\n")
+        rows = [
+            [nis["reading"], str(nis["count"]), *(f"{nis[key]:.3f}" for key in ("mean", "within_95", "within_band", "refused"))]
+            for nis in report["nis"]
+        ]
+        if report["nees"]:
+            nees = report["nees"]
+            rows.append(["**errors**", str(nees["looks"]), *(f"{nees[key]:.3f}" for key in ("mean", "within_95", "within_band")), ""])
+        header = ["reading", "count", "NIS, NEES / degrees", "within 95 %", "in band", "refused"]
+        parts.append(table(header, rows) + "\n")
+    return "\n".join(parts)
+
+
+def expectation(verdict):
+    of = "root mean square" if verdict["percentile"] is None else f"{verdict['percentile']:g} %"
+    most, least = verdict["at_most"], verdict["at_least"]
+    bound = f"≥ {least:g}" if most is None else f"≤ {most:g}"
+    return [f"{verdict['measure']}, {of}, {bound}", short(verdict["found"]), "" if verdict["met"] else "**not met**"]
+
+
 def updated(text, parts):
     """The text with each generated part made anew."""
     for name, now in parts.items():
@@ -176,10 +245,17 @@ def main():
     write = sys.argv[1:] == ["--write"]
     assert "TODO" not in README.read_text(encoding="utf-8"), "README.md has a figure that nobody has filled in"
     result, page, ratios = compare()
-    readme = {"paper": paper_table(), "flights": flights_table(), "comparison": comparison_table(result)}
+    on_sensors = assess()
+    readme = {
+        "paper": paper_table(),
+        "flights": flights_table(),
+        "comparison": comparison_table(result),
+        "sensors": sensors_table(on_sensors),
+    }
     good = [
         check(README, updated(README.read_text(encoding="utf-8"), readme), write),
         check(COMPARISON, updated(COMPARISON.read_text(encoding="utf-8"), {"comparison": page}), write),
+        check(SENSORS, updated(SENSORS.read_text(encoding="utf-8"), {"sensors": sensors_page(on_sensors)}), write),
         check(IMAGES / "helix.svg", helix_picture(), write),
         check(IMAGES / "compare-ratio.svg", ratios, write),
     ]

@@ -3,7 +3,7 @@
 //! ```text
 //! host ── Hello ──► image      once: what to fly, and what to disturb
 //! host ◄─ Answer ── image      once: ready, or why not
-//! host ── Request ► image      a tick: the sample, or the end
+//! host ── Request ► image      a tick: the sample, or the end; before it, what a pilot asks for
 //! host ◄─ Reply ─── image      a tick: what the inner task has done
 //! ```
 //!
@@ -17,6 +17,7 @@ mod words;
 use nalgebra::Vector3;
 
 use crate::autopilot::InnerTask;
+use crate::commander;
 use crate::inner::InnerOutput;
 use crate::sensors::Measurements;
 use crate::signals::{NavState, SensorFrame, Tick};
@@ -25,7 +26,7 @@ pub use hello::{Answer, BusyWait, Fault, HELLO_BYTES, Hello, HelloError};
 use words::{Reader, Words, Writer, as_words};
 
 /// Changes with every change of a frame, so that host and image of different versions refuse each other.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// Bytes of a [`Request`].
 pub const REQUEST_BYTES: usize = 4 * Request::WORDS;
@@ -34,12 +35,13 @@ pub const REPLY_BYTES: usize = 4 * Reply::WORDS;
 
 /// What the host asks for in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "one a tick, on its way into bytes or out of them")]
 pub enum Request {
     /// Fly a tick with this sample.
     Sample(SensorFrame),
     /// Fly a tick without a sample.
     Missing,
+    /// Hand this to the commander before the tick, which comes with the next frame; there is no reply.
+    Ask(commander::Request),
     /// End.
     Exit,
 }
@@ -152,6 +154,10 @@ impl Words for Request {
             }
             Self::Missing => to.word(2),
             Self::Exit => to.word(3),
+            Self::Ask(request) => {
+                to.word(4);
+                request.write(to);
+            }
         }
     }
 
@@ -161,6 +167,7 @@ impl Words for Request {
             1 => Some(Self::Sample(SensorFrame::Measured(Words::read(from)?))),
             2 => Some(Self::Missing),
             3 => Some(Self::Exit),
+            4 => Some(Self::Ask(Words::read(from)?)),
             _ => None,
         }
     }

@@ -114,17 +114,17 @@ impl ImuSample {
 }
 
 impl GnssSample {
-    /// True if every number of it is finite.
-    pub fn is_finite(&self) -> bool {
-        let v = &self.velocity;
-        math::all_finite(&[
-            v.x,
-            v.y,
-            v.z,
-            self.horizontal_accuracy_m,
-            self.vertical_accuracy_m,
-            self.speed_accuracy_m_s,
-        ])
+    /// True for a fix of finite numbers, of which the receiver does not say itself that they are worth nothing.
+    pub fn is_usable(&self) -> bool {
+        /// A position worse than this, m, or a velocity worse than that, m/s, holds no vehicle.
+        const ACCURACY: (f32, f32) = (10.0, 1.0);
+        let (metres, metres_a_second) = ACCURACY;
+        // A comparison with NaN is false.
+        self.has_fix
+            && math::all_finite(self.velocity.as_slice())
+            && self.horizontal_accuracy_m < metres
+            && self.vertical_accuracy_m < 2.0 * metres
+            && self.speed_accuracy_m_s < metres_a_second
     }
 }
 
@@ -133,5 +133,33 @@ impl PoseSample {
     pub fn is_valid(&self) -> bool {
         let norm = self.attitude.quaternion().norm_squared();
         math::all_finite(self.position.as_slice()) && norm > 0.98 && norm < 1.02
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_receiver_that_knows_nothing_is_not_listened_to() {
+        let good = GnssSample {
+            at: 0,
+            has_fix: true,
+            place: Geodetic::default(),
+            velocity: Vector3::zeros(),
+            horizontal_accuracy_m: 1.5,
+            vertical_accuracy_m: 2.5,
+            speed_accuracy_m_s: 0.05,
+        };
+        assert!(good.is_usable());
+        for bad in [
+            GnssSample { has_fix: false, ..good },
+            GnssSample { velocity: Vector3::new(0.0, f32::NAN, 0.0), ..good },
+            GnssSample { horizontal_accuracy_m: 50.0, ..good },
+            GnssSample { vertical_accuracy_m: f32::NAN, ..good },
+            GnssSample { speed_accuracy_m_s: f32::INFINITY, ..good },
+        ] {
+            assert!(!bad.is_usable(), "{bad:?}");
+        }
     }
 }

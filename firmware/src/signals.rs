@@ -78,7 +78,6 @@ impl NavHealth {
 
 /// What is delivered for one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(clippy::large_enum_variant, reason = "one a tick, handed on by reference; there is no heap to put it on")]
 pub enum SensorFrame {
     /// The vehicle's motion at this tick: what an ideal sensor gives, for comparing control laws.
     Motion(NavState),

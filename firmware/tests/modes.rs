@@ -122,7 +122,7 @@ impl Vehicle {
         let output = if self.told.armed && self.reference.idle {
             self.inner.idle()
         } else {
-            self.inner.step(self.tick, Some(&sample), &self.reference.attitude, self.told.armed)
+            self.inner.step(self.tick, &self.reference.attitude, self.told.armed)
         };
         self.motors = output.motors;
         self.body.step(&self.motors);

@@ -17,6 +17,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use firmware::autopilot::InnerTask;
+use firmware::commander;
 use firmware::config::FlightConfig;
 use firmware::inner::InnerOutput;
 use firmware::pil::{Answer, Cause, Hello, REPLY_BYTES, Reply, Request, State};
@@ -155,6 +156,14 @@ impl Pil {
     /// [`Overrun`] or [`Stopped`] (to be found by `downcast_ref`), or in one line why there was no answer.
     pub fn tick(&mut self, sample: &SensorFrame) -> Result<PilOutput> {
         self.exchange(&Request::Sample(*sample))
+    }
+
+    /// Hands the image what a pilot asks for, before the tick that comes next.
+    ///
+    /// # Errors
+    /// In one line, why it could not be handed over.
+    pub fn ask(&mut self, asked: commander::Request) -> Result<()> {
+        self.qemu.send(&Request::Ask(asked).encode())
     }
 
     /// One tick of the image without a sample.

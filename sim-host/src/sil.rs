@@ -5,6 +5,7 @@
 
 use firmware::airframe::ROTORS;
 use firmware::autopilot::Autopilot;
+use firmware::commander::Request;
 use firmware::control::attitude::SlidingAttitude;
 use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
@@ -172,17 +173,16 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         SensorFrame::Measured(self.sensors.as_mut().map(|suite| suite.measure(&truth)).unwrap_or_default())
     }
 
-    /// What the pilot asks for, if there is one.
+    /// What the pilot asks of the vehicle at this tick, handed over. To be called once a tick, after
+    /// [`sense`](Self::sense).
     #[cold]
-    fn ask_pilot(&mut self) {
+    pub fn ask_pilot(&mut self) -> Option<Request> {
         let vehicle = &mut self.autopilot.inner;
         let armed = vehicle.commander_output().armed;
-        if let Some(pilot) = &mut self.pilot
-            && let Some(request) = pilot.step(self.tick, vehicle.nav(), armed)
-        {
-            // A full queue drops the request, as a busy vehicle would; the pilot looks again.
-            let _ = vehicle.request(request);
-        }
+        let request = self.pilot.as_mut()?.step(self.tick, vehicle.nav(), armed)?;
+        // A full queue drops the request, as a busy vehicle would; the pilot looks again.
+        let _ = vehicle.request(request);
+        Some(request)
     }
 
     /// One tick: sense, control, record, move. Returns false once a recorded row has shown that the vehicle is lost.

@@ -14,6 +14,7 @@ use super::{Start, StartError, fault};
 use crate::airframe::ROTORS;
 use crate::autopilot::InnerTask;
 use crate::board::mps2::{FreeRunning, RecordingPwm};
+use crate::commander;
 use crate::pil::{Answer, BusyWait, Cause, Fault, HELLO_BYTES, Hello, REPLY_BYTES, REQUEST_BYTES, Reply, Request};
 use crate::rotors::PwmRotors;
 use crate::signals::{SensorFrame, Tick};
@@ -27,12 +28,23 @@ static TO_HOST: Mutex<RefCell<Option<File>>> = Mutex::new(RefCell::new(None));
 /// Samples come from the host.
 pub struct Imu {
     from_host: File,
+    asked: Option<commander::Request>,
+}
+
+impl Imu {
+    fn request(&mut self) -> Option<Request> {
+        let mut bytes = [0; REQUEST_BYTES];
+        self.from_host.read_exact(&mut bytes).ok().and_then(|()| Request::decode(&bytes))
+    }
 }
 
 impl super::Imu for Imu {
     fn sample(&mut self) -> Option<SensorFrame> {
-        let mut bytes = [0; REQUEST_BYTES];
-        let request = self.from_host.read_exact(&mut bytes).ok().and_then(|()| Request::decode(&bytes));
+        let mut request = self.request();
+        if let Some(Request::Ask(asked)) = request {
+            self.asked = Some(asked);
+            request = self.request();
+        }
         match request {
             Some(Request::Sample(sample)) => Some(sample),
             Some(Request::Missing) => None,
@@ -40,12 +52,16 @@ impl super::Imu for Imu {
                 fault::stop_rotors();
                 semihosting::process::exit(0)
             }
-            // The host has gone.
-            None => {
+            // The host has gone, or asks for two things in a tick.
+            None | Some(Request::Ask(_)) => {
                 fault::stop_rotors();
                 fault::end()
             }
         }
+    }
+
+    fn asked(&mut self) -> Option<commander::Request> {
+        self.asked.take()
     }
 }
 
@@ -107,7 +123,7 @@ pub fn start(pwm: [RecordingPwm; ROTORS], clock: FreeRunning) -> Result<Start<Im
     from_host.read_exact(&mut bytes).map_err(|_| StartError::NoHost)?;
     let Hello { config, busy, fault } = Hello::decode(&bytes).map_err(StartError::Hello)?;
     let rotors = Rotors { pwm: PwmRotors::new(pwm, config.airframe.omega_max_rad_s) };
-    Ok(Start { config, imu: Imu { from_host }, rotors, diagnostics: Diagnostics { clock, busy, fault } })
+    Ok(Start { config, imu: Imu { from_host, asked: None }, rotors, diagnostics: Diagnostics { clock, busy, fault } })
 }
 
 /// Tells the host whether the flight begins.

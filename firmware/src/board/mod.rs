@@ -17,6 +17,7 @@ pub mod mps2;
 pub mod pad;
 
 use crate::autopilot::InnerTask;
+use crate::commander::Request;
 use crate::config::FlightConfig;
 use crate::signals::SensorFrame;
 use crate::validate::ConfigError;
@@ -26,6 +27,11 @@ pub trait Imu {
     /// The sample of the tick that has just begun; none if it is missing. Called once a tick by the inner task,
     /// which waits for it.
     fn sample(&mut self) -> Option<SensorFrame>;
+
+    /// What a pilot has asked for since the last tick, beside MAVLink. Called once a tick, after the sample.
+    fn asked(&mut self) -> Option<Request> {
+        None
+    }
 }
 
 /// The sink of the inner loop's motor commands.

@@ -30,7 +30,7 @@ impl Filter {
         if let Some(pose) = readings.pose.filter(PoseSample::is_valid) {
             self.fuse_pose(job, &pose);
         }
-        if let Some(gnss) = readings.gnss.filter(|gnss| gnss.has_fix && gnss.is_finite()) {
+        if let Some(gnss) = readings.gnss.filter(GnssSample::is_usable) {
             self.fuse_gnss(job, &gnss);
         }
         if let Some(baro) = readings.baro.filter(|baro| baro.pressure_pa > 1e3 && baro.pressure_pa < 1.3e5) {

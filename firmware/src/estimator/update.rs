@@ -48,7 +48,7 @@ impl<const N: usize> Measurement<N> {
         for n in 0..N {
             let s = self.rows[n].dot(&c[n]) + self.variance[n];
             // P is positive but for rounding, and R is not small: only what is no number can fail here.
-            if !(s > 0.0) {
+            if s <= 0.0 || s.is_nan() {
                 return Verdict { nis: f32::INFINITY, accepted: false };
             }
             sums[n] = s;

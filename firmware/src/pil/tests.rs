@@ -192,3 +192,22 @@ fn a_long_reason_is_cut() {
     assert!(matches!(answer, Answer::Refused(text) if text.len() == REPLY_BYTES - 4));
     assert_eq!(Answer::decode(&Answer::Ready.encode()), Some(Answer::Ready));
 }
+
+#[test]
+fn what_a_pilot_asks_for_survives_its_bytes() {
+    let [x, y, z, w] = numbers(-1.5);
+    for asked in [
+        commander::Request::Arm { force: true },
+        commander::Request::Disarm { force: false },
+        commander::Request::TakeOff { height_m: 2.5 },
+        commander::Request::Hold,
+        commander::Request::GoTo { position_m: [x, y, z], yaw_rad: w },
+        commander::Request::Velocity { velocity_m_s: [w, z, y], yaw_rate_rad_s: x },
+        commander::Request::Land,
+        commander::Request::Return,
+        commander::Request::Follow,
+    ] {
+        assert_survives(&Request::Ask(asked));
+        assert_eq!(Request::decode(&Request::Ask(asked).encode()), Some(Request::Ask(asked)));
+    }
+}

@@ -5,6 +5,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
+use crate::commander::Request;
 use crate::inner::InnerOutput;
 use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, Measurements, PoseSample};
 use crate::signals::{ControlInput, MotorCommand, NavState, Tick};
@@ -197,6 +198,45 @@ macro_rules! as_words {
     };
 }
 pub(super) use as_words;
+
+/// Its kind, and up to four numbers.
+impl Words for Request {
+    const WORDS: usize = 5;
+
+    fn write(&self, to: &mut Writer) {
+        let (kind, numbers) = match *self {
+            Self::Arm { force } => (0, [f32::from(u8::from(force)), 0.0, 0.0, 0.0]),
+            Self::Disarm { force } => (1, [f32::from(u8::from(force)), 0.0, 0.0, 0.0]),
+            Self::TakeOff { height_m } => (2, [height_m, 0.0, 0.0, 0.0]),
+            Self::Hold => (3, [0.0; 4]),
+            Self::GoTo { position_m: [x, y, z], yaw_rad } => (4, [x, y, z, yaw_rad]),
+            Self::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s } => (5, [x, y, z, yaw_rate_rad_s]),
+            Self::Land => (6, [0.0; 4]),
+            Self::Return => (7, [0.0; 4]),
+            Self::Follow => (8, [0.0; 4]),
+        };
+        to.word(kind);
+        numbers.write(to);
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        let kind = from.word()?;
+        let [x, y, z, w] = Words::read(from)?;
+        let force = x != 0.0;
+        Some(match kind {
+            0 => Self::Arm { force },
+            1 => Self::Disarm { force },
+            2 => Self::TakeOff { height_m: x },
+            3 => Self::Hold,
+            4 => Self::GoTo { position_m: [x, y, z], yaw_rad: w },
+            5 => Self::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s: w },
+            6 => Self::Land,
+            7 => Self::Return,
+            8 => Self::Follow,
+            _ => return None,
+        })
+    }
+}
 
 type Vector = Vector3<f32>;
 type Attitude = UnitQuaternion<f32>;

@@ -221,7 +221,7 @@ impl Assessor {
         self.height.take(row.position[2]);
         self.height_error.take(error.z.abs());
         self.height_sum = (self.height_sum.0 + row.position[2], self.height_sum.1 + 1.0);
-        self.horizontal.push(error.x.hypot(error.y));
+        self.horizontal.push(libm::hypot(error.x, error.y));
         for (axis, error) in self.axes.iter_mut().zip(error.iter()) {
             axis.take(*error);
         }
@@ -284,7 +284,7 @@ impl Recorder for Assessor {
         let believed = navigation.nav.attitude.cast::<f64>();
         let error = (is * believed.inverse()).scaled_axis();
         let [tilt, heading, attitude, position] = &mut self.known;
-        tilt.take(error.x.hypot(error.y));
+        tilt.take(libm::hypot(error.x, error.y));
         heading.take(error.z);
         attitude.take(error.norm());
         position.take((navigation.truth.position - navigation.nav.position.cast()).norm());

@@ -110,6 +110,9 @@ fn fly<W: std::io::Write>(
 /// which only the figures of merit look at, is the desktop's.
 fn step(flight: &mut Flight<RigidBody>, pil: &mut Pil, recorder: &mut impl Recorder) -> Result<bool> {
     let sample = flight.sense();
+    if let Some(asked) = flight.ask_pilot() {
+        pil.ask(asked)?;
+    }
     flight.autopilot.tick(Some(&sample));
     let image = pil.tick(&sample)?;
     compare(&flight.autopilot.inner, &image)?;

@@ -3,9 +3,7 @@
 use anyhow::{Result, anyhow, ensure};
 use firmware::guidance::Trajectory;
 
-use super::{
-    AttitudeWave, BatteryStart, Disturbance, Gust, PlantKind, Scenario, ScenarioFile, ScheduledPush, Truth, Wind, World,
-};
+use super::{AttitudeWave, Disturbance, Gust, PlantKind, Scenario, ScenarioFile, ScheduledPush, Truth, Wind, World};
 use crate::airframe::AirframeFile;
 use crate::plant::air::ALTITUDE_M;
 use crate::sil::DELAY_TICKS_MAX;
@@ -128,12 +126,7 @@ fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
     ] {
         ensure!(!asked || is_there, "`{key}` needs `{needs}`: set it, or leave `{key}` out");
     }
-    f.battery.as_ref().map_or(Ok(()), battery)
-}
-
-fn battery(battery: &BatteryStart) -> Result<()> {
-    within("battery.soc", battery.soc, 0.0, 1.0)?;
-    Ok(())
+    f.battery.map_or(Ok(()), |battery| within("battery.soc", battery.soc, 0.0, 1.0))
 }
 
 fn push(push: &ScheduledPush) -> Result<()> {

@@ -156,6 +156,10 @@ mod app {
             cx.shared.timing.lock(|shared| *shared = Some(timing));
         }
         top.take_received();
+        if let Some(request) = top.imu.asked() {
+            // A full queue drops it, as it does a ground station's.
+            let _ = top.flight.request(request);
+        }
         let (released, overruns) =
             cx.shared.mail.lock(|mail| (top.flight.tick(mail, sample.as_ref()), mail.overruns()));
         top.rotors.drive(&top.flight, overruns);
