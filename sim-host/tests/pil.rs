@@ -86,11 +86,11 @@ fn swaying(tick: u32) -> (Motion, Vector3<f64>) {
     let t = f64::from(tick.saturating_sub(2_000)) * 1e-3;
     // c (1 − cos ωt) and its derivatives.
     let sway = |c: f64, w: f64| {
-        let (sin, cos) = (w * t).sin_cos();
+        let (sin, cos) = libm::sincos(w * t);
         [c * (1.0 - cos), c * w * sin, if t > 0.0 { c * w * w * cos } else { 0.0 }]
     };
     let [x, y, z, yaw] = [sway(3.0, 0.8), sway(-2.0, 0.5), sway(0.5, 1.1), sway(0.5, 1.0)];
-    let attitude = Quaternion::from_parts((0.5 * yaw[0]).cos(), Vector3::z() * (0.5 * yaw[0]).sin());
+    let attitude = Quaternion::from_parts(libm::cos(0.5 * yaw[0]), Vector3::z() * libm::sin(0.5 * yaw[0]));
     let motion = Motion {
         position: Vector3::new(x[0], y[0], z[0]),
         velocity: Vector3::new(x[1], y[1], z[1]),
