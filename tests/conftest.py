@@ -19,6 +19,9 @@ from pymavlink.dialects.v20 import common as mavlink
 ROOT = Path(__file__).resolve().parent.parent
 SIMULATOR = Path(os.environ.get("GLISSADE_SIM", ROOT / "target" / "release" / "sim-host"))
 
+# The bit of SYS_STATUS that says that it may be armed.
+PREARM_CHECK = mavlink.MAV_SYS_STATUS_PREARM_CHECK
+
 # The longest that anything may take before the test calls it a hang, in seconds of wall time.
 HANG_S = 60.0
 
@@ -110,11 +113,19 @@ class Station:
 
 
 class Simulator:
-    """`sim-host serve` as a process."""
+    """`sim-host serve` as a process; lines written to it are its standard input."""
 
     def __init__(self, station, *arguments):
         command = [str(SIMULATOR), "serve", "--listen", "127.0.0.1:0", "--peer", station.address, *arguments]
-        self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        pipe = subprocess.PIPE
+        self.process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, text=True, bufsize=1)
+
+    def write(self, line):
+        self.process.stdin.write(line + "\n")
+
+    def end_input(self):
+        self.process.stdin.close()
+        self.process.stdin = None
 
     def is_running(self):
         return self.process.poll() is None
@@ -140,10 +151,11 @@ def station():
 
 @pytest.fixture
 def vehicle(station, simulator_path):
-    """A simulator on the ground, disarmed, at five times real time, that the station has heard from."""
+    """A simulator of the scenario `field`, at five times real time, once it has aligned and may be armed."""
     simulator = Simulator(station, "--speed", "5")
     station.wait("HEARTBEAT")
     station.wait("LOCAL_POSITION_NED")
+    station.wait("SYS_STATUS", lambda status: status.onboard_control_sensors_health & PREARM_CHECK, within_ms=10_000)
     yield simulator
     running = simulator.is_running()
     simulator.stop()

@@ -9,7 +9,7 @@ import subprocess
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
-from conftest import HANG_S, Station
+from conftest import HANG_S, PREARM_CHECK, Station
 
 ARM_DISARM = mavlink.MAV_CMD_COMPONENT_ARM_DISARM
 TAKEOFF = mavlink.MAV_CMD_NAV_TAKEOFF
@@ -24,7 +24,9 @@ UNSUPPORTED = [mavlink.MAV_CMD_DO_SET_SERVO, mavlink.MAV_CMD_NAV_WAYPOINT, mavli
 # A message that QGroundControl asks for and that there is none of.
 COMPONENT_METADATA = 397
 HOVER_Z_M = -2.0
-PREARM_CHECK = 0x10000000
+# The vehicle is told its place by satellites, in wind: what it holds by its own account, and what its idea of it drifts by.
+HELD_M = 0.3
+GROUND_M = 0.5
 
 
 def is_armed(heartbeat):
@@ -41,7 +43,7 @@ def climb(station):
     arm(station)
     station.command_long(TAKEOFF, *[0] * 6, -HOVER_Z_M)
     assert station.ack(TAKEOFF) == mavlink.MAV_RESULT_ACCEPTED
-    station.wait("LOCAL_POSITION_NED", lambda position: abs(position.z - HOVER_Z_M) < 0.1)
+    station.wait("LOCAL_POSITION_NED", lambda position: abs(position.z - HOVER_Z_M) < HELD_M)
 
 
 def test_heartbeat_is_a_px4_quadrotors(vehicle, station):
@@ -92,7 +94,7 @@ def test_armed_it_stays_on_the_ground(vehicle, station):
     arm(station)
     for _, message in station.collect(3_000):
         if message.get_type() == "LOCAL_POSITION_NED":
-            assert abs(message.z) < 0.1, message
+            assert abs(message.z) < GROUND_M, message
         if message.get_type() == "EXTENDED_SYS_STATE":
             assert message.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND
 
@@ -111,7 +113,7 @@ def test_it_lands_and_disarms_by_itself(vehicle, station):
     assert station.ack(LAND) == mavlink.MAV_RESULT_ACCEPTED
     wait_mode(station, AUTO_LAND)
     station.wait("HEARTBEAT", lambda heartbeat: not is_armed(heartbeat))
-    assert abs(station.wait("LOCAL_POSITION_NED").z) < 0.1
+    assert abs(station.wait("LOCAL_POSITION_NED").z) < GROUND_M
 
 
 def test_modes_are_set_as_px4s_are(vehicle, station):
@@ -142,17 +144,20 @@ def test_a_take_off_without_sense_is_denied(vehicle, station):
 
 def test_it_climbs_to_two_metres_and_holds(vehicle, station):
     ground = station.wait("LOCAL_POSITION_NED")
-    assert math.dist((ground.x, ground.y, ground.z), (0, 0, 0)) < 0.1
+    assert math.dist((ground.x, ground.y, ground.z), (0, 0, 0)) < GROUND_M
     climb(station)
     state = station.wait("EXTENDED_SYS_STATE", within_ms=1_500)
     assert state.landed_state == mavlink.MAV_LANDED_STATE_IN_AIR
-    # The climb may overshoot; two seconds later it is to have settled.
+    # The climb may overshoot; two seconds later it is to have settled, where it has come to rest.
     station.collect(2_000)
+    start = station.wait("LOCAL_POSITION_NED")
     for _, message in station.collect(3_000):
         if message.get_type() == "LOCAL_POSITION_NED":
-            assert math.dist((message.x, message.y, message.z), (0, 0, HOVER_Z_M)) < 0.1, message
+            assert math.dist((message.x, message.y), (start.x, start.y)) < HELD_M, message
+            assert abs(message.z - (ground.z + HOVER_Z_M)) < 0.5, message
         if message.get_type() == "ATTITUDE":
-            assert abs(message.roll) < 0.1 and abs(message.pitch) < 0.1, message
+            # It leans into the wind and its gusts.
+            assert abs(message.roll) < 0.2 and abs(message.pitch) < 0.2, message
 
 
 def test_disarming_in_the_air_is_refused_with_a_reason(vehicle, station):
@@ -262,7 +267,93 @@ def test_a_repeated_command_is_answered_again_and_changes_nothing(vehicle, stati
     # Had the flight begun anew, it would be on its way to the ground.
     for _, message in station.collect(1_000):
         if message.get_type() == "LOCAL_POSITION_NED":
-            assert abs(message.z - HOVER_Z_M) < 0.1
+            assert abs(message.z - HOVER_Z_M) < 0.5
+
+
+SENSORS = {
+    name: getattr(mavlink, f"MAV_SYS_STATUS_SENSOR_{name}")
+    for name in ("3D_GYRO", "3D_ACCEL", "3D_MAG", "ABSOLUTE_PRESSURE", "GPS", "BATTERY")
+}
+
+
+def test_the_sensors_and_the_battery_are_told(vehicle, station):
+    status = station.wait("SYS_STATUS")
+    for name, bit in SENSORS.items():
+        assert status.onboard_control_sensors_present & bit, name
+        assert status.onboard_control_sensors_health & bit, name
+    # Four cells, full, and little is drawn from them.
+    assert 16_000 < status.voltage_battery < 17_000
+    assert 0 <= status.current_battery < 500
+    assert status.battery_remaining == -1, "nothing on board knows it"
+
+
+def test_the_estimator_tells_what_it_knows(vehicle, station):
+    times = [m.time_usec for _, m in station.collect(5_000) if m.get_type() == "ESTIMATOR_STATUS"]
+    assert len(times) >= 4 and all(b - a == 1_000_000 for a, b in zip(times, times[1:])), times
+    status = station.wait("ESTIMATOR_STATUS")
+    known = mavlink.ESTIMATOR_ATTITUDE | mavlink.ESTIMATOR_VELOCITY_HORIZ | mavlink.ESTIMATOR_VELOCITY_VERT
+    assert status.flags == known | mavlink.ESTIMATOR_POS_HORIZ_REL | mavlink.ESTIMATOR_POS_HORIZ_ABS
+    ratios = (status.vel_ratio, status.pos_horiz_ratio, status.pos_vert_ratio, status.mag_ratio)
+    assert all(0 <= ratio < 1 for ratio in ratios), ratios
+    assert 0 < status.pos_horiz_accuracy < 1 and 0 < status.pos_vert_accuracy < 1
+
+
+def inject(station, unit, failure, instance=0):
+    station.command_long(mavlink.MAV_CMD_INJECT_FAILURE, unit, failure, instance)
+    return station.ack(mavlink.MAV_CMD_INJECT_FAILURE)
+
+
+def gps_is_healthy(status):
+    return bool(status.onboard_control_sensors_health & SENSORS["GPS"])
+
+
+def test_without_satellites_it_lands(vehicle, station):
+    climb(station)
+    assert inject(station, mavlink.FAILURE_UNIT_SENSOR_GPS, mavlink.FAILURE_TYPE_OFF) == mavlink.MAV_RESULT_ACCEPTED
+    station.wait("SYS_STATUS", lambda status: not gps_is_healthy(status), within_ms=3_000)
+    station.wait("STATUSTEXT", lambda text: "osition lost" in text.text, within_ms=10_000)
+    station.wait("HEARTBEAT", lambda heartbeat: not is_armed(heartbeat), within_ms=60_000)
+    assert abs(station.wait("LOCAL_POSITION_NED").z) < 1
+    assert inject(station, mavlink.FAILURE_UNIT_SENSOR_GPS, mavlink.FAILURE_TYPE_OK) == mavlink.MAV_RESULT_ACCEPTED
+    station.wait("SYS_STATUS", gps_is_healthy, within_ms=10_000)
+
+
+def test_failures_that_nothing_can_make_are_not_acknowledged(vehicle, station):
+    for unit, failure in [
+        (mavlink.FAILURE_UNIT_SYSTEM_SERVO, mavlink.FAILURE_TYPE_OFF),
+        (mavlink.FAILURE_UNIT_SENSOR_MAG, mavlink.FAILURE_TYPE_SLOW),
+        (mavlink.FAILURE_UNIT_SYSTEM_MOTOR, mavlink.FAILURE_TYPE_STUCK),
+    ]:
+        assert inject(station, unit, failure) == mavlink.MAV_RESULT_UNSUPPORTED, (unit, failure)
+    off = mavlink.FAILURE_TYPE_OFF
+    assert inject(station, mavlink.FAILURE_UNIT_SYSTEM_MOTOR, off, 5) == mavlink.MAV_RESULT_DENIED
+    assert inject(station, math.nan, off) == mavlink.MAV_RESULT_DENIED
+
+
+def test_an_empty_battery_brings_it_home(vehicle, station):
+    climb(station)
+    assert inject(station, mavlink.FAILURE_UNIT_SYSTEM_BATTERY, mavlink.FAILURE_TYPE_OFF) == mavlink.MAV_RESULT_ACCEPTED
+    station.wait("STATUSTEXT", lambda text: "Battery low" in text.text, within_ms=5_000)
+    station.wait("SYS_STATUS", lambda status: status.voltage_battery < 14_000, within_ms=1_000)
+    station.wait("HEARTBEAT", lambda heartbeat: not is_armed(heartbeat), within_ms=60_000)
+
+
+def test_faults_are_taken_in_lines(vehicle, station):
+    answers, complaints = vehicle.process.stdout, vehicle.process.stderr
+    vehicle.write("fault sensor=gnss kind=off")
+    assert answers.readline().startswith("fault ")
+    station.wait("SYS_STATUS", lambda status: not gps_is_healthy(status), within_ms=3_000)
+    vehicle.write("faults")
+    listed = answers.readline()
+    assert "sensor=gnss" in listed and "kind=off" in listed
+    vehicle.write("clear")
+    assert answers.readline() == "no faults\n"
+    station.wait("SYS_STATUS", gps_is_healthy, within_ms=10_000)
+    complaints.readline()  # What is flown.
+    vehicle.write("fault sensor=gps kind=off")
+    assert "gps" in complaints.readline()
+    vehicle.end_input()
+    station.collect(1_000)
 
 
 def test_two_stations_are_both_served(vehicle, station):

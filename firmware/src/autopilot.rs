@@ -13,7 +13,9 @@ use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeLaw, PositionLaw};
 use crate::control::position::SlidingPosition;
+use crate::estimator::status::{Fusion, Status};
 use crate::estimator::{Filter, FilterInput, FilterOutput};
+use crate::failure::{Failures, Injectable};
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::navigator::Navigator;
@@ -77,6 +79,8 @@ pub struct InnerTask<A = SlidingAttitude> {
     filter: FilterOutput,
     /// When that came into effect.
     filtered_at: Option<Tick>,
+    /// What has become of each kind of reading, for telemetry.
+    fusion: Fusion,
     commander: CommanderOutput,
     /// Commands for the commander's next job, and its replies for the ground's.
     commands: Commands,
@@ -87,6 +91,9 @@ pub struct InnerTask<A = SlidingAttitude> {
     transmit: TxBytes,
     dropped_bytes: u32,
     timing: Option<LoopTiming>,
+    /// What the board can make fail on request, and what it is to make fail now.
+    injectable: Injectable,
+    failures: Failures,
     /// Set by a forced disarm the moment it is published; the rotors stay stopped until the commander has
     /// disarmed, and is cleared then.
     kill: bool,
@@ -107,6 +114,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             outer: first,
             filter: FilterOutput::initial(),
             filtered_at: None,
+            fusion: Fusion::default(),
             commander,
             commands: Commands::new(),
             replies: Replies::new(),
@@ -115,6 +123,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
             transmit: TxBytes::new(),
             dropped_bytes: 0,
             timing: None,
+            injectable: Injectable::NONE,
+            failures: Failures::new(),
             kill: false,
         }
     }
@@ -148,6 +158,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             && let Some(output) = mail.filter.publish(tick)
         {
             navigator.inject(&output.injection);
+            self.fusion.note(tick, &output.consistency);
             self.filter = output;
             self.filtered_at = Some(tick);
         }
@@ -172,6 +183,9 @@ impl<A: AttitudeLaw> InnerTask<A> {
             if !output.transmit.is_empty() {
                 self.transmit = output.transmit;
             }
+            if !output.failures.is_empty() {
+                self.failures = output.failures;
+            }
         }
     }
 
@@ -184,9 +198,10 @@ impl<A: AttitudeLaw> InnerTask<A> {
             ground: mail.ground.is_due(tick),
         };
         if released.filter {
-            let at_rest = self.commander.landed && !self.is_armed();
+            let landed = self.commander.landed;
+            let at_rest = landed && !self.is_armed();
             if let Some(navigator) = self.inner.navigator_mut() {
-                mail.filter.release(tick, navigator.release(at_rest));
+                mail.filter.release(tick, navigator.release(landed, at_rest));
             }
         }
         if released.outer {
@@ -230,10 +245,29 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 overruns,
                 timing: self.timing,
             },
+            estimator: self.estimator_status(),
+            injectable: self.injectable,
             replies: core::mem::take(&mut self.replies),
             events: core::mem::take(&mut self.events),
             received: core::mem::take(&mut self.received),
         }
+    }
+
+    /// What the estimator says of itself; none on ideal state.
+    pub fn estimator_status(&self) -> Option<Status> {
+        let battery = self.inner.navigator()?.battery_with_age();
+        Some(self.fusion.status(self.tick, &self.filter, self.nav_health(), battery))
+    }
+
+    /// Says what this board can make fail on request. It then has to [take](Self::take_failures) what was accepted after
+    /// each tick, and do it.
+    pub fn allow_failures(&mut self, injectable: Injectable) {
+        self.injectable = injectable;
+    }
+
+    /// Failures that the ground station has been told are done: to be done now.
+    pub fn take_failures(&mut self) -> Failures {
+        core::mem::take(&mut self.failures)
     }
 
     fn is_armed(&self) -> bool {
@@ -291,6 +325,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
     #[inline]
     pub fn outer_output(&self) -> &OuterOutput {
         &self.outer
+    }
+
+    /// Navigation on sensors; none on ideal state.
+    pub fn navigator(&self) -> Option<&Navigator> {
+        self.inner.navigator()
     }
 
     /// When the filter's output came into effect.
@@ -407,5 +446,5 @@ fn filter(config: &FlightConfig) -> Filter {
     let airframe = &config.airframe;
     let [k, _, _] = airframe.drag_n_s_m;
     let settings = config.estimator.unwrap_or_default();
-    Filter::new(&settings, airframe.gravity_m_s2, k / airframe.mass_kg)
+    Filter::new(&settings, airframe.gravity_m_s2, k / airframe.mass_kg, config.start_position())
 }

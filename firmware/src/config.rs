@@ -118,6 +118,16 @@ impl ModeSettings {
                 return Err(ConfigError::OutOfRange(name));
             }
         }
+        for (name, value) in [
+            ("modes.landing_m_s", self.landing_m_s),
+            ("modes.touchdown_m_s", self.touchdown_m_s),
+            ("modes.descent_m_s", self.descent_m_s),
+        ] {
+            // A vehicle that comes down as slowly as one that stands could not be told from it.
+            if value < 0.35 {
+                return Err(ConfigError::OutOfRange(name));
+            }
+        }
         ConfigError::require_not_negative("modes.return_height_m", self.return_height_m)?;
         ConfigError::require_not_negative("modes.battery_low_v", self.battery_low_v)?;
         ConfigError::require_not_negative("modes.battery_critical_v", self.battery_critical_v)?;

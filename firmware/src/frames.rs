@@ -63,7 +63,7 @@ impl LocalFrame {
     pub fn to_local(&self, place: &Geodetic) -> Vector3<f32> {
         // Integers' differences: an f32 holds no latitude to better than a metre.
         let north = self.north_m * place.latitude_e7.wrapping_sub(self.origin.latitude_e7) as f32;
-        let east = self.east_m * place.longitude_e7.wrapping_sub(self.origin.longitude_e7) as f32;
+        let east = self.east_m * eastwards(self.origin.longitude_e7, place.longitude_e7) as f32;
         // Meridians come together towards the pole.
         let east = east * (1.0 - 2.0 * self.bend * north);
         let up = place.height_mm.wrapping_sub(self.origin.height_mm) as f32 * 1e-3;
@@ -71,7 +71,23 @@ impl LocalFrame {
     }
 }
 
+/// The shorter way from one longitude to another, 1e-7°.
+fn eastwards(from: i32, to: i32) -> i32 {
+    const TURN: i64 = 3_600_000_000;
+    let difference = i64::from(to) - i64::from(from);
+    let short = if difference > TURN / 2 {
+        difference - TURN
+    } else if difference < -TURN / 2 {
+        difference + TURN
+    } else {
+        difference
+    };
+    // Within half a turn an i32 holds it.
+    short as i32
+}
+
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 mod tests {
     use super::*;
 
@@ -88,5 +104,22 @@ mod tests {
     fn euler_angles_change_sign_in_pitch_and_yaw() {
         let (roll, pitch, yaw) = flip_attitude(&UnitQuaternion::from_euler_angles(0.3, -0.5, 1.1)).euler_angles();
         assert!((Vector3::new(roll, pitch, yaw) - Vector3::new(0.3, 0.5, -1.1)).norm() < 1e-6);
+    }
+
+    #[test]
+    fn places_around_the_origin_are_where_they_are_in_closed_form() {
+        // At 45° the meridian's radius is 6 367 382 m and the parallel's 4 517 591 m (WGS-84).
+        let frame = LocalFrame::new(Geodetic { latitude_e7: 450_000_000, longitude_e7: 0, height_mm: 0 });
+        let north = frame.to_local(&Geodetic { latitude_e7: 450_010_000, longitude_e7: 0, height_mm: 5_000 });
+        assert!((north - Vector3::new(111.132, 0.0, 5.0)).norm() < 5e-3, "{north}");
+        let east = frame.to_local(&Geodetic { latitude_e7: 450_000_000, longitude_e7: 10_000, height_mm: 0 });
+        assert!((east - Vector3::new(0.0, -78.847, 0.0)).norm() < 5e-3, "{east}");
+    }
+
+    #[test]
+    fn the_date_line_is_a_place_like_any_other() {
+        let frame = LocalFrame::new(Geodetic { latitude_e7: 0, longitude_e7: 1_799_999_000, height_mm: 0 });
+        let beyond = frame.to_local(&Geodetic { latitude_e7: 0, longitude_e7: -1_799_999_000, height_mm: 0 });
+        assert!((beyond.y + 22.264).abs() < 1e-2, "{beyond}");
     }
 }

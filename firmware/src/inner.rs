@@ -66,6 +66,8 @@ pub struct Inner<A = SlidingAttitude> {
     monitor: RotorMonitor,
     /// Once a rotor has failed, in place of the law.
     motor_out: Option<MotorOut>,
+    /// Whether the vehicle was armed in the tick before.
+    was_armed: bool,
     nav: NavState,
     stale_ticks: u32,
     refused_samples: u32,
@@ -100,6 +102,7 @@ impl<A: AttitudeLaw> Inner<A> {
             idle_rad_s: config.modes.idle_part * omega_max,
             monitor: RotorMonitor::new(&airframe),
             motor_out: None,
+            was_armed: false,
             nav,
             stale_ticks: 0,
             refused_samples: 0,
@@ -219,19 +222,30 @@ impl<A: AttitudeLaw> Inner<A> {
         })
     }
 
-    /// A tick of looking for a rotor that has failed. Of one that has, nothing is asked any more; armed anew, all are
-    /// taken to be sound.
+    /// A tick of looking for a rotor that has failed. Of one that has, nothing is asked any more, and the vehicle is not
+    /// armed again unless that is forced; then all are taken to be sound.
     pub fn watch_rotors(&mut self, armed: bool, in_air: bool) {
         let Some(navigator) = &self.navigator else { return };
-        if !armed {
+        if armed && !self.was_armed {
             self.monitor.reset(&self.nav.rates);
             if self.motor_out.take().is_some() {
                 // Parts of 1 are within their range.
                 let _ = self.mixer.set_limits([1.0; ROTORS]);
             }
+        }
+        self.was_armed = armed;
+        if !armed {
             return;
         }
         if !in_air || self.motor_out.is_some() {
+            return;
+        }
+        if self.stale_ticks > 0 {
+            /// Longer gaps end what has been seen before them.
+            const LONG: u32 = 5;
+            if self.stale_ticks >= LONG {
+                self.monitor.miss(&self.nav.rates);
+            }
             return;
         }
         let force_z = navigator.specific_force().z;

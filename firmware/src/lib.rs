@@ -27,6 +27,7 @@ pub mod commander;
 pub mod config;
 pub mod control;
 pub mod estimator;
+pub mod failure;
 pub mod frames;
 pub mod guidance;
 pub mod inner;

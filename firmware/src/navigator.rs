@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use crate::airframe::ROTORS;
 use crate::config::FlightConfig;
 use crate::control::gyro::GyroFilter;
-use crate::estimator::{EstimatorSettings, FilterInput, Injection, Predictor, Readings};
+use crate::estimator::{EstimatorSettings, FilterInput, Injection, Nominal, Predictor, Readings};
 use crate::math;
 use crate::sensors::{BatterySample, Measurements};
 use crate::signals::NavState;
@@ -20,6 +20,8 @@ pub struct Navigator {
     filtered: Vector3<f32>,
     readings: Readings,
     battery: Option<BatterySample>,
+    /// Ticks since that was measured, as far as they can be counted.
+    battery_age: u16,
     /// Whether the last job's injection has been taken in.
     injected: bool,
 }
@@ -33,6 +35,7 @@ impl Navigator {
             filtered: Vector3::zeros(),
             readings: Readings::default(),
             battery: None,
+            battery_age: 0,
             injected: false,
         })
     }
@@ -44,6 +47,7 @@ impl Navigator {
         let fresh = self.predictor.step(measured.and_then(|m| m.imu.as_ref()));
         let raw = self.predictor.rates() + self.predictor.state().gyro_bias;
         self.filtered = self.gyro.step(&raw, omega_rad_s);
+        self.battery_age = self.battery_age.saturating_add(1);
         if let Some(measured) = measured {
             self.keep(measured);
         }
@@ -57,8 +61,9 @@ impl Navigator {
         readings.baro = measured.baro.or(readings.baro);
         readings.gnss = measured.gnss.or(readings.gnss);
         readings.pose = measured.pose.or(readings.pose);
-        let sound = measured.battery.filter(|b| math::all_finite(&[b.voltage_v, b.current_a]));
-        self.battery = sound.or(self.battery);
+        if let Some(battery) = measured.battery.filter(|b| math::all_finite(&[b.voltage_v, b.current_a])) {
+            (self.battery, self.battery_age) = (Some(battery), 0);
+        }
     }
 
     /// The motion now; its rates are the filtered ones.
@@ -73,25 +78,38 @@ impl Navigator {
         }
     }
 
+    /// What the predictor believes: motion and biases.
+    pub fn state(&self) -> &Nominal {
+        self.predictor.state()
+    }
+
     /// f without its bias in the body's frame, m/s².
     #[inline]
     pub fn specific_force(&self) -> &Vector3<f32> {
         self.predictor.specific_force()
     }
 
-    /// The battery as last measured.
+    /// The battery as last measured, unless that is too long ago to say anything.
     pub fn battery(&self) -> Option<BatterySample> {
-        self.battery
+        /// Ticks.
+        const SILENT_AFTER: u32 = 1_000;
+        self.battery.filter(|_| self.battery_age < SILENT_AFTER)
     }
 
-    /// The filter's snapshot; `at_rest` if the vehicle is known to stand.
-    pub fn release(&mut self, at_rest: bool) -> FilterInput {
+    /// The same, and how many ticks ago that was.
+    pub fn battery_with_age(&self) -> Option<(BatterySample, u32)> {
+        self.battery.map(|battery| (battery, u32::from(self.battery_age)))
+    }
+
+    /// The filter's snapshot, of a vehicle that is on the ground and, disarmed, at rest; or is not.
+    pub fn release(&mut self, landed: bool, at_rest: bool) -> FilterInput {
         FilterInput {
             state: *self.predictor.state(),
             rates: *self.predictor.rates(),
             force: *self.predictor.specific_force(),
             span: self.predictor.take_span(),
             injected: core::mem::take(&mut self.injected),
+            landed,
             at_rest,
             readings: core::mem::take(&mut self.readings),
         }

@@ -10,7 +10,6 @@ use nalgebra::{Vector3, Vector4};
 
 use crate::commander::{Directive, Known};
 use crate::config::FlightConfig;
-use crate::control::euler::Euler;
 use crate::control::flatness::{self, ForceProfile, Heading};
 use crate::control::law::{PositionDemand, PositionInput, PositionLaw};
 use crate::control::position::{ForceLimits, SlidingPosition, Translation};
@@ -71,12 +70,16 @@ pub struct Outer<P = SlidingPosition> {
     source: Source,
     law: P,
     limited: bool,
-    /// Specific force of a descent without a known height, m/s².
+    /// Specific force of a descent without a known height, m/s², and what the model's thrust has to be for it, as a part,
+    /// since that descent has begun.
     blind_force: f32,
+    blind_share: Option<f32>,
 }
 
 /// A descending reference is no lower than this below the vehicle, m: on the ground it must not run away.
 const LEAD_DOWN_M: f32 = 0.5;
+/// Nor higher than this above it, m: one that has fallen is to come down from where it is.
+const LAG_UP_M: f32 = 0.5;
 
 /// Position, velocity, acceleration and thrust axis when the output takes effect.
 struct Predicted {
@@ -107,12 +110,6 @@ fn velocity(velocity: Vector3<f32>, yaw_rate: f32) -> Target {
     Target::Velocity { velocity, yaw_rate }
 }
 
-/// ψ, rad.
-fn yaw_of(nav: &NavState) -> f32 {
-    let (sin, cos) = Euler::from_quaternion(&nav.attitude).yaw;
-    math::atan2(sin, cos)
-}
-
 impl<P: PositionLaw> Outer<P> {
     /// Ready to run with a valid configuration.
     ///
@@ -129,12 +126,14 @@ impl<P: PositionLaw> Outer<P> {
             law,
             limited: false,
             blind_force: config.modes.blind_thrust_part * config.airframe.gravity_m_s2,
+            blind_share: None,
         })
     }
 
     /// Forgets what has been made of earlier jobs.
     pub fn reset(&mut self) {
         self.source = Source::Ground;
+        self.blind_share = None;
         self.reset_law();
     }
 
@@ -177,7 +176,7 @@ impl<P: PositionLaw> Outer<P> {
     fn rest(&mut self, nav: &NavState) -> OuterOutput {
         self.reset();
         let attitude = AttitudeReference::idle(nav.attitude);
-        let wanted = nav.position.push(yaw_of(nav));
+        let wanted = nav.position.push(nav.yaw());
         OuterOutput { attitude, s: Vector3::zeros(), limited: false, idle: true, heading_free: false, wanted }
     }
 
@@ -199,7 +198,7 @@ impl<P: PositionLaw> Outer<P> {
             Source::Setpoint => {}
             Source::Trajectory(reference) => self.setpoint.start(&reference),
             Source::Ground => {
-                self.setpoint.start(&FlatReference::standing(input.nav.position, yaw_of(&input.nav)));
+                self.setpoint.start(&FlatReference::standing(input.nav.position, input.nav.yaw()));
             }
         }
         self.source = Source::Setpoint;
@@ -221,13 +220,14 @@ impl<P: PositionLaw> Outer<P> {
             self.setpoint.put_horizontally(now.position.x, now.position.y);
             (reference.position.x, reference.position.y) = (now.position.x, now.position.y);
         }
-        let lowest = now.position.z - LEAD_DOWN_M;
-        if reference.position.z < lowest {
-            self.setpoint.put_vertically(lowest);
-            reference.position.z = lowest;
+        let (lowest, highest) = (now.position.z - LEAD_DOWN_M, now.position.z + LAG_UP_M);
+        let leashed = math::clamp(reference.position.z, lowest, highest);
+        if leashed != reference.position.z {
+            self.setpoint.put_vertically(leashed);
+            reference.position.z = leashed;
         }
         if heading_free {
-            (reference.yaw, reference.yaw_rate, reference.yaw_acceleration) = (yaw_of(&input.nav), 0.0, 0.0);
+            (reference.yaw, reference.yaw_rate, reference.yaw_acceleration) = (input.nav.yaw(), 0.0, 0.0);
         }
         match known {
             Known::Position | Known::Velocity if heading_free => self.damp(effective, &now, &reference),
@@ -235,6 +235,13 @@ impl<P: PositionLaw> Outer<P> {
             Known::Height => {
                 now.forget_horizontal();
                 forget_horizontal(&mut reference);
+                self.track(effective, &now, &reference)
+            }
+            Known::Climb => {
+                now.forget_horizontal();
+                forget_horizontal(&mut reference);
+                self.setpoint.put_vertically(now.position.z);
+                reference.position.z = now.position.z;
                 self.track(effective, &now, &reference)
             }
             Known::Attitude => {
@@ -275,8 +282,10 @@ impl<P: PositionLaw> Outer<P> {
 
     /// Level, with a thrust by which the vehicle sinks.
     fn sink(&mut self, effective: Tick, now: &Predicted, reference: &FlatReference) -> OuterOutput {
+        // What the law knows of the thrust holds without a height too; it is forgotten with the rest.
+        let share = *self.blind_share.get_or_insert(1.0 / self.law.thrust_effectiveness());
         self.reset_law();
-        let profile = ForceProfile::hover(self.blind_force);
+        let profile = ForceProfile::hover(self.blind_force * share);
         self.output(effective, now, &profile, reference, Vector3::zeros())
     }
 

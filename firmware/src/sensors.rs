@@ -105,11 +105,15 @@ pub struct Measurements {
 }
 
 impl ImuSample {
-    /// True if every number of it is finite.
+    /// True if it can have been measured: no part for vehicles has a range beyond 4000 °/s or 32 g an axis. What is
+    /// integrated is made for turns of a few degrees a tick; a single sample of 1e5 rad/s would leave no attitude.
     #[inline]
-    pub fn is_finite(&self) -> bool {
-        let (g, a) = (&self.gyro, &self.accel);
-        math::all_finite(&[g.x, g.y, g.z, a.x, a.y, a.z])
+    pub fn is_plausible(&self) -> bool {
+        /// √3 times these ranges, rad/s and m/s².
+        const RATE_MAX: f32 = 121.0;
+        const FORCE_MAX: f32 = 544.0;
+        // Of what is no number, no comparison holds.
+        self.gyro.norm_squared() < RATE_MAX * RATE_MAX && self.accel.norm_squared() < FORCE_MAX * FORCE_MAX
     }
 }
 

@@ -44,6 +44,12 @@ impl NavState {
         }
     }
 
+    /// ψ, rad: of Rz(ψ) Ry(θ) Rx(φ).
+    pub fn yaw(&self) -> f32 {
+        let q = self.attitude.quaternion();
+        math::atan2(2.0 * (q.w * q.k + q.i * q.j), 1.0 - 2.0 * (q.j * q.j + q.k * q.k))
+    }
+
     /// True if every component is a finite number and the attitude is a unit quaternion within 1 %.
     pub fn is_valid(&self) -> bool {
         let q: &Quaternion<f32> = self.attitude.quaternion();
@@ -65,15 +71,19 @@ pub struct NavHealth {
     pub velocity: bool,
     /// Horizontal position.
     pub position: bool,
-    /// Height and vertical velocity.
+    /// Height.
     pub height: bool,
+    /// Vertical velocity: it outlives the height, by what the accelerometers add up.
+    pub climb: bool,
 }
 
 impl NavHealth {
     /// All of it: what an ideal sensor gives.
-    pub const ALL: Self = Self { attitude: true, heading: true, velocity: true, position: true, height: true };
+    pub const ALL: Self =
+        Self { attitude: true, heading: true, velocity: true, position: true, height: true, climb: true };
     /// Nothing.
-    pub const NONE: Self = Self { attitude: false, heading: false, velocity: false, position: false, height: false };
+    pub const NONE: Self =
+        Self { attitude: false, heading: false, velocity: false, position: false, height: false, climb: false };
 }
 
 /// What is delivered for one tick.

@@ -342,7 +342,7 @@ fn without_a_velocity_it_descends_level() {
 
 #[test]
 fn without_a_height_it_sinks_level() {
-    let health = NavHealth { height: false, ..NavHealth::ALL };
+    let health = NavHealth { height: false, climb: false, ..NavHealth::ALL };
     let spoil: Spoil = |nav, t| nav.position.z += if t > 12.0 { t - 12.0 } else { 0.0 };
     let (sideways, down, vehicle) = descend(health, spoil, Known::Attitude);
     assert!(sideways < 0.3 && down < 2.0, "{sideways} m, {down} m/s");
@@ -373,4 +373,15 @@ fn programs_on_board_fly_it_through_the_autopilots_door() {
         assert_eq!(pilot.inner.request(Request::Land), Ok(()));
     }
     assert_eq!(pilot.inner.request(Request::Hold), Err(Request::Hold), "no more than four at once");
+}
+
+#[test]
+fn without_a_height_it_comes_down_by_its_vertical_velocity_and_lands() {
+    let health = NavHealth { height: false, ..NavHealth::ALL };
+    // Its idea of the height runs away upwards.
+    let spoil: Spoil = |nav, t| nav.position.z += if t > 12.0 { 3.0 * (t - 12.0) } else { 0.0 };
+    let (sideways, down, mut vehicle) = descend(health, spoil, Known::Climb);
+    assert!(sideways < 0.3 && down < 1.2, "{sideways} m, {down} m/s");
+    vehicle.until(Mode::Disarmed, 20.0);
+    assert_eq!(vehicle.events, [Event::HeightLost]);
 }

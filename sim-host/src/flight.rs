@@ -15,10 +15,10 @@ use crate::controller::Controller;
 use crate::decoupled::Decoupled;
 use crate::noise::Noise;
 use crate::pilot::{Command, Order, Pilot};
+use crate::plant::Plant;
 use crate::plant::ground::Ground;
 use crate::plant::paper::PaperPlant;
 use crate::plant::rigid_body::RigidBody;
-use crate::plant::{Constants, Plant};
 use crate::record::Recorder;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sensors::Suite;
@@ -27,16 +27,20 @@ use crate::weather::Weather;
 
 /// The rigid-body plant of a scenario, in the motion with which a flight under `seed` begins.
 pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
-    let constants = scenario.constants();
     let position = Vector3::from(scenario.file.start_position_m);
-    let height = scenario.file.world.ground_height_m.unwrap_or(position.z);
-    let on = |c: &Constants| Ground::for_vehicle(height, c.mass, c.gravity, c.inertia.z);
-    let ground = scenario.file.ground.then(|| on(&constants));
-    let plant = RigidBody::new(constants, ground, position).with_motion(scenario.file.start_motion(seed));
+    let plant =
+        RigidBody::new(scenario.constants(), ground(scenario), position).with_motion(scenario.file.start_motion(seed));
     match scenario.effects() {
         Some(effects) => plant.with_effects(effects),
         None => plant,
     }
+}
+
+/// The ground of a scenario, if there is any.
+pub fn ground(scenario: &Scenario) -> Option<Ground> {
+    let (file, c) = (&scenario.file, scenario.constants());
+    let height = file.world.ground_height_m.unwrap_or(file.start_position_m[2]);
+    file.ground.then(|| Ground::for_vehicle(height, c.mass, c.gravity, c.inertia.z))
 }
 
 /// A plant with the firmware of a scenario in its loop, flying by its own sliding mode laws.

@@ -13,6 +13,7 @@ pub mod cli;
 pub mod compare;
 pub mod controller;
 pub mod decoupled;
+pub mod failures;
 mod files;
 pub mod flight;
 pub mod geodesy;

@@ -3,7 +3,8 @@
 use firmware::commander::CommanderOutput;
 use firmware::estimator::FilterOutput;
 use firmware::estimator::covariance::Covariance;
-use firmware::signals::{NavState, Tick};
+use firmware::signals::{NavHealth, NavState, Tick};
+use nalgebra::Vector3;
 
 use crate::plant::Motion;
 
@@ -68,6 +69,12 @@ pub struct Navigation<'a> {
     pub truth: Motion,
     /// What is believed.
     pub nav: &'a NavState,
+    /// What the vehicle takes its gyroscope to be off by, rad/s.
+    pub gyro_bias: Vector3<f32>,
+    /// What it takes its accelerometer to be off by, m/s².
+    pub accel_bias: Vector3<f32>,
+    /// What of the motion it trusts.
+    pub health: NavHealth,
     /// When the filter's last output came into effect.
     pub filtered_at: Option<Tick>,
     /// That output.
@@ -116,6 +123,23 @@ impl<A: Recorder, B: Recorder> Recorder for (A, B) {
     fn navigate(&mut self, navigation: &Navigation) {
         self.0.navigate(navigation);
         self.1.navigate(navigation);
+    }
+}
+
+/// Gives each row to a recorder, if there is one.
+impl<A: Recorder> Recorder for Option<A> {
+    const ENABLED: bool = A::ENABLED;
+
+    fn record(&mut self, row: &Row) {
+        if let Some(recorder) = self {
+            recorder.record(row);
+        }
+    }
+
+    fn navigate(&mut self, navigation: &Navigation) {
+        if let Some(recorder) = self {
+            recorder.navigate(navigation);
+        }
     }
 }
 

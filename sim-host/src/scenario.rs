@@ -4,7 +4,7 @@ mod validate;
 mod world;
 
 use anyhow::{Context, Result, anyhow, bail};
-use firmware::config::{FlightConfig, Start};
+use firmware::config::{FlightConfig, ModeSettings, Start};
 use firmware::guidance::{JoinPlan, Trajectory};
 use serde::{Deserialize, Serialize};
 
@@ -17,12 +17,13 @@ use crate::sensors::{Fault, Home, SuiteFile};
 pub use world::{BatteryStart, Gust, ScheduledPush, Truth, Tumble, Wind, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.
-const SCENARIOS: [(&str, &str); 33] = built_in!("scenarios":
+const SCENARIOS: [(&str, &str); 36] = built_in!("scenarios":
     "helix", "helix-tw4", "helix-lag", "figure-eight", "step", "hover", "pad",
     "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
     "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery",
-    "outdoor-hover", "outdoor-eight", "indoor-hover", "indoor-helix", "path", "path-gnss-lost", "path-mag-off",
-    "path-mag-stuck", "path-baro-off", "path-baro-stuck", "gnss-glitch", "twist", "weak-rotor", "lost-rotor", "day",
+    "outdoor-tour", "field", "outdoor-hover", "outdoor-eight", "indoor-hover", "indoor-helix", "path", "path-gnss-lost", "path-mag-off",
+    "path-mag-stuck", "path-baro-off", "path-baro-stuck", "gnss-glitch", "twist", "weak-rotor", "lost-rotor", "battery-collapse",
+    "day",
 );
 
 /// Airframes that come with the binary.
@@ -146,6 +147,9 @@ pub struct ScenarioFile {
     /// What a pilot asks for.
     #[serde(default)]
     pub command: Vec<Command>,
+    /// How the vehicle flies by itself.
+    #[serde(default)]
+    pub modes: ModeSettings,
     /// How its flights are judged.
     pub assess: Option<Assess>,
     /// Gaussian disturbances.
@@ -187,12 +191,50 @@ pub struct Scenario {
     pub controller: Controller,
 }
 
-/// Names and summaries of the built-in scenarios.
+/// What scenarios have in common by which they are listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Group {
+    /// The paper's own cases, in its equations.
+    Paper,
+    /// The rigid body; the firmware is given the true motion.
+    IdealState,
+    /// The rigid body; the firmware is given what sensors measure.
+    OnSensors,
+}
+
+/// A built-in scenario, as it is listed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Listed {
+    /// By which it is flown.
+    pub name: &'static str,
+    /// What it shows.
+    pub summary: String,
+    /// What it has in common with others.
+    pub group: Group,
+}
+
+/// The built-in scenarios.
 ///
 /// # Errors
 /// None for a binary whose tests pass: they load each.
-pub fn list() -> Result<Vec<(&'static str, String)>> {
-    SCENARIOS.iter().map(|(name, _)| Ok((*name, Scenario::load(name, &[])?.file.summary))).collect()
+pub fn list() -> Result<Vec<Listed>> {
+    let listed = |name: &'static str| {
+        let file = Scenario::load(name, &[])?.file;
+        Ok(Listed { name, group: file.group(), summary: file.summary })
+    };
+    SCENARIOS.iter().map(|(name, _)| listed(name)).collect()
+}
+
+impl ScenarioFile {
+    /// What it has in common with others.
+    pub fn group(&self) -> Group {
+        match (self.plant, &self.sensors) {
+            (PlantKind::Paper | PlantKind::PaperDecoupled, _) => Group::Paper,
+            (PlantKind::RigidBody, None) => Group::IdealState,
+            (PlantKind::RigidBody, Some(_)) => Group::OnSensors,
+        }
+    }
 }
 
 impl Scenario {
@@ -265,6 +307,7 @@ impl Scenario {
             start: self.file.start,
             start_position_m: self.file.start_position_m.map(|v| v as f32),
             estimator: self.file.sensors.as_ref().map(|suite| suite.told(&self.file.home)),
+            modes: self.file.modes,
             ..FlightConfig::default()
         };
         self.controller.configure(&mut config);
@@ -317,12 +360,16 @@ fn moves_the_bound(setting: &str) -> bool {
 
 fn split_setting(setting: &str) -> Result<(&str, toml::Value)> {
     let (key, text) = setting.split_once('=').ok_or_else(|| anyhow!("--set {setting}: use KEY=VALUE"))?;
-    let value = format!("value = {text}")
+    Ok((key, value(text)))
+}
+
+/// A value as TOML has it; what is none, is a string.
+pub(crate) fn value(text: &str) -> toml::Value {
+    format!("value = {text}")
         .parse::<toml::Table>()
         .ok()
         .and_then(|mut table| table.remove("value"))
-        .unwrap_or_else(|| toml::Value::String(text.to_owned()));
-    Ok((key, value))
+        .unwrap_or_else(|| toml::Value::String(text.to_owned()))
 }
 
 /// Sets a dotted key; integers become floats where a float stood.
@@ -368,6 +415,9 @@ mod tests {
         assert!(refusal("helix", &["control.roll.colour=1"]).contains("colour"));
         assert!(refusal("helix", &["duration_s=soon"]).contains("duration_s"));
         assert!(refusal("helix", &["duration_s"]).contains("KEY=VALUE"));
+        assert!(refusal("helix", &["modes.colour=1"]).contains("colour"));
+        assert!(refusal("helix", &["modes.cruise_m_s=0"]).contains("modes.cruise_m_s"));
+        assert!(refusal("helix", &["modes.cruise_m_s=\"fast\""]).contains("cruise_m_s"));
         assert!(refusal("/nowhere/x.toml", &[]).contains("/nowhere/x.toml"));
     }
 
@@ -425,7 +475,9 @@ mod tests {
             ("helix", "fault=[{kind=\"rotor\",index=4,effectiveness=1.0,from_s=1.0}]", "fault.index"),
             ("helix", "sensors=\"gps\"", "gps"),
             ("helix", "command=[{order=\"dance\"}]", "dance"),
-            ("helix", "assess={from_s=99.0}", "assess"),
+            ("helix", "assess={from_s=-1.0}", "assess.from_s"),
+            ("helix", "assess={from_s=9.0,to_s=8.0}", "assess.from_s"),
+            ("helix", "home.latitude_deg=91", "latitude_deg"),
             ("paper-ideal", "world.altitude_m=100", "world"),
             ("paper-ideal", "push=[{from_s=1.0,to_s=2.0}]", "push"),
             ("paper-ideal", "battery.soc=1", "battery"),

@@ -2,9 +2,11 @@
 //!
 //! Owns the wall clock, which nobody else reads. The vehicle is told of time only by being ticked; `speed` says
 //! how often that is, never what a tick does. A process that was held up catches up, but only so far: what it
-//! missed beyond that is left out rather than flown in a rush.
+//! missed beyond that is left out rather than flown in a rush. Lines of text are obeyed between ticks.
 
+use std::io::Write as _;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, channel};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -20,6 +22,47 @@ pub trait Vehicle {
     /// One tick of everything. `received` has come from the ground station since the last tick; what is returned
     /// goes to it as one datagram, so it consists of whole messages.
     fn tick(&mut self, received: &[u8]) -> Option<TxBytes>;
+
+    /// Does what a line of text asks. What is returned is for whoever has written it.
+    ///
+    /// # Errors
+    /// In one line, why it is not done.
+    fn obey(&mut self, line: &str) -> anyhow::Result<String>;
+}
+
+/// Lines of text for the vehicle, and where answers and complaints go.
+#[derive(Debug)]
+pub struct Console {
+    lines: Receiver<String>,
+}
+
+impl Console {
+    /// Of lines that come from somewhere. One whose sender has gone stays silent.
+    pub fn new(lines: Receiver<String>) -> Self {
+        Self { lines }
+    }
+
+    /// Of standard input, read by a thread of its own; its end is no reason to stop.
+    pub fn on_standard_input() -> Self {
+        let (sender, lines) = channel();
+        std::thread::spawn(move || {
+            let lines = std::io::stdin().lines().map_while(Result::ok);
+            lines.map(|line| sender.send(line)).take_while(Result::is_ok).for_each(drop);
+        });
+        Self::new(lines)
+    }
+
+    /// Lets the vehicle obey the lines that have come.
+    fn pass_on(&self, vehicle: &mut impl Vehicle) {
+        for line in self.lines.try_iter() {
+            match vehicle.obey(&line) {
+                // Nobody may be there to read the answer.
+                Ok(answer) if !answer.is_empty() => drop(writeln!(std::io::stdout(), "{answer}")),
+                Ok(_) => {}
+                Err(error) => eprintln!("sim-host: {}", format!("{error:#}").replace('\n', " ")),
+            }
+        }
+    }
 }
 
 /// How simulated time relates to the wall clock's.
@@ -44,7 +87,13 @@ const CATCH_UP_S: f64 = 0.1;
 ///
 /// # Errors
 /// A speed that is not a positive number.
-pub fn serve(vehicle: &mut impl Vehicle, link: &mut UdpLink, pacing: Pacing, stop: &AtomicBool) -> anyhow::Result<()> {
+pub fn serve(
+    vehicle: &mut impl Vehicle,
+    link: &mut UdpLink,
+    console: &Console,
+    pacing: Pacing,
+    stop: &AtomicBool,
+) -> anyhow::Result<()> {
     ensure!(pacing.speed.is_finite() && pacing.speed > 0.0, "speed must be a positive number, not {}", pacing.speed);
     let start = Instant::now();
     let mut pacer = Pacer { speed: pacing.speed, done: 0, skipped: 0 };
@@ -53,6 +102,7 @@ pub fn serve(vehicle: &mut impl Vehicle, link: &mut UdpLink, pacing: Pacing, sto
         if inbox.len() < INBOX_MAX {
             link.receive(&mut inbox);
         }
+        console.pass_on(vehicle);
         let due = pacer.due(start.elapsed()).min(BATCH);
         for _ in 0..due {
             tick(vehicle, link, &mut inbox);
@@ -119,6 +169,12 @@ mod tests {
             }
             self.ticks.is_multiple_of(10).then(|| TxBytes::from_slice(b"whole").expect("fits"))
         }
+
+        fn obey(&mut self, line: &str) -> anyhow::Result<String> {
+            ensure!(line == "end", "no");
+            self.end = self.ticks + 1;
+            Ok(String::new())
+        }
     }
 
     fn fly(speed: f64, end: u64, sent: &[u8]) -> (Duration, u64, Vec<u8>, usize) {
@@ -129,7 +185,8 @@ mod tests {
         let station = std::net::UdpSocket::bind(local).expect("a free port");
         station.send_to(sent, link.local_address().expect("bound")).expect("sent");
         let start = Instant::now();
-        serve(&mut vehicle, &mut link, Pacing { speed }, &stop).expect("flies");
+        let (_, lines) = channel();
+        serve(&mut vehicle, &mut link, &Console::new(lines), Pacing { speed }, &stop).expect("flies");
         (start.elapsed(), vehicle.ticks, vehicle.received, vehicle.largest)
     }
 
@@ -146,6 +203,20 @@ mod tests {
         let (_, _, received, largest) = fly(10.0, 500, &sent);
         assert_eq!(received, sent);
         assert!(largest * GROUND.period as usize <= RX_CAPACITY);
+    }
+
+    #[test]
+    fn lines_are_obeyed_and_bad_ones_do_no_harm() {
+        let stop = AtomicBool::new(false);
+        let mut vehicle = Counter { ticks: 0, end: u64::MAX, received: Vec::new(), largest: 0, stop: &stop };
+        let mut link = UdpLink::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port");
+        let (sender, lines) = channel();
+        for line in ["", "nonsense", "end"] {
+            sender.send(line.to_owned()).expect("there is a receiver");
+        }
+        drop(sender);
+        serve(&mut vehicle, &mut link, &Console::new(lines), Pacing { speed: 10.0 }, &stop).expect("it ends");
+        assert!(vehicle.ticks > 0 && vehicle.ticks < 1000, "{}", vehicle.ticks);
     }
 
     #[test]
@@ -166,7 +237,8 @@ mod tests {
         let mut vehicle = Counter { ticks: 0, end: 1, received: Vec::new(), largest: 0, stop: &stop };
         let mut link = UdpLink::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port");
         for speed in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(serve(&mut vehicle, &mut link, Pacing { speed }, &stop).is_err(), "{speed}");
+            let (_, lines) = channel();
+            assert!(serve(&mut vehicle, &mut link, &Console::new(lines), Pacing { speed }, &stop).is_err(), "{speed}");
         }
     }
 }

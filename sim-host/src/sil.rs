@@ -3,6 +3,7 @@
 //! Lockstep is a function call. At tick k the firmware gets the motion at t = k ms, or what sensors have made of it, and
 //! its motor command acts on the plant from t to t + 1 ms. Nothing here allocates, and nothing depends on the clock on the wall.
 
+use anyhow::{Context as _, Result, ensure};
 use firmware::airframe::ROTORS;
 use firmware::autopilot::Autopilot;
 use firmware::commander::Request;
@@ -11,6 +12,7 @@ use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
 use firmware::guidance::Trajectory;
 use firmware::inner::InnerOutput;
+use firmware::navigator::Navigator;
 use firmware::outer::OuterOutput;
 use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -21,7 +23,8 @@ use crate::plant::{Motion, Plant};
 use crate::record::{Navigation, Recorder, Row};
 use crate::reference;
 use crate::report::angles::roll_pitch_yaw;
-use crate::sensors::{BatteryTruth, Suite, Truth};
+use crate::sensors::faults::Kind;
+use crate::sensors::{BatteryTruth, Fault, FaultId, Suite, Truth};
 use crate::weather::Weather;
 
 /// How a flight ended.
@@ -143,6 +146,11 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         &mut self.plant
     }
 
+    /// The sensors, if it flies on any.
+    pub fn sensors(&self) -> Option<&Suite> {
+        self.sensors.as_deref()
+    }
+
     /// What an ideal accelerometer reads now, about the body's axes, m/s². Between two ticks it feels the push of the
     /// tick before.
     pub fn specific_force(&self) -> Vector3<f64> {
@@ -160,9 +168,52 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         sense(&self.plant.motion(), disturbed)
     }
 
-    /// What the sensors make of it. Out of the way of the flights on ideal state.
+    /// Makes something fail, from now on or later.
+    ///
+    /// # Errors
+    /// In one line, why that cannot be.
+    pub fn inject(&mut self, fault: &Fault) -> Result<FaultId> {
+        let battery = matches!(fault.kind, Kind::Collapse { .. });
+        ensure!(
+            !battery || self.plant.battery().is_some(),
+            "there is no battery on board: give the scenario `[battery]`"
+        );
+        self.suite()?.inject(fault)
+    }
+
+    /// Puts a valid fault, or none, in place of the one in a slot.
+    ///
+    /// # Errors
+    /// On ideal state.
+    pub fn hold_fault(&mut self, slot: usize, fault: Option<&Fault>) -> Result<()> {
+        self.suite()?.hold(slot, fault);
+        Ok(())
+    }
+
+    /// Ends all faults, those to come too.
+    ///
+    /// # Errors
+    /// On ideal state.
+    pub fn clear_faults(&mut self) -> Result<()> {
+        self.suite()?.clear_all();
+        Ok(())
+    }
+
+    fn suite(&mut self) -> Result<&mut Suite> {
+        self.sensors.as_deref_mut().context("nothing fails on ideal state: fly a scenario with `sensors`")
+    }
+
+    /// The tick that comes next.
+    pub fn next_tick(&self) -> Tick {
+        self.tick
+    }
+
+    /// What the sensors make of it, after what befalls the plant. Out of the way of the flights on ideal state.
     #[cold]
     fn measure(&mut self) -> SensorFrame {
+        if let Some(faults) = self.sensors.as_mut().and_then(|suite| suite.tell_plant(self.tick)) {
+            self.plant.befall(&faults);
+        }
         let (motion, specific_force) = (self.plant.motion(), self.specific_force());
         let battery = self.plant.battery().map_or_else(BatteryTruth::default, |state| BatteryTruth {
             voltage_v: state.voltage_v,
@@ -265,10 +316,14 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// What the vehicle believes, beside the truth.
     fn navigation(&self, t: f64) -> Navigation<'_> {
         let vehicle = &self.autopilot.inner;
+        let state = vehicle.navigator().map(Navigator::state);
         Navigation {
             t,
             truth: self.plant.motion(),
             nav: vehicle.nav(),
+            gyro_bias: state.map_or_else(Vector3::zeros, |state| state.gyro_bias),
+            accel_bias: state.map_or_else(Vector3::zeros, |state| state.accel_bias),
+            health: vehicle.nav_health(),
             filtered_at: vehicle.filtered_at(),
             filter: vehicle.filter_output(),
             covariance: self.autopilot.filter.covariance(),

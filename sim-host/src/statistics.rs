@@ -8,6 +8,26 @@ use serde::Serialize;
 /// Least probability with which an interval holds the true median.
 pub const CONFIDENCE: f64 = 0.95;
 
+/// A root mean square in the making.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MeanSquare {
+    sum: f64,
+    count: u64,
+}
+
+impl MeanSquare {
+    /// Takes a value.
+    pub fn take(&mut self, value: f64) {
+        self.sum += value * value;
+        self.count += 1;
+    }
+
+    /// The root of the mean so far; none without a value.
+    pub fn root(self) -> Option<f64> {
+        (self.count > 0).then(|| (self.sum / self.count as f64).sqrt())
+    }
+}
+
 /// A median over flights, or over cells.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {

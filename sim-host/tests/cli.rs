@@ -235,10 +235,35 @@ fn scenarios_lists_what_can_be_flown() {
     let text = folder.succeeds(&["scenarios"]);
     let list: Value = serde_json::from_str(&folder.succeeds(&["scenarios", "--json"])).expect("JSON");
     let names: Vec<&str> = list.as_array().expect("an array").iter().filter_map(|s| s["name"].as_str()).collect();
-    for name in ["helix", "helix-tw4", "helix-lag", "paper-ideal", "paper-attitude", "paper-disturbed", "paper-literal"]
+    for name in ["helix", "helix-tw4", "helix-lag", "paper-ideal", "paper-attitude", "paper-disturbed", "outdoor-tour"]
     {
-        assert!(names.contains(&name) && text.lines().any(|line| line.starts_with(name)), "{name}");
+        assert!(names.contains(&name) && text.lines().any(|line| line.trim_start().starts_with(name)), "{name}");
     }
+    let groups: std::collections::BTreeSet<_> =
+        list.as_array().expect("an array").iter().filter_map(|s| s["group"].as_str()).collect();
+    assert_eq!(groups, ["ideal-state", "on-sensors", "paper"].into());
+}
+
+#[test]
+fn a_flight_on_sensors_leaves_what_was_believed() {
+    let folder = Folder::new("sensors");
+    let text = folder.succeeds(&["run", "outdoor-tour", "--set", "duration_s=6", "--out", "out", "--json"]);
+    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    assert_documented(&summary);
+    assert!(summary["touchdown"].is_null() && summary["disarmed_s"].is_null());
+    // Degrees and metres: a filter that has gone astray is off by far more.
+    let known = |key: &str| summary["estimate"][key].as_f64().expect(key);
+    assert!(known("tilt_rms_rad") < 0.02 && known("heading_rms_rad") < 0.1 && known("position_rms_m") < 1.0);
+    let estimate = fs::read_to_string(folder.0.join("out/estimate.csv")).expect("estimate.csv is there");
+    assert_eq!(estimate.lines().count(), 1 + 6000 / 20);
+    assert!(estimate.contains(",take-off,1,"), "it has taken off");
+    for figure in ["fig8-estimate-position", "fig9-estimate-attitude", "fig10-innovations"] {
+        assert!(folder.0.join(format!("out/{figure}.svg")).is_file(), "{figure}");
+    }
+    let ideal = folder.succeeds(&["run", "helix", "--set", "duration_s=1", "--out", "ideal", "--json"]);
+    let ideal: Value = serde_json::from_str(&ideal).expect("JSON");
+    assert!(["estimate", "touchdown", "disarmed_s"].iter().all(|key| ideal.get(key).is_none()));
+    assert!(!folder.0.join("ideal/estimate.csv").exists());
 }
 
 #[test]

@@ -85,6 +85,31 @@ fn seeds_do_not_depend_on_the_number_of_threads() {
     assert_eq!(hashes.len(), 8, "eight seeds, eight flights");
 }
 
+/// On sensors, with faults that draw numbers, in the air after 5 s.
+const ON_SENSORS: [&str; 5] = [
+    "outdoor-hover",
+    "--set",
+    "duration_s=8",
+    "--set",
+    "fault=[{sensor=\"baro\",kind=\"noise\",sigma=2.0,from_s=1.0}]",
+];
+
+#[test]
+fn a_flight_on_sensors_is_its_seed_whatever_the_threads() {
+    let folder = Folder::new("sensors");
+    // `assess` is given whole flights.
+    let short = ["--set", "assess.from_s=5", "--set", "assess.to_s=8"];
+    let fly = |jobs: &str| {
+        let out = folder.0.join(jobs);
+        run(&[&ON_SENSORS[..], &short, &["--seeds", "1..4", "--jobs", jobs]].concat(), &out);
+        (1..=4).map(|seed| truth(&out.join(format!("seed-{seed}")))).collect::<Vec<_>>()
+    };
+    let (one, two) = (fly("1"), fly("2"));
+    assert!(one == two, "truth.csv depends on the number of threads");
+    let different: std::collections::BTreeSet<&Vec<u8>> = one.iter().collect();
+    assert_eq!(different.len(), 4, "four seeds, four flights");
+}
+
 /// A row of truth.csv: state, and the rotor speeds that act until the next row.
 struct Row {
     t: f64,

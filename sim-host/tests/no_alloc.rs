@@ -60,10 +60,54 @@ fn fly(flight: &mut Flight<RigidBody>, ticks: u32, recorder: &mut impl Recorder)
     sent
 }
 
+/// How many allocations 5 s of a flight take, and how many bytes it sends in them, a second after it has begun.
+fn allocations(scenario: &Scenario, from_ticks: u32) -> (u64, usize) {
+    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    let mut flight = flight::lockstep(scenario, 1, flight::rigid_body(scenario, 1)).expect("can be flown");
+    assert!(ALLOCATIONS.load(Ordering::Relaxed) > before, "the counter counts");
+    flight.autopilot.ground = Ground::default();
+
+    let mut recorder = ((Metrics::new(), TruthWriter::hash_only()), Scorer::new(scenario));
+    fly(&mut flight, from_ticks, &mut recorder);
+    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    let sent = fly(&mut flight, 5_000, &mut recorder);
+    (ALLOCATIONS.load(Ordering::Relaxed) - before, sent)
+}
+
 /// One test only in this file: the count is the whole process's.
 #[test]
 fn five_seconds_of_flight_allocate_nothing() {
-    let before = ALLOCATIONS.load(Ordering::Relaxed);
+    on_ideal_state();
+    on_sensors();
+}
+
+/// All that a suite has, each with a fault, and one of a rotor and of the battery, in a climb by a pilot's command.
+fn on_sensors() {
+    let faults = [
+        "sensor='imu',kind='loss',probability=0.1",
+        "sensor='imu',kind='disorder'",
+        "sensor='gyro',kind='spikes',probability=0.001,size=3.0",
+        "sensor='accel',kind='noise',sigma=0.1",
+        "sensor='mag',kind='duplicate',probability=0.2",
+        "sensor='baro',kind='stuck'",
+        "sensor='baro',kind='delayed',extra_s=0.1",
+        "sensor='gnss',kind='glitch',size_m=30.0",
+        "sensor='gnss',kind='delayed',extra_s=0.05",
+        "sensor='gnss',kind='time-jump',shift_s=-0.02",
+        "sensor='battery',kind='nan'",
+        "kind='rotor',index=1,effectiveness=0.9",
+        "kind='collapse',factor=0.95",
+    ];
+    let list: Vec<String> = faults.iter().map(|keys| format!("{{{},from_s=7.0}}", keys.replace('\'', "\""))).collect();
+    let settings = [format!("fault=[{}]", list.join(","))];
+    let scenario = Scenario::load("outdoor-hover", &settings).expect("valid");
+    // From a second before the faults: their beginning counts.
+    let (allocations, sent) = allocations(&scenario, 6_000);
+    assert_eq!(allocations, 0);
+    assert!(sent > 1_000, "telemetry was sent: {sent} bytes");
+}
+
+fn on_ideal_state() {
     let settings = ["disturbance.from_s=0", "disturbance.to_s=9", "disturbance.hold_s=0.001"]
         .into_iter()
         .chain(["disturbance.acceleration_m_s2=0.5", "disturbance.angle_output_rad=0.001"])
@@ -74,14 +118,7 @@ fn five_seconds_of_flight_allocate_nothing() {
         .map(str::to_owned)
         .collect::<Vec<_>>();
     let scenario = Scenario::load("helix", &settings).expect("valid");
-    let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("can be flown");
-    assert!(ALLOCATIONS.load(Ordering::Relaxed) > before, "the counter counts");
-    flight.autopilot.ground = Ground::default();
-
-    let mut recorder = ((Metrics::new(), TruthWriter::hash_only()), Scorer::new(&scenario));
-    fly(&mut flight, 1_000, &mut recorder);
-    let before = ALLOCATIONS.load(Ordering::Relaxed);
-    let sent = fly(&mut flight, 5_000, &mut recorder);
-    assert_eq!(ALLOCATIONS.load(Ordering::Relaxed) - before, 0);
+    let (allocations, sent) = allocations(&scenario, 1_000);
+    assert_eq!(allocations, 0);
     assert!(sent > 1_000, "telemetry was sent: {sent} bytes");
 }

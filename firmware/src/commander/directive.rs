@@ -13,6 +13,8 @@ pub enum Known {
     Velocity,
     /// Height and attitude only: level, at a rate of descent.
     Height,
+    /// The vertical velocity and the attitude: level, at a rate of descent, without a height.
+    Climb,
     /// The attitude at best: level, with a thrust that is known to let the vehicle sink.
     Attitude,
 }

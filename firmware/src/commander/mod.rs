@@ -108,6 +108,8 @@ const IDLE_AFTER_LANDING_S: f32 = 1.0;
 const AT_HEIGHT_M: f32 = 0.3;
 /// A place is reached this near to it, m, and slow.
 const AT_PLACE_M: f32 = 0.5;
+/// And a heading, rad.
+const AT_HEADING_RAD: f32 = 0.15;
 /// Lower than this over home, m, a landing slows down.
 const FINAL_HEIGHT_M: f32 = 2.0;
 
@@ -157,8 +159,15 @@ impl Commander {
         let effective = released.wrapping_add(COMMANDER.offset);
         self.watch(input);
         let mut replies = Replies::new();
+        let mut killed = false;
         for command in &input.commands {
-            let outcome = self.decide(&command.request, effective, input);
+            // The latch that stops the rotors at once is released by an output that says disarmed: not in this one.
+            let outcome = if killed && matches!(command.request, Request::Arm { .. }) {
+                Outcome::TemporarilyRejected(Refusal::Moving)
+            } else {
+                self.decide(&command.request, effective, input)
+            };
+            killed |= command.request == Request::Disarm { force: true };
             // As many replies fit as commands.
             let _ = replies.push(Reply { command: *command, outcome });
         }
@@ -212,6 +221,8 @@ impl Commander {
             self.home = input.nav.position;
             self.battery_answered = Charge::Good;
             self.state = State::Idle { disarm_at: None };
+        } else if let State::Idle { disarm_at } = &mut self.state {
+            *disarm_at = None;
         }
         Ok(())
     }
@@ -308,7 +319,7 @@ impl Commander {
             Known::Height => Event::VelocityLost,
             Known::Attitude if !input.nav_fresh => Event::SensorsLost,
             Known::Attitude if !input.health.attitude => Event::AttitudeLost,
-            Known::Attitude => Event::HeightLost,
+            Known::Climb | Known::Attitude => Event::HeightLost,
         })
     }
 
@@ -317,12 +328,14 @@ impl Commander {
         if charge <= self.battery_answered {
             return None;
         }
-        self.battery_answered = charge;
         match (charge, self.state) {
-            (Charge::Good, _) | (_, State::Land | State::Descent { .. }) | (Charge::Low, State::Return { .. }) => {}
+            // Down it goes already; should it be asked to stay up, this is still to be answered.
+            (Charge::Good, _) | (_, State::Land | State::Descent { .. }) => return None,
+            (Charge::Low, State::Return { .. }) => {}
             (Charge::Critical, _) => self.state = State::Land,
             (Charge::Low, _) => self.state = self.homewards(height),
         }
+        self.battery_answered = charge;
         Some(if charge == Charge::Critical { Event::BatteryCritical } else { Event::BatteryLow })
     }
 
@@ -331,11 +344,14 @@ impl Commander {
         let nav = &input.nav;
         let has_come = |at: Tick| effective.wrapping_sub(at) < Tick::MAX / 2;
         let is_at = |place: Vector3<f32>| (nav.position - place).norm_squared() < AT_PLACE_M * AT_PLACE_M;
+        let heads = |yaw: f32| math::abs(math::wrap_angle(nav.yaw() - yaw)) < AT_HEADING_RAD;
         self.state = match self.state {
             State::Idle { disarm_at: Some(at) } if has_come(at) => return self.stop(),
             State::TakeOff { to_m } if nav.position.z > to_m - AT_HEIGHT_M => State::Hold,
             State::Velocity { until, .. } if has_come(until) => State::Hold,
-            State::Join if is_at(self.entry) && is_slow(nav) => State::Follow { since: effective },
+            State::Join if is_at(self.entry) && is_slow(nav) && heads(self.entry_yaw) => {
+                State::Follow { since: effective }
+            }
             State::Return { at_m, climbs: true } if nav.position.z > at_m - AT_HEIGHT_M => {
                 State::Return { at_m, climbs: false }
             }

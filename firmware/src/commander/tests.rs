@@ -299,7 +299,8 @@ fn losses_are_answered_by_what_is_left_and_told_once() {
     for (input, known, event) in [
         (health(&|h| h.position = false), Known::Velocity, Event::PositionLost),
         (health(&|h| (h.position, h.velocity) = (false, false)), Known::Height, Event::VelocityLost),
-        (health(&|h| h.height = false), Known::Attitude, Event::HeightLost),
+        (health(&|h| h.height = false), Known::Climb, Event::HeightLost),
+        (health(&|h| (h.height, h.climb) = (false, false)), Known::Attitude, Event::HeightLost),
         (health(&|h| h.attitude = false), Known::Attitude, Event::AttitudeLost),
         (stale, Known::Attitude, Event::SensorsLost),
     ] {

@@ -43,6 +43,7 @@ pub(super) struct NavWatch {
     velocity: Persistence,
     height: Persistence,
     attitude: Persistence,
+    climb: Persistence,
     samples: Persistence,
     /// What is known, a loss counted once it has lasted.
     known: Option<Known>,
@@ -57,8 +58,11 @@ impl NavWatch {
         let velocity = self.velocity.step(!health.velocity, jobs(LOST_AFTER_S));
         let position = self.position.step(!health.position, jobs(LOST_AFTER_S));
         self.gone = self.samples.step(!input.nav_fresh, jobs(GONE_AFTER_S));
-        self.known = Some(if !input.nav_fresh || attitude || height {
+        let climb = self.climb.step(!health.climb, jobs(HEIGHT_LOST_AFTER_S));
+        self.known = Some(if !input.nav_fresh || attitude || (height && climb) {
             Known::Attitude
+        } else if height {
+            Known::Climb
         } else if velocity {
             Known::Height
         } else if position {
@@ -169,7 +173,7 @@ impl GroundWatch {
     /// With rotors that carry; if the vehicle is told to descend, with what is known of the motion. Without its height,
     /// whether it moves is not known, and it is never taken to have landed.
     pub(super) fn step_flying(&mut self, input: &CommanderInput, weight_n: f32, descends: Option<Known>) {
-        let descend = descends.is_some_and(|known| known <= Known::Height);
+        let descend = descends.is_some_and(|known| known <= Known::Climb);
         let thrust = input.thrust_n / weight_n;
         let lifting = self.lifting.step(thrust > LIFT_OFF_THRUST, jobs(LIFT_OFF_S));
         self.airborne |= lifting || input.nav.position.z - self.ground_m > LIFT_OFF_M;

@@ -89,6 +89,11 @@ pub trait PositionLaw {
     /// Force for this job.
     fn step(&mut self, input: &PositionInput) -> PositionDemand;
 
+    /// Part of the model's thrust that the rotors are found to give; 1 for a law that does not look for it.
+    fn thrust_effectiveness(&self) -> f32 {
+        1.0
+    }
+
     /// Forgets what it has integrated, filtered or observed.
     fn reset(&mut self);
 }

@@ -146,6 +146,10 @@ impl PositionLaw for SlidingPosition {
         }
     }
 
+    fn thrust_effectiveness(&self) -> f32 {
+        self.effectiveness.value()
+    }
+
     fn reset(&mut self) {
         self.axes.iter_mut().for_each(SlidingAxis::reset);
         if let Some(observer) = &mut self.observer {

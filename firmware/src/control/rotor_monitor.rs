@@ -10,11 +10,16 @@ use nalgebra::{Matrix4, Vector3, Vector4};
 use crate::airframe::{Airframe, ROTORS};
 use crate::control::attitude;
 use crate::control::law::RotorEffect;
+use crate::math;
 use crate::signals::TICK_S;
 
 /// Time constant of the comparison, s: longer than vibration, shorter than a fall.
 const LAG_S: f32 = 0.02;
-/// A rotor that gives less than this part of its thrust has failed…
+/// How slowly what is thought of a sound rotor follows, s: a spent battery, thin air, a frame that is a little twisted.
+const BASELINE_S: f32 = 5.0;
+/// How far it follows: below, a rotor that fades is not lost sight of.
+const BASELINE: (f32, f32) = (0.5, 1.5);
+/// A rotor that gives less than this part of what it gave has failed…
 const FAILED_BELOW: f32 = 0.4;
 /// …if every other gives more than this.
 const SOUND_ABOVE: f32 = 0.55;
@@ -38,8 +43,9 @@ pub struct RotorMonitor {
     rates: Lagged<Vector3<f32>>,
     missing: Lagged<Vector4<f32>>,
     square: Lagged<Vector4<f32>>,
-    /// η as last found.
+    /// η as last found, and as it is in the long run.
     effectiveness: [f32; ROTORS],
+    baseline: [f32; ROTORS],
     suspect: Option<(u8, u32)>,
     failed: Option<u8>,
 }
@@ -57,6 +63,7 @@ impl RotorMonitor {
             missing: Lagged::default(),
             square: Lagged::default(),
             effectiveness: [1.0; ROTORS],
+            baseline: [1.0; ROTORS],
             suspect: None,
             failed: None,
         }
@@ -78,8 +85,16 @@ impl RotorMonitor {
         self.missing = Lagged::default();
         self.square = Lagged::default();
         self.effectiveness = [1.0; ROTORS];
+        self.baseline = [1.0; ROTORS];
         self.suspect = None;
         self.failed = None;
+    }
+
+    /// A tick whose motion was not measured: nothing may be concluded from it.
+    pub fn miss(&mut self, rates: &Vector3<f32>) {
+        self.rates = Lagged(*rates);
+        self.missing = Lagged::default();
+        self.suspect = None;
     }
 
     /// A tick in the air: Ω (rad/s), the thrust axis' specific force (m/s²), and what the rotors are believed to do at
@@ -106,10 +121,18 @@ impl RotorMonitor {
         for ((eta, lack), square) in self.effectiveness.iter_mut().zip(&lacking).zip(&self.square.0) {
             *eta = if *square > self.least { 1.0 + lack / square } else { 1.0 };
         }
-        let weak = self.effectiveness.iter().position(|eta| *eta < FAILED_BELOW);
-        let alone = |rotor: usize| {
-            self.effectiveness.iter().enumerate().all(|(other, eta)| other == rotor || *eta > SOUND_ABOVE)
-        };
+        // A rotor that fails leaves less thrust than is believed; what is held up by more of it touches the ground.
+        let lifted_less = missing.x < 0.0;
+        let mut parts = self.effectiveness;
+        parts.iter_mut().zip(&self.baseline).for_each(|(part, baseline)| *part /= baseline);
+        let weak = parts.iter().position(|part| *part < FAILED_BELOW).filter(|_| lifted_less);
+        let alone = |rotor: usize| parts.iter().enumerate().all(|(other, part)| other == rotor || *part > SOUND_ABOVE);
+        if weak.is_none() {
+            for (baseline, eta) in self.baseline.iter_mut().zip(&self.effectiveness) {
+                let next = *baseline + (eta - *baseline) * (TICK_S / BASELINE_S);
+                *baseline = math::clamp(next, BASELINE.0, BASELINE.1);
+            }
+        }
         self.suspect = match (weak.filter(|rotor| alone(*rotor)), self.suspect) {
             (Some(rotor), Some((before, ticks))) if usize::from(before) == rotor => Some((before, ticks + 1)),
             (Some(rotor), _) => Some((rotor as u8, 1)),
@@ -131,6 +154,11 @@ mod tests {
     /// A body at rest whose rotors turn at hover, with these parts of their thrust, and pushed by a torque (N m): rates
     /// as they grow from it.
     fn watch(parts: [f32; ROTORS], push: Vector3<f32>, ticks: u32) -> RotorMonitor {
+        watch_held_up(parts, push, 0.0, ticks)
+    }
+
+    /// The same with something from below that bears a part of the weight.
+    fn watch_held_up(parts: [f32; ROTORS], push: Vector3<f32>, held_up: f32, ticks: u32) -> RotorMonitor {
         let airframe = Airframe::paper(2.0);
         let mut monitor = RotorMonitor::new(&airframe);
         let omega = [airframe.omega_for_thrust_to_weight(1.0); ROTORS];
@@ -143,7 +171,8 @@ mod tests {
         let mut rates = Vector3::zeros();
         monitor.reset(&rates);
         for _ in 0..ticks {
-            monitor.step(&rates, sum(g.thrust) / airframe.mass_kg, &effect, &omega);
+            let force = sum(g.thrust) / airframe.mass_kg + held_up * airframe.gravity_m_s2;
+            monitor.step(&rates, force, &effect, &omega);
             let holding = attitude::torque(&airframe, &Vector3::zeros(), &rates, effect.spin_rad_s);
             rates += (torque - holding).component_div(&inertia) * TICK_S;
         }
@@ -157,6 +186,12 @@ mod tests {
             parts[rotor] = 0.0;
             assert_eq!(watch(parts, Vector3::zeros(), 125).failed(), Some(rotor as u8));
         }
+    }
+
+    #[test]
+    fn feet_on_the_ground_are_no_failed_rotor() {
+        // The torque of a rotor that is gone, but the vehicle is lifted by more than its rotors.
+        assert_eq!(watch_held_up([0.0, 1.0, 1.0, 1.0], Vector3::zeros(), 0.5, 300).failed(), None);
     }
 
     #[test]

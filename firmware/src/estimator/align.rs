@@ -13,10 +13,13 @@ const WINDOW: Tick = 1_000;
 /// A vehicle that does not come to rest is taken as it moves after this long, ticks.
 const PATIENCE: Tick = 5_000;
 
-/// At rest the mean of the gyroscopes is their bias, within what one may have been turned on with, rad/s.
-const TURN_ON_BIAS_MAX: f32 = 0.06;
-/// Jobs' means (4 ms) scatter at rest by noise, and by rotors that idle: rad/s and m/s².
-const GYRO_SCATTER_MAX: f32 = 0.05;
+/// At rest the mean of the gyroscopes is their bias, within what calibration may have left of it, 1.7 °/s.
+const TURN_ON_BIAS_MAX: f32 = 0.03;
+/// And the mean of the window's second half is that of its first, rad/s and m/s²: on a boat, rates are small but change.
+const GYRO_CHANGE_MAX: f32 = 5e-3;
+const ACCEL_CHANGE_MAX: f32 = 0.15;
+/// Jobs' means (4 ms) scatter at rest by noise alone, some 1e-3 rad/s: rad/s and m/s².
+const GYRO_SCATTER_MAX: f32 = 5e-3;
 const ACCEL_SCATTER_MAX: f32 = 0.8;
 /// How far the mean of the accelerometers may be off g, as a part of it.
 const GRAVITY_OFF_MAX: f32 = 0.05;
@@ -28,6 +31,8 @@ pub struct Alignment {
     pub attitude: UnitQuaternion<f32>,
     /// Mean of the gyroscopes, if the vehicle stood still, rad/s.
     pub gyro_bias: Option<Vector3<f32>>,
+    /// How far that may be off because the vehicle did not stand quite still, rad/s.
+    pub scatter: f32,
     /// Whether north is known.
     pub has_heading: bool,
 }
@@ -43,6 +48,8 @@ pub struct Aligner {
     accel: Vector3<f32>,
     gyro_square: f32,
     accel_square: f32,
+    /// Sums of the window's first half, and its samples.
+    half: Option<(Vector3<f32>, Vector3<f32>, f32)>,
     field: Vector3<f32>,
     fields: f32,
 }
@@ -78,7 +85,9 @@ impl Aligner {
         }
         let attitude = pose.map_or_else(|| self.attitude(north), |pose| pose.attitude);
         let gyro_bias = still.then(|| self.gyro / self.samples);
-        Some(Alignment { attitude, gyro_bias, has_heading })
+        // Noise of so many jobs' means averages out; a sway, of which a second holds one or two, does by half at best.
+        let scatter = 0.5 * math::sqrt(self.gyro_scatter());
+        Some(Alignment { attitude, gyro_bias, scatter, has_heading })
     }
 
     fn add(&mut self, span: &Span, mag: Option<&MagSample>, north: Option<&MagneticNorth>) {
@@ -91,6 +100,9 @@ impl Aligner {
         self.accel += span.accel;
         self.gyro_square += gyro.norm_squared();
         self.accel_square += accel.norm_squared();
+        if self.ticks >= WINDOW / 2 {
+            self.half.get_or_insert((self.gyro, self.accel, self.samples));
+        }
         if let (Some(mag), Some(north)) = (mag, north)
             && north.is_plausible(&mag.field_ut)
         {
@@ -99,15 +111,29 @@ impl Aligner {
         }
     }
 
+    /// Variance of the jobs' mean rates, (rad/s)².
+    fn gyro_scatter(&self) -> f32 {
+        math::max(self.gyro_square / self.jobs - (self.gyro / self.samples).norm_squared(), 0.0)
+    }
+
+    /// Whether the second half of the window was like the first.
+    fn is_steady(&self) -> bool {
+        let Some((gyro, accel, samples)) = self.half else { return false };
+        let left = self.samples - samples;
+        let (gyro, accel) = ((self.gyro - gyro) / left - gyro / samples, (self.accel - accel) / left - accel / samples);
+        gyro.norm_squared() < GYRO_CHANGE_MAX * GYRO_CHANGE_MAX
+            && accel.norm_squared() < ACCEL_CHANGE_MAX * ACCEL_CHANGE_MAX
+    }
+
     fn is_still(&self, gravity: f32) -> bool {
         let (gyro, accel) = (self.gyro / self.samples, self.accel / self.samples);
-        let gyro_scatter = self.gyro_square / self.jobs - gyro.norm_squared();
         let accel_scatter = self.accel_square / self.jobs - accel.norm_squared();
         let size = math::sqrt(accel.norm_squared());
         gyro.norm_squared() < TURN_ON_BIAS_MAX * TURN_ON_BIAS_MAX
-            && gyro_scatter < GYRO_SCATTER_MAX * GYRO_SCATTER_MAX
+            && self.gyro_scatter() < GYRO_SCATTER_MAX * GYRO_SCATTER_MAX
             && accel_scatter < ACCEL_SCATTER_MAX * ACCEL_SCATTER_MAX
             && math::abs(size - gravity) < GRAVITY_OFF_MAX * gravity
+            && self.is_steady()
     }
 
     /// Roll and pitch by gravity, heading by the field: f = Rᵀ g e3 = g (−sθ, cθ sφ, cθ cφ).

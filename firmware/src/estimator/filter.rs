@@ -8,8 +8,8 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::align::{self, Aligner, Alignment};
-use super::covariance::{self, Covariance, ErrorState, index};
-use super::fusion::REST_NOISE;
+use super::covariance::{self, Covariance, ErrorState, StepNoise, index};
+use super::fusion::{REST_NOISE, STILL_JOBS};
 use super::history::{History, Moved, Snapshot};
 use super::models::MagneticNorth;
 use super::predictor::{Correction, Nominal, Span};
@@ -47,7 +47,9 @@ pub struct FilterInput {
     pub span: Span,
     /// Whether the last job's injection was taken in.
     pub injected: bool,
-    /// Whether the vehicle is known to stand: disarmed, on the ground.
+    /// Whether the vehicle is on the ground.
+    pub landed: bool,
+    /// Whether it is known to stand there: disarmed.
     pub at_rest: bool,
     /// What has come.
     pub readings: Readings,
@@ -136,6 +138,8 @@ const HEADING_SIGMA_MAX: f32 = 0.4;
 const SPEED_SIGMA_MAX: f32 = 1.0;
 const POSITION_SIGMA_MAX: f32 = 10.0;
 const HEIGHT_SIGMA_MAX: f32 = 5.0;
+/// Part of the way in a job by which the force follows what is measured: 40 ms, some turns of the rotors.
+const FORCE_PART: f32 = 0.1;
 /// How long ago a motion capture's pose may be for an alignment, ticks.
 const POSE_FRESH: Tick = 200;
 
@@ -174,6 +178,10 @@ pub struct Filter {
     pub(super) gravity: f32,
     /// k over m of the airframe along x and y, 1/s.
     pub(super) specific_drag: f32,
+    /// Where the vehicle stands before anything else is known, m.
+    start: Vector3<f32>,
+    /// Ticks without a sample of the IMU until now.
+    gap: u32,
     pub(super) north: Option<MagneticNorth>,
     /// Until the vehicle is aligned.
     aligner: Option<Aligner>,
@@ -188,8 +196,12 @@ pub struct Filter {
     ordered: Correction,
     started: Option<Nominal>,
     pub(super) jobs: u32,
+    /// For how many jobs it has been still.
+    pub(super) still_jobs: u32,
     /// Sum of the accelerometer's samples since drag was last fused, m/s², and how many.
     pub(super) force: (Vector3<f32>, u32),
+    /// How far the specific force in the body's frame is from that at rest, smoothed, m/s².
+    force_off: Vector3<f32>,
 }
 
 /// What a job works with.
@@ -210,11 +222,13 @@ impl Job<'_> {
 
 impl Filter {
     /// Not yet aligned. `specific_drag` is the airframe's k/m, 1/s.
-    pub fn new(settings: &EstimatorSettings, gravity: f32, specific_drag: f32) -> Self {
+    pub fn new(settings: &EstimatorSettings, gravity: f32, specific_drag: f32, start: Vector3<f32>) -> Self {
         Self {
             settings: *settings,
             gravity,
             specific_drag,
+            start,
+            gap: 0,
             north: MagneticNorth::new(settings.magnetic_field_ut.into()),
             aligner: Some(Aligner::default()),
             covariance: Covariance::diagonal(&ErrorState::zeros()),
@@ -227,7 +241,9 @@ impl Filter {
             ordered: Correction::default(),
             started: None,
             jobs: 0,
+            still_jobs: 0,
             force: (Vector3::zeros(), 0),
+            force_off: Vector3::zeros(),
         }
     }
 
@@ -285,7 +301,7 @@ impl Filter {
         let Some(aligner) = &mut self.aligner else { return FilterOutput::initial() };
         let found = aligner.step(&input.span, mag.as_ref(), pose.as_ref(), self.north.as_ref(), self.gravity);
         let Some(alignment) = found else { return FilterOutput::initial() };
-        let state = self.begin(&alignment, pose.as_ref(), input);
+        let state = self.begin(&alignment, pose.as_ref());
         self.aligner = None;
         self.started = Some(state);
         let Nominal { attitude, velocity, position, .. } = state;
@@ -300,24 +316,25 @@ impl Filter {
     }
 
     /// The state to start from; the covariance is set to what is known of it.
-    fn begin(&mut self, alignment: &Alignment, pose: Option<&PoseSample>, input: &FilterInput) -> Nominal {
+    fn begin(&mut self, alignment: &Alignment, pose: Option<&PoseSample>) -> Nominal {
         let settings = &self.settings;
         let still = alignment.gyro_bias.is_some();
+        // The window has shown it.
+        self.still_jobs = if still { STILL_JOBS } else { 0 };
         let tilt = align::tilt_sigma(still, settings.accel_bias, self.gravity);
         let heading = match (alignment.has_heading, pose) {
             (_, Some(_)) => settings.pose_attitude_rad,
-            (true, None) => settings.heading_offset + 2.0 * tilt,
+            (true, None) => settings.heading_offset + self.north.map_or(1.0, MagneticNorth::slope) * tilt,
             (false, None) => core::f32::consts::PI,
         };
         let tilt = if pose.is_some() { settings.pose_attitude_rad } else { tilt };
         let speed = if still { REST_NOISE } else { 2.0 };
-        let averaged = alignment.gyro_bias.map(|_| align::WINDOW_S);
+        let averaged = alignment.gyro_bias.map(|_| (align::WINDOW_S, alignment.scatter));
         self.covariance = Covariance::diagonal(&settings.initial(tilt, heading, speed, averaged));
         Nominal {
             attitude: alignment.attitude,
-            position: pose.map_or(input.state.position, |pose| pose.position),
             gyro_bias: alignment.gyro_bias.unwrap_or_default(),
-            ..Nominal::at_rest(input.state.position)
+            ..Nominal::at_rest(pose.map_or(self.start, |pose| pose.position))
         }
     }
 
@@ -325,8 +342,10 @@ impl Filter {
 
     fn predict(&mut self, input: &FilterInput, attitude: &UnitQuaternion<f32>) {
         let step_s = input.span.ticks as f32 * TICK_S;
-        let off = input.force - Vector3::z() * self.gravity;
-        let noise = self.settings.step_noise(step_s, &(attitude * input.rates), math::sqrt(off.norm_squared()));
+        self.force_off += (input.force - Vector3::z() * self.gravity - self.force_off) * FORCE_PART;
+        let off = &self.force_off;
+        let mut noise = self.settings.step_noise(step_s, &(attitude * input.rates), math::sqrt(off.norm_squared()));
+        self.add_gap(&input.span, &mut noise);
         let motion = covariance::Motion {
             step_s,
             rotation: attitude.to_rotation_matrix().into_inner(),
@@ -335,8 +354,23 @@ impl Filter {
         self.covariance.predict(&motion, &noise);
     }
 
+    /// Without samples the last one is integrated on: what the vehicle does meanwhile is not known.
+    fn add_gap(&mut self, span: &Span, noise: &mut StepNoise) {
+        /// A vehicle in a manoeuvre: rad/s² and m/s³.
+        const UNSEEN: (f32, f32) = (20.0, 50.0);
+        let missing = span.ticks.saturating_sub(span.samples);
+        self.gap = if span.samples == 0 { self.gap.saturating_add(missing) } else { missing };
+        let both = self.gap as f32 * missing as f32 * (TICK_S * TICK_S);
+        let (turn, push) = (UNSEEN.0 * both, UNSEEN.1 * both);
+        noise.theta += Vector3::repeat(turn * turn);
+        noise.velocity += push * push;
+    }
+
     /// Orders the correction and says what is to be trusted.
     fn finish(&mut self, job: Job) -> FilterOutput {
+        if !math::all_finite(job.error.as_slice()) {
+            return self.give_up();
+        }
         let e = job.error.as_slice();
         let three = |first: usize| match e.get(first..first + 3) {
             Some([x, y, z]) => Vector3::new(*x, *y, *z),
@@ -370,14 +404,25 @@ impl Filter {
         }
     }
 
+    /// Nothing is left that could be corrected: from the beginning.
+    #[cold]
+    fn give_up(&mut self) -> FilterOutput {
+        self.aligner = Some(Aligner::default());
+        self.offsets = Offsets::default();
+        self.history.clear();
+        FilterOutput::initial()
+    }
+
     // ------------------------------------------------------------------------------------------------- health
 
     fn sigma(&self) -> [f32; 9] {
-        core::array::from_fn(|state| math::sqrt(math::max(self.covariance.variance(state), 0.0)))
+        // What is no number is not known at all.
+        let root = |variance: f32| if variance >= 0.0 { math::sqrt(variance) } else { f32::INFINITY };
+        core::array::from_fn(|state| root(self.covariance.variance(state)))
     }
 
     fn health(&self, now: Tick) -> NavHealth {
-        let [roll, pitch, heading, vx, vy, _, x, y, z] = self.sigma();
+        let [roll, pitch, heading, vx, vy, vz, x, y, z] = self.sigma();
         let worst = |a: f32, b: f32| math::max(a, b);
         let w = &self.watches;
         let pose = w.pose.is_live(now, LOST_AFTER);
@@ -392,6 +437,7 @@ impl Filter {
             velocity,
             position: velocity && position_read && heard && worst(x, y) < POSITION_SIGMA_MAX,
             height: height_read && z < HEIGHT_SIGMA_MAX,
+            climb: vz < SPEED_SIGMA_MAX,
         }
     }
 }

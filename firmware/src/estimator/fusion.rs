@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::covariance::{ErrorState, Row, index};
-use super::filter::{Filter, HeightSource, JUMPED_AFTER, Job, LOST_AFTER, Source};
+use super::filter::{Filter, FilterInput, HeightSource, JUMPED_AFTER, Job, LOST_AFTER, Source};
 use super::history::Snapshot;
 use super::models::{Age, NONE, attitude_row, pressure_height, turn_between};
 use super::update::{Measurement, Verdict, gate};
@@ -18,8 +18,19 @@ const STUCK_AFTER: u32 = 8;
 const DRAG_EVERY: u32 = 20;
 /// And standing.
 const REST_EVERY: u32 = 25;
+/// A vehicle stands once it has been still for so many jobs, 1 s: whatever is carried is still for a moment now and then.
+pub(super) const STILL_JOBS: u32 = 250;
+/// Still: below this, rad/s and m/s².
+const STILL_RAD_S: f32 = 0.03;
+const STILL_M_S2: f32 = 0.5;
 /// Noise of drag as a specific force, m/s²: what gusts, tilting and the model leave of a mean over as many jobs.
 const DRAG_NOISE: f32 = 0.08;
+/// Deviation of a state that is forgotten: beyond any that is flown with, in any unit, and few enough for an f32.
+const FORGOTTEN: f32 = 10.0;
+/// And of a heading with which the field does not agree for long, rad.
+const HEADING_IN_DOUBT: f32 = 0.2;
+/// A vehicle that turns faster, rad/s, feels its drag from all sides in the time of a mean.
+const SPINNING_RAD_S: f32 = 3.0;
 /// A vehicle at rest stands this still, m/s.
 pub(super) const REST_NOISE: f32 = 0.02;
 
@@ -39,14 +50,16 @@ impl Filter {
         if let Some(mag) = readings.mag.filter(|mag| math::all_finite(mag.field_ut.as_slice())) {
             self.fuse_mag(job, &mag);
         }
-        if job.input.at_rest && self.jobs.is_multiple_of(REST_EVERY) {
+        self.still_jobs = if self.is_still(job.input) { self.still_jobs.saturating_add(1) } else { 0 };
+        if self.still_jobs >= STILL_JOBS && self.jobs.is_multiple_of(REST_EVERY) {
             self.fuse_rest(job);
         }
         let span = &job.input.span;
         self.force = (self.force.0 + span.accel, self.force.1 + span.samples);
         if self.jobs.is_multiple_of(DRAG_EVERY) {
             let (sum, samples) = core::mem::take(&mut self.force);
-            if samples > 0 && !job.input.at_rest {
+            let spins = job.input.rates.norm_squared() > SPINNING_RAD_S * SPINNING_RAD_S;
+            if samples > 0 && !job.input.landed && !spins {
                 self.fuse_drag(job, &(sum / samples as f32 - job.input.state.accel_bias));
             }
         }
@@ -76,7 +89,9 @@ impl Filter {
         self.watches.mag.note(job.now.at, verdict.accepted);
         if self.watches.mag.is_at_odds(job.now.at, 2 * JUMPED_AFTER) {
             self.offsets.heading += measurement.innovation[0] - reading.row.dot(&job.error);
-            self.covariance.set_variance(index::HEADING_OFFSET, sigma * sigma);
+            // Which of the two is wrong the field cannot tell: satellites shall be able to.
+            self.covariance.add_variance(index::THETA + 2, HEADING_IN_DOUBT * HEADING_IN_DOUBT);
+            self.anchor(job, &measurement, index::HEADING_OFFSET);
             self.watches.mag.note(job.now.at, true);
         }
     }
@@ -105,7 +120,8 @@ impl Filter {
         if self.height_by != by {
             self.height_by = by;
             self.offsets.height = beyond;
-            self.covariance.set_variance(index::HEIGHT_OFFSET, variance);
+            let measurement = Measurement { rows: [row], innovation: [0.0], variance: [variance] };
+            self.anchor(job, &measurement, index::HEIGHT_OFFSET);
             return Verdict { nis: 0.0, accepted: true };
         }
         let innovation = height - age.then.position.z - row.dot(&age.since) - self.offsets.height;
@@ -138,24 +154,43 @@ impl Filter {
         job.note(Source::GnssPosition, verdict);
         self.watches.gnss.note(job.now.at, verdict.accepted);
         if self.watches.gnss.is_at_odds(job.now.at, JUMPED_AFTER) {
-            self.move_gnss_offset(job, &rows, innovation, noise * noise);
+            self.move_gnss_offset(job, &measurement);
         }
         if !self.watches.baro.is_live(job.now.at, LOST_AFTER) && !self.watches.pose.is_live(job.now.at, LOST_AFTER) {
             let verdict = self.fuse_height(job, &age, local.z, noise_up * noise_up, HeightSource::Gnss);
             job.note(Source::GnssHeight, verdict);
             self.watches.gnss_height.note(job.now.at, verdict.accepted);
+            if self.watches.gnss_height.is_at_odds(job.now.at, LOST_AFTER / 2) {
+                self.height_by = HeightSource::None;
+            }
         }
     }
 
     /// The receiver has jumped and stays there: its frame has moved, not the vehicle.
-    fn move_gnss_offset(&mut self, job: &mut Job, rows: &[Row; 2], innovation: [f32; 2], variance: f32) {
-        for (i, (row, innovation)) in rows.iter().zip(innovation).enumerate() {
-            if let Some(offset) = self.offsets.gnss.get_mut(i) {
-                *offset += innovation - row.dot(&job.error);
-            }
-            self.covariance.set_variance(index::OFFSET + i, variance);
+    fn move_gnss_offset(&mut self, job: &mut Job, measurement: &Measurement<2>) {
+        for ((offset, row), innovation) in
+            self.offsets.gnss.iter_mut().zip(&measurement.rows).zip(measurement.innovation)
+        {
+            *offset += innovation - row.dot(&job.error);
         }
+        self.anchor(job, measurement, index::OFFSET);
         self.watches.gnss.note(job.now.at, true);
+    }
+
+    /// Offsets from `first` on have been set so that a reading agrees: nothing is left of its innovation, and what the
+    /// offsets are known by is the reading and what else it depends on.
+    fn anchor<const N: usize>(&mut self, job: &mut Job, measurement: &Measurement<N>, first: usize) {
+        let error = job.error;
+        let agrees = Measurement { innovation: measurement.rows.map(|row| row.dot(&error)), ..*measurement };
+        self.anew(job, &agrees, first);
+    }
+
+    /// States from `first` on are forgotten, and learnt from a reading whatever was believed.
+    fn anew<const N: usize>(&mut self, job: &mut Job, measurement: &Measurement<N>, first: usize) {
+        for state in first..first + N {
+            self.covariance.set_variance(state, FORGOTTEN * FORGOTTEN);
+        }
+        measurement.apply(&mut self.covariance, &mut job.error, f32::INFINITY);
     }
 
     fn fuse_gnss_velocity(&mut self, job: &mut Job, age: &Age, gnss: &GnssSample) {
@@ -169,7 +204,7 @@ impl Filter {
         job.note(Source::GnssVelocity, verdict);
         self.watches.gnss_velocity.note(job.now.at, verdict.accepted);
         if self.watches.gnss_velocity.is_at_odds(job.now.at, JUMPED_AFTER) {
-            self.start_again(job, index::VELOCITY, &rows, &innovation, &variance);
+            self.anew(job, &measurement, index::VELOCITY);
             self.watches.gnss_velocity.note(job.now.at, true);
         }
     }
@@ -184,15 +219,22 @@ impl Filter {
         let believed = age.then.position;
         let innovation: [f32; 3] = core::array::from_fn(|i| pose.position[i] - believed[i] - rows[i].dot(&age.since));
         let variance = [sigma * sigma; 3];
-        let verdict =
-            Measurement { rows, innovation, variance }.apply(&mut self.covariance, &mut job.error, gate::<3>());
+        let measurement = Measurement { rows, innovation, variance };
+        let verdict = measurement.apply(&mut self.covariance, &mut job.error, gate::<3>());
         job.note(Source::PosePosition, verdict);
         self.watches.pose.note(job.now.at, verdict.accepted);
         if self.watches.pose.is_at_odds(job.now.at, JUMPED_AFTER / 2) {
-            self.start_again(job, index::POSITION, &rows, &innovation, &variance);
+            // A position that is that wrong has come by a velocity that is too.
+            for axis in 0..3 {
+                self.covariance.set_variance(index::VELOCITY + axis, 1.0);
+            }
+            self.anew(job, &measurement, index::POSITION);
             self.watches.pose.note(job.now.at, true);
         }
+        self.fuse_pose_attitude(job, &age, pose);
+    }
 
+    fn fuse_pose_attitude(&mut self, job: &mut Job, age: &Age, pose: &PoseSample) {
         let sigma = self.settings.pose_attitude_rad;
         let turn = turn_between(&age.then.attitude, &pose.attitude);
         let rows = [0, 1, 2].map(attitude_row);
@@ -201,32 +243,20 @@ impl Filter {
         let verdict = measurement.apply(&mut self.covariance, &mut job.error, gate::<3>());
         job.note(Source::PoseAttitude, verdict);
         self.watches.pose_attitude.note(job.now.at, verdict.accepted);
-    }
-
-    /// Three states are set to what was read, whatever was believed.
-    fn start_again(
-        &mut self,
-        job: &mut Job,
-        first: usize,
-        rows: &[Row; 3],
-        innovation: &[f32; 3],
-        variance: &[f32; 3],
-    ) {
-        for (i, ((row, innovation), variance)) in rows.iter().zip(innovation).zip(variance).enumerate() {
-            let rest = innovation - row.dot(&job.error);
-            if let Some(error) = job.error.get_mut(first + i) {
-                *error += rest;
-            }
-            self.covariance.set_variance(first + i, *variance);
+        if self.watches.pose_attitude.is_at_odds(job.now.at, JUMPED_AFTER / 2) {
+            self.anew(job, &measurement, index::THETA);
+            self.watches.pose_attitude.note(job.now.at, true);
         }
     }
 
-    /// A vehicle that stands does not move; one that is carried about is not taken to stand.
+    /// Whether a vehicle that ought to stand neither turns nor is pushed.
+    fn is_still(&self, input: &FilterInput) -> bool {
+        let off = math::sqrt(input.force.norm_squared()) - self.gravity;
+        input.at_rest && input.rates.norm_squared() < STILL_RAD_S * STILL_RAD_S && math::abs(off) < STILL_M_S2
+    }
+
+    /// A vehicle that stands does not move; one that is carried about, or stands on a boat, is not taken to stand.
     fn fuse_rest(&mut self, job: &mut Job) {
-        let force = math::sqrt(job.input.force.norm_squared());
-        if job.input.rates.norm_squared() > 0.01 || math::abs(force - self.gravity) > 0.5 {
-            return;
-        }
         let rows =
             [0, 1, 2].map(|axis| Row { theta: Vector3::zeros(), entries: [(index::VELOCITY + axis, 1.0), NONE, NONE] });
         let v = job.now.velocity;

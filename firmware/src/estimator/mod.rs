@@ -13,7 +13,8 @@
 //! [`predictor`] owns the nominal state, and integrates it. [`filter`] owns the [`covariance`] and the [`history`] of
 //! the last quarter of a second, in which a late reading is fused at its own time (`fusion`, by [`models`]); what it finds goes back
 //! as a correction. [`align`] is how it begins, [`update`] the gate and the correction, [`watch`] what is made of a
-//! sensor that goes wrong, [`settings`] what it is told of the sensors. Local frame: the world's axes, through the place
+//! sensor that goes wrong, [`settings`] what it is told of the sensors,
+//! [`status`] what it says of itself. Local frame: the world's axes, through the place
 //! where the vehicle was aligned.
 
 pub mod align;
@@ -24,6 +25,7 @@ pub mod history;
 pub mod models;
 pub mod predictor;
 pub mod settings;
+pub mod status;
 pub mod update;
 pub mod watch;
 

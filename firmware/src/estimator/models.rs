@@ -129,6 +129,11 @@ impl MagneticNorth {
         Some(Self { north, left, horizontal_ut, slope: field_ut.z / horizontal_ut, strength_ut })
     }
 
+    /// How much of a tilt towards north reads as a heading: the tangent of the inclination, or 1 if it is less.
+    pub fn slope(self) -> f32 {
+        math::max(math::abs(self.slope), 1.0)
+    }
+
     /// Whether a field can be the earth's: within 35 % of its size.
     pub fn is_plausible(&self, field_ut: &Vector3<f32>) -> bool {
         let part = math::sqrt(field_ut.norm_squared()) / self.strength_ut;

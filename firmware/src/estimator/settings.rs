@@ -130,8 +130,10 @@ impl EstimatorSettings {
         let scale = square(self.gyro_scale) * MANOEUVRE_S;
         let gyro = 0.5 * square(self.gyro_noise);
         let gnss = square(self.gnss_walk);
+        // A quarter for axes that see each other's rates.
+        let skew = 0.25 * scale * rates_in_world.norm_squared();
         StepNoise {
-            theta: rates_in_world.map(|rate| gyro + scale * rate * rate),
+            theta: rates_in_world.map(|rate| gyro + scale * rate * rate + skew),
             velocity: 0.5 * square(self.accel_noise) + square(self.accel_scale * force_off) * MANOEUVRE_S,
             gyro_bias: square(self.gyro_bias_walk),
             accel_bias: square(self.accel_bias_walk),
@@ -141,8 +143,8 @@ impl EstimatorSettings {
     }
 
     /// Variances at the start, given those of the attitude (rad: tilt, heading) and of the velocity (m/s), and whether the
-    /// gyroscopes' bias has been seen at rest for `averaged_s`.
-    pub(super) fn initial(&self, tilt: f32, heading: f32, speed: f32, averaged_s: Option<f32>) -> ErrorState {
+    /// gyroscopes' bias has been seen at rest for `averaged_s`, and how far that may be off by a sway, rad/s.
+    pub(super) fn initial(&self, tilt: f32, heading: f32, speed: f32, averaged: Option<(f32, f32)>) -> ErrorState {
         let square = |x: f32| x * x;
         let mut p = ErrorState::zeros();
         let mut set = |first: usize, values: [f32; 3]| {
@@ -151,11 +153,12 @@ impl EstimatorSettings {
             }
         };
         // A mean of white noise over a time, with what the bias itself wanders meanwhile.
-        let averaged = |time: f32| self.gyro_noise / crate::math::sqrt(2.0 * time) + self.gyro_bias_walk;
+        let seen =
+            |(time, sway): (f32, f32)| self.gyro_noise / crate::math::sqrt(2.0 * time) + self.gyro_bias_walk + sway;
         set(index::THETA, [tilt, tilt, heading]);
         set(index::VELOCITY, [speed; 3]);
         set(index::POSITION, [0.01; 3]);
-        set(index::GYRO_BIAS, [averaged_s.map_or(self.gyro_bias, averaged); 3]);
+        set(index::GYRO_BIAS, [averaged.map_or(self.gyro_bias, seen); 3]);
         set(index::ACCEL_BIAS, [self.accel_bias; 3]);
         set(index::OFFSET, [1.0, 1.0, 1.0]);
         set(index::HEADING_OFFSET, [self.heading_offset, WIND_SIGMA, WIND_SIGMA]);

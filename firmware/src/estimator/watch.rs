@@ -13,8 +13,11 @@ pub struct Watch {
     repeats: u32,
     /// When a sample was last taken in.
     accepted: Option<Tick>,
-    /// Since when all have been refused by their innovation.
+    /// Since when all have been refused by their innovation, and how many.
     refused_since: Option<Tick>,
+    refused_in_row: u32,
+    /// When the gate was last asked.
+    noted: Option<Tick>,
     /// Samples since boot that were not taken in.
     refused: u32,
 }
@@ -48,18 +51,27 @@ impl Watch {
 
     /// Notes what the gate said of a sample, at the job released at `now`.
     pub fn note(&mut self, now: Tick, accepted: bool) {
+        /// What was said before a silence of as many ticks says nothing about now.
+        const SILENCE: Tick = 1_000;
+        let after_silence = self.noted.is_none_or(|at| now.wrapping_sub(at) > SILENCE);
+        self.noted = Some(now);
+        if accepted || after_silence {
+            (self.refused_since, self.refused_in_row) = (None, 0);
+        }
         if accepted {
             self.accepted = Some(now);
-            self.refused_since = None;
         } else {
             self.count();
             self.refused_since.get_or_insert(now);
+            self.refused_in_row = self.refused_in_row.saturating_add(1);
         }
     }
 
     /// Whether samples have been refused by their innovation, and only that, for this many ticks.
     pub fn is_at_odds(&self, now: Tick, ticks: Tick) -> bool {
-        self.refused_since.is_some_and(|since| now.wrapping_sub(since) >= ticks)
+        /// One or two may be strays.
+        const FEW: u32 = 3;
+        self.refused_in_row >= FEW && self.refused_since.is_some_and(|since| now.wrapping_sub(since) >= ticks)
     }
 
     /// Whether a sample was taken in within these ticks.
@@ -101,10 +113,15 @@ mod tests {
     fn odds_are_counted_from_the_first_refusal_in_a_row() {
         let mut watch = Watch::default();
         watch.note(100, true);
-        watch.note(200, false);
-        watch.note(300, false);
+        for at in [200, 250, 300] {
+            watch.note(at, false);
+        }
         assert!(watch.is_at_odds(300, 100) && !watch.is_at_odds(250, 100) && watch.is_live(200, 100));
         watch.note(310, true);
         assert!(!watch.is_at_odds(900, 0));
+        // One bad reading, a silence, and one bad reading more are no jump.
+        watch.note(400, false);
+        watch.note(5_000, false);
+        assert!(!watch.is_at_odds(5_000, 2_500));
     }
 }

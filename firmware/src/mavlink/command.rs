@@ -9,8 +9,9 @@ use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavModeFlag, MavResult};
 use super::parser::{CommandMessage, Sender};
 use super::telemetry::{IntervalError, Report, Telemetry, is_available, report_by_id};
 use super::writer::Writer;
-use super::{GroundInput, mode};
+use super::{GroundInput, GroundOutput, mode};
 use crate::commander::{Command, Commands, Origin, Outcome, Request, TAKE_OFF_HEIGHT_M};
+use crate::failure::{Failure, Failures, Injectable, Manner, Unit};
 use crate::signals::Tick;
 
 /// `param2` of arming and disarming that skips the checks: MAVLink's and QGroundControl's.
@@ -38,14 +39,18 @@ pub(super) fn carry_out(
     now: Tick,
     input: &GroundInput,
     telemetry: &mut Telemetry,
-    to_commander: &mut Commands,
+    output: &mut GroundOutput,
 ) -> Option<Answer> {
+    let to_commander = &mut output.commands;
     match MavCmd::from_u16(message.command) {
         Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => pass_on(arm_request(message), message, sender, to_commander),
         Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => pass_on(Some(take_off(message)), message, sender, to_commander),
         Some(MavCmd::MAV_CMD_NAV_LAND) => pass_on(Some(Request::Land), message, sender, to_commander),
         Some(MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH) => pass_on(Some(Request::Return), message, sender, to_commander),
         Some(MavCmd::MAV_CMD_DO_SET_MODE) => pass_on(mode_request(message), message, sender, to_commander),
+        Some(MavCmd::MAV_CMD_INJECT_FAILURE) => {
+            Some(inject(message, &input.injectable, &mut output.failures).map_or_else(Into::into, Into::into))
+        }
         Some(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL) => Some(set_message_interval(message, now, telemetry).into()),
         Some(MavCmd::MAV_CMD_REQUEST_MESSAGE) => Some(request_message(message, input)),
         Some(MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES) => Some(request_capabilities(message)),
@@ -93,6 +98,47 @@ fn mode_request(message: &CommandMessage) -> Option<Request> {
     } else {
         None
     }
+}
+
+/// Accepts what the board can do, and hands it on. A board that can do nothing has it switched off, as PX4 calls it:
+/// denied.
+fn inject(message: &CommandMessage, injectable: &Injectable, failures: &mut Failures) -> Result<MavResult, MavResult> {
+    if injectable.is_none() {
+        return Err(MavResult::MAV_RESULT_DENIED);
+    }
+    let unit = whole(message.param1).ok_or(MavResult::MAV_RESULT_DENIED)?;
+    let manner = whole(message.param2).ok_or(MavResult::MAV_RESULT_DENIED)?;
+    let unit = unit_of(unit).ok_or(MavResult::MAV_RESULT_UNSUPPORTED)?;
+    let manner = Manner::ALL.get(usize::from(manner)).copied().ok_or(MavResult::MAV_RESULT_UNSUPPORTED)?;
+    if !injectable.allows(unit, manner) {
+        return Err(MavResult::MAV_RESULT_UNSUPPORTED);
+    }
+    // The first is number 1; 0, and no number, are all of them.
+    let number = if message.param3.is_nan() { Some(0) } else { whole(message.param3) };
+    let number = number.filter(|n| *n <= injectable.count(unit)).ok_or(MavResult::MAV_RESULT_DENIED)?;
+    let failure = Failure { unit, manner, instance: number.checked_sub(1) };
+    failures.push(failure).map_err(|_| MavResult::MAV_RESULT_TEMPORARILY_REJECTED)?;
+    Ok(MavResult::MAV_RESULT_ACCEPTED)
+}
+
+/// A parameter that is a whole number up to 255.
+fn whole(parameter: f32) -> Option<u8> {
+    let number = parameter as u8;
+    (f32::from(number) == parameter).then_some(number)
+}
+
+/// A unit by MAVLink's `FAILURE_UNIT`.
+fn unit_of(number: u8) -> Option<Unit> {
+    Some(match number {
+        0 => Unit::Gyro,
+        1 => Unit::Accel,
+        2 => Unit::Mag,
+        3 => Unit::Baro,
+        4 => Unit::Gnss,
+        100 => Unit::Battery,
+        101 => Unit::Motor,
+        _ => return None,
+    })
 }
 
 fn set_message_interval(message: &CommandMessage, now: Tick, telemetry: &mut Telemetry) -> MavResult {

@@ -1,12 +1,15 @@
 //! The ground partition, 100 Hz: MAVLink.
 //!
 //! Bytes in, bytes out; the board or the host only carries them. `parser` makes received bytes into messages,
-//! `command` carries out what they ask, `mode` codes the modes as PX4 does, `text` tells pilots, `telemetry` says when what is sent, `writer` makes it into bytes.
+//! `command` carries out what they ask, `mode`
+//! codes the modes as PX4 does, `text` tells pilots, `telemetry` says when what is sent, `status` how the vehicle is, `writer`
+//! makes it into bytes.
 //! Answers wait in a queue until they fit into a job's bytes. Knows NED/FRD through `frames` alone.
 
 mod command;
 mod mode;
 mod parser;
+mod status;
 mod telemetry;
 #[cfg(test)]
 mod tests;
@@ -19,6 +22,8 @@ use self::parser::{CommandMessage, Incoming, Parser, Sender};
 use self::telemetry::{Report, Telemetry};
 use self::writer::Writer;
 use crate::commander::{Commands, Event, Events, Mode, Origin, Outcome, Refusal, Replies, Request};
+use crate::estimator::status::Status;
+use crate::failure::{Failures, Injectable};
 use crate::signals::{NavState, TICK_US, Tick};
 
 /// MAVLink system of this vehicle.
@@ -78,6 +83,10 @@ pub struct GroundInput {
     pub armable: bool,
     /// How the firmware itself is doing.
     pub health: Health,
+    /// How the estimator is doing; none on ideal state.
+    pub estimator: Option<Status>,
+    /// What the board can make fail on request.
+    pub injectable: Injectable,
     /// Answers of the commander since the last job.
     pub replies: Replies,
     /// What the pilot is to know, since the last job.
@@ -93,6 +102,8 @@ pub struct GroundOutput {
     pub transmit: TxBytes,
     /// For the commander.
     pub commands: Commands,
+    /// Accepted, for the board.
+    pub failures: Failures,
 }
 
 /// Answers that wait for room.
@@ -132,7 +143,7 @@ impl Ground {
         let mut output = GroundOutput::default();
         self.parser.push(&input.received);
         while let Some((sender, message)) = self.parser.next() {
-            self.handle(released, input, sender, message, &mut output.commands);
+            self.handle(released, input, sender, message, &mut output);
         }
         for event in &input.events {
             self.post(Outgoing::Event(*event));
@@ -142,16 +153,9 @@ impl Ground {
         output
     }
 
-    fn handle(
-        &mut self,
-        now: Tick,
-        input: &GroundInput,
-        sender: Sender,
-        message: Incoming,
-        to_commander: &mut Commands,
-    ) {
+    fn handle(&mut self, now: Tick, input: &GroundInput, sender: Sender, message: Incoming, output: &mut GroundOutput) {
         match message {
-            Incoming::Command(command) => self.handle_command(now, input, sender, &command, to_commander),
+            Incoming::Command(command) => self.handle_command(now, input, sender, &command, output),
             Incoming::MissionRequestList { mission_type } => {
                 self.post(Outgoing::NoMission { mission_type, to: sender });
             }
@@ -168,9 +172,9 @@ impl Ground {
         input: &GroundInput,
         sender: Sender,
         message: &CommandMessage,
-        to_commander: &mut Commands,
+        output: &mut GroundOutput,
     ) {
-        let answer = command::carry_out(message, sender, now, input, &mut self.telemetry, to_commander);
+        let answer = command::carry_out(message, sender, now, input, &mut self.telemetry, output);
         if let Some(answer) = answer {
             self.post(Outgoing::Ack { command: message.command, result: answer.result, to: sender });
             if let Some(report) = answer.report {

@@ -5,13 +5,13 @@
 
 use glissade_dialect::mavlink_core::{MessageData, types::CharArray};
 use glissade_dialect::{
-    ATTITUDE_DATA, AUTOPILOT_VERSION_DATA, EXTENDED_SYS_STATE_DATA, HEARTBEAT_DATA, LOCAL_POSITION_NED_DATA,
-    MavAutopilot, MavLandedState, MavModeFlag, MavProtocolCapability, MavState, MavSysStatusSensor, MavType,
+    ATTITUDE_DATA, AUTOPILOT_VERSION_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, HEARTBEAT_DATA,
+    LOCAL_POSITION_NED_DATA, MavAutopilot, MavLandedState, MavModeFlag, MavProtocolCapability, MavState, MavType,
     NAMED_VALUE_INT_DATA, SYS_STATUS_DATA,
 };
 
 use super::writer::{Writer, frame_len};
-use super::{GroundInput, LoopTiming, mode};
+use super::{GroundInput, LoopTiming, mode, status};
 use crate::commander::Mode;
 use crate::control::euler::Euler;
 use crate::frames::flip_vector;
@@ -25,6 +25,7 @@ pub(super) enum Report {
     Attitude,
     LocalPosition,
     SysStatus,
+    EstimatorStatus,
     ExtendedSysState,
     LoopTiming,
     AutopilotVersion,
@@ -45,7 +46,7 @@ const fn stream<D: MessageData>(report: Report, period: Tick, phase: Tick) -> St
     Stream { report, id: D::ID, period, phase }
 }
 
-const STREAM_COUNT: usize = 7;
+const STREAM_COUNT: usize = 8;
 
 /// Every message that can be sent, its default period and first tick. The motion comes at 20 Hz, which leaves a
 /// radio of 57,600 baud two thirds free; a ground station that wants more asks for it.
@@ -54,6 +55,7 @@ const STREAMS: [Stream; STREAM_COUNT] = [
     stream::<ATTITUDE_DATA>(Report::Attitude, 50, 0),
     stream::<LOCAL_POSITION_NED_DATA>(Report::LocalPosition, 50, 10),
     stream::<SYS_STATUS_DATA>(Report::SysStatus, 500, 50),
+    stream::<ESTIMATOR_STATUS_DATA>(Report::EstimatorStatus, 1000, 350),
     stream::<EXTENDED_SYS_STATE_DATA>(Report::ExtendedSysState, 500, 150),
     stream::<NAMED_VALUE_INT_DATA>(Report::LoopTiming, 1000, 250),
     stream::<AUTOPILOT_VERSION_DATA>(Report::AutopilotVersion, 0, 0),
@@ -141,7 +143,11 @@ pub(super) fn report_by_id(id: f32) -> Option<Report> {
 
 /// True if there is something to fill the report with.
 pub(super) fn is_available(report: Report, input: &GroundInput) -> bool {
-    report != Report::LoopTiming || input.health.timing.is_some()
+    match report {
+        Report::LoopTiming => input.health.timing.is_some(),
+        Report::EstimatorStatus => input.estimator.is_some(),
+        _ => true,
+    }
 }
 
 /// Appends a report; false, and nothing done, if it does not fit.
@@ -150,7 +156,11 @@ pub(super) fn write(report: Report, now: Tick, input: &GroundInput, bad_checksum
         Report::Heartbeat => out.write(&heartbeat(input)),
         Report::Attitude => out.write(&attitude(now, input)),
         Report::LocalPosition => out.write(&local_position(now, input)),
-        Report::SysStatus => out.write(&sys_status(input, bad_checksums)),
+        Report::SysStatus => out.write(&status::sys_status(input, bad_checksums)),
+        // On ideal state nothing is estimated, and nothing said.
+        Report::EstimatorStatus => {
+            input.estimator.is_none_or(|estimator| out.write(&status::estimator_status(now, &estimator)))
+        }
         Report::ExtendedSysState => out.write(&extended_sys_state(input)),
         Report::LoopTiming => input.health.timing.is_none_or(|timing| write_timing(now, timing, out)),
         Report::AutopilotVersion => out.write(&autopilot_version()),
@@ -211,42 +221,6 @@ fn local_position(now: Tick, input: &GroundInput) -> LOCAL_POSITION_NED_DATA {
         vy: velocity.y,
         vz: velocity.z,
     }
-}
-
-fn sys_status(input: &GroundInput, bad_checksums: u32) -> SYS_STATUS_DATA {
-    let controllers = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ANGULAR_RATE_CONTROL
-        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION
-        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_YAW_POSITION
-        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_Z_ALTITUDE_CONTROL
-        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL
-        | MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS;
-    let navigation =
-        MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_EXTERNAL_GROUND_TRUTH | MavSysStatusSensor::MAV_SYS_STATUS_AHRS;
-    let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
-    let present = controllers | navigation | prearm;
-    // There is no fence; a station takes its bit's absence for a breach.
-    let mut health = controllers | MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE;
-    health.set(navigation, input.health.nav_fresh);
-    health.set(prearm, input.armable);
-    let [outer, commander, ground] = input.health.overruns.map(saturate);
-    SYS_STATUS_DATA {
-        onboard_control_sensors_present: present,
-        onboard_control_sensors_enabled: present,
-        onboard_control_sensors_health: health,
-        voltage_battery: u16::MAX,
-        current_battery: -1,
-        battery_remaining: -1,
-        errors_comm: saturate(input.health.dropped_bytes.saturating_add(bad_checksums)),
-        errors_count1: saturate(input.health.refused_samples),
-        errors_count2: outer,
-        errors_count3: commander,
-        errors_count4: ground,
-        ..SYS_STATUS_DATA::DEFAULT
-    }
-}
-
-fn saturate(count: u32) -> u16 {
-    u16::try_from(count).unwrap_or(u16::MAX)
 }
 
 fn extended_sys_state(input: &GroundInput) -> EXTENDED_SYS_STATE_DATA {

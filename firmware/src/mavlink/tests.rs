@@ -1,6 +1,8 @@
 //! The partition as a ground station sees it: bytes in, bytes out.
 
+mod failures;
 mod modes;
+mod status;
 
 use glissade_dialect::mavlink_core::{
     MAVLinkV1MessageRaw, MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message, MessageData, calculate_crc,
@@ -76,6 +78,8 @@ impl Bench {
             landed: true,
             armable: true,
             health: Health { nav_fresh: true, ..Health::default() },
+            estimator: None,
+            injectable: Injectable::NONE,
             replies: Replies::new(),
             events: Events::new(),
             received: RxBytes::new(),
@@ -86,7 +90,7 @@ impl Bench {
     /// Without telemetry, so that only answers are seen.
     fn silent() -> Self {
         let mut bench = Self::new();
-        for id in [1.0, 30.0, 32.0, 245.0, 252.0] {
+        for id in [1.0, 30.0, 32.0, 230.0, 245.0, 252.0] {
             bench.ground.telemetry.set_interval(0, id, -1.0).expect("can be turned off");
         }
         bench.job(&[]);

@@ -10,8 +10,8 @@ use crate::record::Navigation;
 
 /// States of the error that are looked at: attitude, velocity and position.
 pub const STATES: usize = 9;
-/// Between two looks at the error, s: they are far apart, because one error is much like the one a second later.
-const LOOK_EVERY_S: f64 = 5.0;
+/// Between two looks, s: far apart, because one error is much like the one a moment later.
+const LOOK_EVERY_S: f64 = 2.0;
 
 /// The normalised innovations of one kind of reading.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,13 +35,26 @@ pub struct Innovations {
 pub struct Consistency {
     /// By kind of reading.
     pub innovations: BTreeMap<&'static str, Innovations>,
-    /// Normalised estimation errors squared, one every five seconds of what is judged: of all nine states, and of
+    /// Normalised estimation errors squared, one every two seconds of what is judged: of all nine states, and of
     /// attitude, velocity and position alone.
     pub nees: Vec<[f64; 4]>,
     next_look_s: f64,
     looks: usize,
     last_tick: Option<u32>,
 }
+
+/// Every kind of reading, in the order of its number.
+pub const SOURCES: [Source; 9] = [
+    Source::Heading,
+    Source::Baro,
+    Source::GnssPosition,
+    Source::GnssHeight,
+    Source::GnssVelocity,
+    Source::PosePosition,
+    Source::PoseAttitude,
+    Source::Drag,
+    Source::Rest,
+];
 
 /// Name and degrees of freedom of a kind of reading.
 pub fn kind(source: Source) -> (&'static str, u32) {
@@ -59,7 +72,7 @@ pub fn kind(source: Source) -> (&'static str, u32) {
 }
 
 /// 95 % quantile of χ² with one to three degrees of freedom.
-fn quantile(degrees: u32) -> f64 {
+pub fn quantile(degrees: u32) -> f64 {
     match degrees {
         1 => 3.841,
         2 => 5.991,

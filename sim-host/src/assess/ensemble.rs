@@ -117,6 +117,7 @@ pub fn fly(scenario: &Scenario, seeds: Seeds, flown: impl Fn() + Sync) -> Result
     let assess = scenario.file.assess.as_ref().with_context(|| {
         format!("scenario `{}` has no `[assess]`: it says nothing of what is expected of it", scenario.name)
     })?;
+    assess.require_part_of(scenario.file.duration_s).with_context(|| format!("scenario `{}`", scenario.name))?;
     let measured: Vec<Measures> = (seeds.first..=seeds.last)
         .into_par_iter()
         .map(|seed| {

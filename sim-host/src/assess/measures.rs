@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Assess;
 use super::consistency::Consistency;
 use crate::record::{Navigation, Recorder, Row};
+use crate::statistics::MeanSquare;
 
 /// A number that a flight has measured; over the time that is judged, unless it says otherwise. Errors are true minus
 /// wanted, wherever nothing else is said.
@@ -91,24 +92,6 @@ impl Measures {
     /// A measure's number.
     pub fn get(&self, measure: Measure) -> Option<f64> {
         self.values[measure as usize]
-    }
-}
-
-/// A root mean square in the making.
-#[derive(Clone, Copy, Debug, Default)]
-struct MeanSquare {
-    sum: f64,
-    count: u64,
-}
-
-impl MeanSquare {
-    fn take(&mut self, value: f64) {
-        self.sum += value * value;
-        self.count += 1;
-    }
-
-    fn root(self) -> Option<f64> {
-        (self.count > 0).then(|| (self.sum / self.count as f64).sqrt())
     }
 }
 

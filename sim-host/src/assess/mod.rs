@@ -35,7 +35,7 @@ pub struct Assess {
     pub to_s: Option<f64>,
     /// Where the vehicle ought to be, m; what guidance asks for at the time without it.
     pub hold_m: Option<[f64; 3]>,
-    /// Least part of the looks, one every five seconds, at which errors, and innovations of each kind of reading, are to be
+    /// Least part of the looks, one every two seconds, at which errors, and innovations of each kind of reading, are to be
     /// within the band that holds their mean over the seeds with 95 % probability.
     pub consistent: Option<f64>,
     /// What is expected.
@@ -63,11 +63,10 @@ impl Assess {
     ///
     /// # Errors
     /// The first key that is out of its range.
-    pub fn validate(&self, duration_s: f64) -> Result<()> {
-        let to_s = self.to_s.unwrap_or(duration_s);
+    pub fn validate(&self) -> Result<()> {
         ensure!(
-            self.from_s >= 0.0 && self.from_s < to_s && to_s <= duration_s,
-            "`assess` must be a part of the flight, not from {} to {to_s} of {duration_s} s",
+            self.from_s >= 0.0 && self.to_s.is_none_or(|to_s| self.from_s < to_s),
+            "`assess.from_s` must be from 0 up to `assess.to_s`, not {}",
             self.from_s
         );
         for value in self.hold_m.iter().flatten() {
@@ -84,6 +83,20 @@ impl Assess {
                 "`assess.expect` of `{name}` must have a number for `at_most` or `at_least`"
             );
         }
+        Ok(())
+    }
+
+    /// Refuses a flight of `duration_s` that ends before what is judged of it; it may be flown all the same.
+    ///
+    /// # Errors
+    /// The key to look at.
+    pub fn require_part_of(&self, duration_s: f64) -> Result<()> {
+        let to_s = self.to_s.unwrap_or(duration_s);
+        ensure!(
+            self.from_s < to_s && to_s <= duration_s,
+            "`assess` must be a part of the flight, not from {} to {to_s} of {duration_s} s",
+            self.from_s
+        );
         Ok(())
     }
 }

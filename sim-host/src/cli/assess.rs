@@ -36,6 +36,6 @@ fn load(args: &AssessArgs) -> Result<Vec<Scenario>> {
         return args.scenarios.iter().map(|name| Scenario::load(name, &args.settings.set)).collect();
     }
     let all = scenario::list()?;
-    let all = all.iter().map(|(name, _)| Scenario::load(name, &args.settings.set)).collect::<Result<Vec<_>>>()?;
+    let all = all.iter().map(|listed| Scenario::load(listed.name, &args.settings.set)).collect::<Result<Vec<_>>>()?;
     Ok(all.into_iter().filter(|s| s.file.assess.is_some() && s.file.duration_s <= LONGEST_S).collect())
 }

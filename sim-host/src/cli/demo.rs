@@ -1,4 +1,4 @@
-//! No command: the helix and the paper's disturbed case, with figures like the paper's 2 to 7 in runs/.
+//! No command: a tour on sensors, and the paper's disturbed case with figures like the paper's 2 to 7, in runs/.
 
 use std::path::Path;
 
@@ -9,11 +9,12 @@ use crate::report::table;
 use crate::scenario::Scenario;
 
 pub(super) fn run() -> Result<()> {
-    for name in ["helix", "paper-disturbed"] {
+    for name in ["outdoor-tour", "paper-disturbed"] {
         let folder = Path::new("runs").join(name);
         let summary = run::fly(&Scenario::load(name, &[])?, 1, Some(&folder), true)?;
+        let files = if summary.sensed.is_some() { "truth.csv, estimate.csv" } else { "truth.csv" };
         super::say(&format!(
-            "{}figures, truth.csv and summary.json are in {}\n ",
+            "{}figures, {files} and summary.json are in {}\n ",
             table::render(&summary),
             folder.display()
         ))?;

@@ -34,7 +34,7 @@ const MOST_THREADS: usize = 256;
 
 /// Glissade on the desktop: flies the firmware against a plant model, in lockstep.
 ///
-/// Without a command: flies `helix` and the paper's disturbed case, and leaves plots in runs/.
+/// Without a command: flies `outdoor-tour` on sensors and the paper's disturbed case, and leaves figures in runs/.
 #[derive(Debug, Parser)]
 #[command(name = "sim-host", version)]
 struct Cli {
@@ -205,7 +205,7 @@ struct CompareArgs {
 #[derive(Args, Clone, Debug)]
 struct ServeArgs {
     /// Name of a built-in scenario, or path of a file.
-    #[arg(default_value = "pad")]
+    #[arg(default_value = "field")]
     scenario: String,
     /// Address to receive on.
     #[arg(long, default_value = crate::link::DEFAULT_LISTEN)]

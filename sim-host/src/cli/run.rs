@@ -11,8 +11,9 @@ use super::RunArgs;
 use crate::flight;
 use crate::noise::Noise;
 use crate::record::{Recorder, Row};
+use crate::report::estimate::Belief;
 use crate::report::{Disturbance, Figures, Flight, Metrics, OutFolder, Progress, Summary, TruthWriter};
-use crate::report::{progress, summary, table};
+use crate::report::{Sensed, SensedRecorder, progress, summary, table};
 use crate::scenario::Scenario;
 use crate::sil::Outcome;
 
@@ -62,21 +63,44 @@ fn timed(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result
 pub(super) fn fly(scenario: &Scenario, seed: u64, out: Option<&Path>, visible: bool) -> Result<Summary> {
     let bar = Progress::new(scenario.file.duration_s, visible);
     let Some(path) = out else {
-        let mut recorder = ((Metrics::new(), TruthWriter::hash_only()), bar);
+        let mut recorder = (((Metrics::new(), TruthWriter::hash_only()), bar), sensed(scenario));
         let flown = timed(scenario, seed, &mut recorder)?;
-        let ((metrics, truth), bar) = recorder;
+        let (((metrics, truth), bar), sensed) = recorder;
         bar.finish();
-        return Ok(summarise(scenario, seed, &flown, truth.finish()?, &metrics));
+        let (sensed, _) = finish(sensed)?;
+        return Ok(summarise(scenario, seed, &flown, truth.finish()?, &metrics).with_sensed(sensed));
     };
     let folder = OutFolder::create(path)?;
-    let mut recorder = (((Metrics::new(), folder.truth()?), bar), Rows::new(scenario));
+    let sensed = match sensed(scenario) {
+        Some(recorder) => Some(recorder.writing(folder.estimate()?, is_drawn(scenario))),
+        None => None,
+    };
+    let mut recorder = ((((Metrics::new(), folder.truth()?), bar), Rows::new(scenario)), sensed);
     let flown = timed(scenario, seed, &mut recorder)?;
-    let (((metrics, truth), bar), rows) = recorder;
+    let ((((metrics, truth), bar), rows), sensed) = recorder;
     bar.finish();
-    let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics);
+    let (sensed, beliefs) = finish(sensed)?;
+    let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics).with_sensed(sensed);
     folder.summary(&summary)?;
     draw(scenario, seed, &folder, &rows.kept)?;
+    if !beliefs.is_empty() {
+        folder.beliefs(&beliefs)?;
+    }
     Ok(summary)
+}
+
+fn is_drawn(scenario: &Scenario) -> bool {
+    scenario.file.duration_s <= FIGURES_UP_TO_S
+}
+
+/// Takes what a flight on sensors leaves besides its truth.
+fn sensed(scenario: &Scenario) -> Option<SensedRecorder> {
+    scenario.file.sensors.as_ref().map(|_| SensedRecorder::new(flight::ground(scenario)))
+}
+
+fn finish(sensed: Option<SensedRecorder>) -> Result<(Option<Sensed>, Vec<Belief>)> {
+    let finished = sensed.map(SensedRecorder::finish).transpose()?;
+    Ok(finished.map_or_else(Default::default, |(sensed, beliefs)| (Some(sensed), beliefs)))
 }
 
 /// Keeps the rows of a flight that is short enough to be drawn.
@@ -87,7 +111,7 @@ struct Rows {
 
 impl Rows {
     fn new(scenario: &Scenario) -> Self {
-        Self { kept: Vec::new(), keep: scenario.file.duration_s <= FIGURES_UP_TO_S }
+        Self { kept: Vec::new(), keep: is_drawn(scenario) }
     }
 }
 

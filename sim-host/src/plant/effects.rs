@@ -90,6 +90,16 @@ impl Active {
         })
     }
 
+    /// Nothing that was scheduled comes any more; the battery's voltage stays at a part of what it would be.
+    pub(super) fn forget_schedule(&mut self, battery_factor: f64) {
+        self.next = self.effects.failures.len();
+        if let Some(supply) = &mut self.effects.supply {
+            supply.collapses.clear();
+            supply.collapses.push(Collapse { from_to: (0.0, f64::INFINITY), factor: battery_factor });
+            supply.collapse(self.time);
+        }
+    }
+
     /// A step of `step` s has been made.
     pub(super) fn elapse(&mut self, step: f64) {
         self.time += step;

@@ -10,6 +10,7 @@ pub mod ground;
 pub mod paper;
 pub mod rigid_body;
 
+use crate::sensors::PlantFaults;
 use battery::BatteryState;
 use firmware::airframe::ROTORS;
 use firmware::signals::NavState;
@@ -129,6 +130,9 @@ pub trait Plant {
     fn air_density(&self) -> f64 {
         1.0
     }
+
+    /// What is left of its rotors' thrust and of its battery's voltage from now on, whatever was scheduled.
+    fn befall(&mut self, _faults: &PlantFaults) {}
 
     /// Its battery, if it has one.
     fn battery(&self) -> Option<BatteryState> {

@@ -16,6 +16,7 @@ use super::battery::BatteryState;
 use super::effects::{Active, Effects, Sound};
 use super::ground::Ground;
 use super::{Constants, Motion, Plant, Push};
+use crate::sensors::PlantFaults;
 use firmware::airframe::ROTORS;
 
 /// Position, velocity, attitude (w, x, y, z) and body rates, in this order: one vector, so that the stages of RK4
@@ -352,6 +353,13 @@ impl Plant for RigidBody {
 
     fn air_density(&self) -> f64 {
         self.effects.as_ref().map_or(1.0, |active| active.density)
+    }
+
+    fn befall(&mut self, faults: &PlantFaults) {
+        if let Some(active) = &mut self.effects {
+            active.forget_schedule(faults.battery_factor);
+        }
+        self.set_rotor_effectiveness(faults.rotor_effectiveness);
     }
 
     fn battery(&self) -> Option<BatteryState> {

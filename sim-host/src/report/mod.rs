@@ -4,7 +4,10 @@
 //!                 ┌─► TruthWriter ─► truth.csv, SHA-256 ─┐
 //! loop ─► Row ─►  ├─► Metrics ───────────────────────────┼─► Summary ─► summary.json, --json, table
 //!  (Recorder)     ├─► Progress ─► bar on stderr          │      ▲
-//!                 └─► Vec<Row> ─► Figures ─► *.svg       └──────┘ Flight: what the loop knows besides
+//!                 └─► Vec<Row> ─► Figures ─► *.svg       └──────┤ Flight: what the loop knows besides
+//!                                                               │ Sensed: of flights on sensors
+//! loop ─► Navigation ─► SensedRecorder ─► estimate.csv ─────────┘
+//!                            └─► Vec<Belief> ─► EstimateFigures ─► *.svg
 //! ```
 //!
 //! Everything takes rows through [`Recorder`](crate::record::Recorder), in simulated time, and none of it can change a
@@ -24,24 +27,29 @@
 
 pub mod angles;
 pub mod comparison;
+pub mod estimate;
 pub mod measures;
 pub mod metrics;
 pub mod plots;
 pub mod progress;
+pub mod sensed;
 pub mod summary;
 pub mod table;
 pub mod touchdown;
 pub mod truth;
 
 use std::fs::{self, File};
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
 use crate::compare::Comparison;
+use estimate::{Belief, EstimateWriter};
 pub use metrics::{Metrics, Settling};
 pub use plots::{Disturbance, Figures};
 pub use progress::Progress;
+pub use sensed::{Sensed, SensedRecorder};
 pub use summary::{Flight, Summary};
 pub use touchdown::Touchdown;
 pub use truth::TruthWriter;
@@ -70,6 +78,14 @@ impl OutFolder {
         TruthWriter::create(&self.0.join("truth.csv"))
     }
 
+    /// Opens estimate.csv for the beliefs to come.
+    ///
+    /// # Errors
+    /// When the file cannot be created; the message names it.
+    pub fn estimate(&self) -> Result<EstimateWriter<BufWriter<File>>> {
+        EstimateWriter::create(&self.0.join("estimate.csv"))
+    }
+
     /// Writes summary.json.
     ///
     /// # Errors
@@ -93,6 +109,14 @@ impl OutFolder {
     /// When a file cannot be written; the message names it.
     pub fn figures(&self, figures: &Figures) -> Result<Vec<PathBuf>> {
         figures.draw(&self.0)
+    }
+
+    /// Draws what a vehicle believed beside what was true.
+    ///
+    /// # Errors
+    /// When a file cannot be written; the message names it.
+    pub fn beliefs(&self, beliefs: &[Belief]) -> Result<Vec<PathBuf>> {
+        plots::estimate::draw(&self.0, beliefs)
     }
 }
 

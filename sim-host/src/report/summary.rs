@@ -8,6 +8,7 @@ use anyhow::{Context, Result};
 use serde::Serialize;
 
 use super::metrics::{Axes, AxisFigures, ControlEffort, Metrics, Recovery, TiltFigures};
+use super::sensed::Sensed;
 
 /// What the loop knows about a flight and its rows do not tell.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +69,9 @@ pub struct Summary {
     pub attitude_error: TiltFigures,
     /// Recovery from the disturbance; null without one.
     pub recovery_s: Option<Recovery>,
+    /// Of a flight on sensors, its keys stand among the others; of one on ideal state there are none.
+    #[serde(flatten)]
+    pub sensed: Option<Sensed>,
     /// Whether the paper's claims belong beside these figures.
     #[serde(skip)]
     pub papers_helix: bool,
@@ -93,8 +97,15 @@ impl Summary {
             control_effort: metrics.control_effort(),
             attitude_error: metrics.tilt(),
             papers_helix: flight.papers_helix,
+            sensed: None,
             recovery_s: recovery.map(|r| if survived { r } else { Recovery::default() }),
         }
+    }
+
+    /// With what a flight on sensors tells besides.
+    #[must_use]
+    pub fn with_sensed(self, sensed: Option<Sensed>) -> Self {
+        Self { sensed, ..self }
     }
 
     /// The object on one line, as `--json` prints it.
@@ -208,6 +219,18 @@ pub(super) mod tests {
         assert!(["x", "y", "z", "yaw"].iter().all(|axis| keys(&json["axes"][axis]) == figures));
         let effort = BTreeSet::from(["thrust_rms_n", "roll_rms_n_m", "pitch_rms_n_m", "yaw_rms_n_m"]);
         assert_eq!(keys(&json["control_effort"]), effort);
+    }
+
+    #[test]
+    fn a_flight_on_sensors_has_three_keys_more() {
+        let ideal = Summary::new(flight(true), &metrics());
+        let sensed = Summary { sensed: Some(Sensed::default()), ..ideal.clone() };
+        let (ideal, sensed) = (parse(&ideal.to_json()), parse(&sensed.to_json()));
+        let more: BTreeSet<_> = keys(&sensed).difference(&keys(&ideal)).copied().collect();
+        assert_eq!(more, BTreeSet::from(["estimate", "touchdown", "disarmed_s"]));
+        let known = BTreeSet::from(["tilt_rms_rad", "heading_rms_rad", "position_rms_m", "velocity_rms_m_s"]);
+        assert_eq!(keys(&sensed["estimate"]), known);
+        assert_eq!(sensed["touchdown"], Value::Null);
     }
 
     #[test]

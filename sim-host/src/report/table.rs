@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use super::metrics::{AxisFigures, Recovery};
+use super::sensed::{Knowledge, Sensed};
 use super::summary::Summary;
+use super::touchdown::Contact;
 
 /// A time the paper claims, s, and where it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +33,7 @@ pub fn render(summary: &Summary) -> String {
     text.push_str(&axes_table(summary));
     text.push_str(&bound(summary));
     text.push_str(&summary.recovery_s.as_ref().map(recovery).unwrap_or_default());
+    text.push_str(&summary.sensed.as_ref().map(sensed).unwrap_or_default());
     text.push_str(&figures(summary));
     text
 }
@@ -101,6 +104,26 @@ fn recovery(recovery: &Recovery) -> String {
         each.join(", "),
         DISTURBANCE_REMOVED.time_s
     )
+}
+
+/// What a flight on sensors knew, and how it ended.
+fn sensed(sensed: &Sensed) -> String {
+    let degrees = |value: Option<f64>| value.map_or_else(undefined, |v| format!("{:.2}°", v.to_degrees()));
+    let Knowledge { tilt_rms_rad, heading_rms_rad, position_rms_m, velocity_rms_m_s } = sensed.estimate;
+    let known = format!(
+        "knowledge           off by {} tilt, {} heading, {}, {}/s RMS while armed\n",
+        degrees(tilt_rms_rad),
+        degrees(heading_rms_rad),
+        error(position_rms_m, "m"),
+        error(velocity_rms_m_s, "m"),
+    );
+    let landed = |contact: Contact| format!("at {:.3} s with {:.2} m/s", contact.t_s, contact.descent_m_s);
+    let touchdown = sensed.touchdown.map_or_else(|| "none".into(), landed);
+    known + &format!("touchdown           {touchdown}; {}\n", disarmed(sensed.disarmed_s))
+}
+
+fn disarmed(time: Option<f64>) -> String {
+    time.map_or_else(|| "not disarmed".into(), |t| format!("disarmed at {t:.3} s"))
 }
 
 fn figures(summary: &Summary) -> String {
@@ -206,6 +229,23 @@ truth SHA-256       abababababababababababababababababababababababababababababab
     fn a_flight_without_figures_still_has_a_table() {
         let text = render(&Summary::new(flight(false), &Metrics::new()));
         assert!(text.contains("DID NOT SURVIVE") && text.contains("never") && !text.contains("NaN"), "{text}");
+    }
+
+    #[test]
+    fn a_flight_on_sensors_tells_what_it_knew_and_how_it_ended() {
+        let estimate = Knowledge {
+            tilt_rms_rad: Some(0.005),
+            heading_rms_rad: Some(0.02),
+            position_rms_m: Some(1.25),
+            velocity_rms_m_s: Some(0.05),
+        };
+        let touchdown = Some(Contact { t_s: 71.5, descent_m_s: 0.4, drift_m_s: 0.1 });
+        let sensed = Sensed { estimate, touchdown, disarmed_s: Some(73.0) };
+        let text = render(&Summary::new(flight(true), &metrics()).with_sensed(Some(sensed)));
+        assert!(text.contains("off by 0.29° tilt, 1.15° heading, 1.25 m, 50.000 mm/s RMS while armed"), "{text}");
+        assert!(text.contains("at 71.500 s with 0.40 m/s; disarmed at 73.000 s"), "{text}");
+        let text = render(&Summary::new(flight(true), &metrics()).with_sensed(Some(Sensed::default())));
+        assert!(text.contains("none; not disarmed"), "{text}");
     }
 
     #[test]

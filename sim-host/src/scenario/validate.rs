@@ -55,6 +55,10 @@ impl Scenario {
             );
             attitude(wave)?;
         }
+        f.home.validate()?;
+        if let Some(assess) = &f.assess {
+            assess.validate()?;
+        }
         self.controller.validate()?;
         if f.plant == PlantKind::PaperDecoupled {
             self.controller.require_smc("the plant `paper-decoupled`")?;

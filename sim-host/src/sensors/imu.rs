@@ -162,6 +162,11 @@ impl Axes {
         self.walk += self.biases.normal_vector() * self.walk_kick;
     }
 
+    /// What is read beyond a true value, but for noise and rounding.
+    fn error(&self, value: &Vector3<f64>) -> Vector3<f64> {
+        self.gain * value + self.bias - value
+    }
+
     /// What is read of a true value.
     fn read(&mut self, value: &Vector3<f64>) -> Vector3<f64> {
         let noise = self.sigma.component_mul(&self.noise.normal_vector());
@@ -189,6 +194,12 @@ impl InertialUnit {
             warm_up: part.warm_up,
             shaking: Shaking::new(&part.vibration, seed),
         }
+    }
+
+    /// What is read beyond rates (rad/s) and a specific force (m/s²), but for noise, rounding and shaking.
+    pub(super) fn error(&self, rates: &Vector3<f64>, force: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        let gyro_deg_s = self.gyro.error(&rates.map(f64::to_degrees));
+        (gyro_deg_s.map(f64::to_radians), self.accel.error(force))
     }
 
     fn step_biases(&mut self, tick: Tick) {

@@ -23,13 +23,13 @@ pub mod suite;
 mod told;
 pub mod vibration;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use firmware::airframe::ROTORS;
 use firmware::sensors::Measurements;
 use firmware::signals::Tick;
 use nalgebra::{UnitQuaternion, Vector3};
 
-pub use faults::{Fault, FaultId, Faults};
+pub use faults::{Fault, FaultId, Faults, PlantFaults};
 pub use home::Home;
 pub use process::WarmUp;
 pub use suite::SuiteFile;
@@ -38,7 +38,7 @@ use crate::plant::Motion;
 use baro::Barometer;
 use battery::Monitor;
 use channel::Channel;
-use faults::Sample;
+use faults::{Sample, Sensor};
 use gnss::Receiver;
 use imu::InertialUnit;
 use mag::Magnetometer;
@@ -123,6 +123,10 @@ pub struct Suite {
     pose: Option<Fitted<MotionCapture>>,
     battery: Option<Fitted<Monitor>>,
     faults: Faults,
+    /// Whether faults were started or ended while flying: then rotors and battery go by them, and by no schedule.
+    commanded: bool,
+    /// What the plant was told last.
+    told: Option<PlantFaults>,
 }
 
 impl Suite {
@@ -136,6 +140,8 @@ impl Suite {
             pose: parts.pose.as_ref().map(|part| Fitted::new(MotionCapture::new(part, seed))),
             battery: parts.battery.as_ref().map(|part| Fitted::new(Monitor::new(part, seed))),
             faults: Faults::new(faults, seed),
+            commanded: false,
+            told: None,
         }
     }
 
@@ -152,6 +158,12 @@ impl Suite {
         }
     }
 
+    /// What gyro (rad/s) and accelerometer (m/s²) read beyond what they are to measure, all but noise and rotors' shaking,
+    /// with the biases of the last sample: for tests of what is believed of them.
+    pub fn imu_error(&self, rates: &Vector3<f64>, force: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        self.imu.model.error(rates, force)
+    }
+
     /// The faults, those of rotors and battery too.
     pub fn faults(&self) -> &Faults {
         &self.faults
@@ -160,19 +172,54 @@ impl Suite {
     /// Adds a fault while flying.
     ///
     /// # Errors
-    /// A fault that cannot be, or one too many.
+    /// A fault that cannot be, of a sensor that is not on board, or one too many.
     pub fn inject(&mut self, fault: &Fault) -> Result<FaultId> {
-        self.faults.inject(fault)
+        if let Some(sensor) = fault.sensor {
+            ensure!(self.has(sensor), "there is no `{}` on board", sensor.name());
+        }
+        let id = self.faults.inject(fault)?;
+        self.commanded = true;
+        Ok(id)
+    }
+
+    /// Puts a valid fault, or none, in place of the one in a slot.
+    pub fn hold(&mut self, slot: usize, fault: Option<&Fault>) {
+        self.commanded = true;
+        self.faults.hold(slot, fault);
     }
 
     /// Ends a fault.
     pub fn clear(&mut self, id: FaultId) {
+        self.commanded = true;
         self.faults.clear(id);
     }
 
     /// Ends all faults, those to come too.
     pub fn clear_all(&mut self) {
+        self.commanded = true;
         self.faults.clear_all();
+    }
+
+    /// Whether a sensor is on board.
+    pub fn has(&self, sensor: Sensor) -> bool {
+        match sensor {
+            Sensor::Imu | Sensor::Gyro | Sensor::Accel => true,
+            Sensor::Mag => self.mag.is_some(),
+            Sensor::Baro => self.baro.is_some(),
+            Sensor::Gnss => self.gnss.is_some(),
+            Sensor::Pose => self.pose.is_some(),
+            Sensor::Battery => self.battery.is_some(),
+        }
+    }
+
+    /// What rotors and battery are to be told at a tick, if it is something new. Nothing until faults have been started or
+    /// ended while flying: the plant has the schedule.
+    pub fn tell_plant(&mut self, tick: Tick) -> Option<PlantFaults> {
+        if !self.commanded {
+            return None;
+        }
+        let now = self.faults.of_plant(tick);
+        (self.told.replace(now) != Some(now)).then_some(now)
     }
 }
 

@@ -56,7 +56,7 @@ impl Navigation {
             counts: NavigationCounts::default(),
             predictor: Predictor::new(start.position, airframe.gravity_m_s2),
             gyro: GyroFilter::new(),
-            filter: Filter::new(&settings, airframe.gravity_m_s2, drag / airframe.mass_kg),
+            filter: Filter::new(&settings, airframe.gravity_m_s2, drag / airframe.mass_kg, config.start_position()),
             covariance: Covariance::diagonal(&ErrorState::repeat(0.01)),
             readings: Readings::default(),
             found: None,
@@ -93,6 +93,7 @@ impl Navigation {
             force: *self.predictor.specific_force(),
             span: self.predictor.take_span(),
             injected: core::mem::take(&mut self.injected),
+            landed: at_rest,
             at_rest,
             readings: core::mem::take(&mut self.readings),
         };

@@ -27,13 +27,14 @@ fn any_request() -> impl Strategy<Value = Request> {
 
 /// Inputs that hold for some jobs, in the air or near the ground.
 fn any_input() -> impl Strategy<Value = (CommanderInput, u16)> {
-    let health = prop::collection::vec(prop::bool::weighted(0.85), 5);
+    let health = prop::collection::vec(prop::bool::weighted(0.85), 6);
     let motion = ([-5.0..5.0_f32, -5.0..5.0_f32, -0.2..20.0_f32], prop_oneof![Just(0.0), -3.0..3.0_f32]);
     let rest = (0.0..1.3_f32, 12.0..16.0_f32, prop::bool::weighted(0.95), prop::option::weighted(0.02, 0..4_u8));
     (health, motion, rest, prop::option::weighted(0.7, any_request()), 1..120_u16).prop_map(
         |(h, (position, vz), (thrust, volt, nav_fresh, failed_rotor), request, jobs)| {
             let mut input = standing();
-            input.health = NavHealth { attitude: h[0], heading: h[1], velocity: h[2], position: h[3], height: h[4] };
+            input.health =
+                NavHealth { attitude: h[0], heading: h[1], velocity: h[2], position: h[3], height: h[4], climb: h[5] };
             input.nav.position = position.into();
             input.nav.velocity.z = vz;
             input.thrust_n = thrust * FlightConfig::default().airframe.weight_n();

@@ -7,6 +7,7 @@
 pub mod analysis;
 pub mod comparison;
 mod convergence;
+pub mod estimate;
 mod helix;
 mod panel;
 mod series;

@@ -34,6 +34,8 @@ pub(super) mod palette {
     pub(in super::super) const START: RGBColor = RGBColor(213, 94, 0);
     /// While a disturbance acts.
     pub(in super::super) const DISTURBED: RGBColor = RGBColor(222, 226, 230);
+    /// What is believed to hold 95 %.
+    pub(in super::super) const BAND: RGBColor = RGBColor(205, 225, 240);
     /// Things of a kind that stand side by side.
     pub(in super::super) const SERIES: [RGBColor; 6] = [
         RGBColor(0, 114, 178),
@@ -55,6 +57,7 @@ pub(super) enum Role {
     Reference,
     Flown,
     Level,
+    Limit,
 }
 
 impl Role {
@@ -63,6 +66,7 @@ impl Role {
             Self::Reference => (palette::REFERENCE, 4 * FINE),
             Self::Flown => (palette::FLOWN, FINE + 1),
             Self::Level => (palette::LEVEL, FINE),
+            Self::Limit => (palette::START, 2 * FINE),
         };
         color.stroke_width(width)
     }
@@ -120,6 +124,10 @@ pub(super) struct Panel {
     pub(super) mark: Option<(f64, f64)>,
     /// What is across is given as its decimal logarithm.
     pub(super) decades: bool,
+    /// A band around a line: its lower and its upper edge.
+    pub(super) band: Option<(Points, Points)>,
+    /// What is up is given as its decimal logarithm, within these.
+    pub(super) decades_up: Option<(f64, f64)>,
 }
 
 impl Panel {
@@ -127,7 +135,8 @@ impl Panel {
     pub(super) fn over_time(title: &str, up: &str, lines: Vec<(Role, Points)>) -> Self {
         let (title, across, up) = (title.into(), "t, s".into(), up.into());
         let (mark_start, shaded, equal_scales, decades) = (false, None, false, false);
-        Self { title, across, up, lines, mark_start, shaded, equal_scales, dots: vec![], mark: None, decades }
+        let (dots, mark, band, decades_up) = (vec![], None, None, None);
+        Self { title, across, up, lines, mark_start, shaded, equal_scales, dots, mark, decades, band, decades_up }
     }
 
     /// A path in a plane, its start marked.
@@ -146,6 +155,7 @@ impl Panel {
             .y_label_area_size(px(LABELS_LEFT))
             .build_cartesian_2d(across.0..across.1, up.0..up.1)?;
         self.draw_shade(&mut chart, across, up)?;
+        self.draw_band(&mut chart)?;
         self.draw_mesh(&mut chart, across, up)?;
         for (role, points) in &self.lines {
             chart.draw_series(LineSeries::new(points.iter().copied(), role.style()))?;
@@ -155,7 +165,9 @@ impl Panel {
     }
 
     fn draw_dots(&self, chart: &mut Chart) -> Result<()> {
-        chart.draw_series(self.dots.iter().map(|place| Circle::new(*place, px(4), palette::START.filled())))?;
+        let (size, color) =
+            if self.decades_up.is_some() { (px(1) + 1, palette::FLOWN) } else { (px(4), palette::START) };
+        chart.draw_series(self.dots.iter().map(|place| Circle::new(*place, size, color.filled())))?;
         chart.draw_series(
             self.mark.iter().map(|place| Cross::new(*place, px(5), palette::INK.stroke_width(FINE + 1))),
         )?;
@@ -163,9 +175,11 @@ impl Panel {
     }
 
     fn ranges(&self, area: &Area) -> ((f64, f64), (f64, f64)) {
-        let points = || self.lines.iter().flat_map(|(_, points)| points).chain(&self.dots).chain(&self.mark);
+        let edges = || self.band.iter().flat_map(|(lower, upper)| lower.iter().chain(upper));
+        let points =
+            || self.lines.iter().flat_map(|(_, points)| points).chain(&self.dots).chain(&self.mark).chain(edges());
         let across = extent(points().map(|p| p.0));
-        let up = padded(extent(points().map(|p| p.1)), 0.06);
+        let up = self.decades_up.unwrap_or_else(|| padded(extent(points().map(|p| p.1)), 0.06));
         if self.equal_scales {
             let (width, height) = area.dim_in_pixel();
             let inner = (width.saturating_sub(px(LABELS_LEFT + 26)), height.saturating_sub(px(LABELS_BELOW + 40)));
@@ -183,6 +197,14 @@ impl Panel {
         Ok(())
     }
 
+    fn draw_band(&self, chart: &mut Chart) -> Result<()> {
+        if let Some((lower, upper)) = &self.band {
+            let outline: Points = lower.iter().chain(upper.iter().rev()).copied().collect();
+            chart.draw_series([Polygon::new(outline, palette::BAND.filled())])?;
+        }
+        Ok(())
+    }
+
     fn draw_mesh(&self, chart: &mut Chart, across: (f64, f64), up: (f64, f64)) -> Result<()> {
         chart
             .configure_mesh()
@@ -192,7 +214,7 @@ impl Panel {
             .x_labels(7)
             .y_labels(6)
             .x_label_formatter(&|v| if self.decades { decade(*v) } else { tick(*v, across.1 - across.0) })
-            .y_label_formatter(&|v| tick(*v, up.1 - up.0))
+            .y_label_formatter(&|v| if self.decades_up.is_some() { decade(*v) } else { tick(*v, up.1 - up.0) })
             .label_style(text(12))
             .axis_desc_style(text(13))
             .x_desc(&self.across)

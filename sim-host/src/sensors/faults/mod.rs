@@ -28,6 +28,8 @@ pub(super) use running::{Memory, Sample};
 
 /// Faults that may be started while flying, in addition to those of the schedule.
 const SPARE: usize = 32;
+/// Faults that replace each other, for those that a ground station asks for: room for each is always there.
+pub(crate) const SLOTS: usize = 10;
 /// Longest time by which a fault delays samples, s.
 pub(super) const EXTRA_MAX_S: f64 = 1.0;
 /// Greatest time, s: 11 days.
@@ -186,7 +188,7 @@ impl Sensor {
     }
 
     /// As it is written in files.
-    fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Imu => "imu",
             Self::Gyro => "gyro",
@@ -284,12 +286,25 @@ pub struct Faults {
     /// Number of the next one, and of its stream.
     next: u32,
     all: Vec<Running>,
+    /// Most of those that are in no slot.
+    most: usize,
+    slots: [Option<FaultId>; SLOTS],
+}
+
+/// What faults make of rotors and battery: 1 for what is sound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlantFaults {
+    /// What is left of each rotor's thrust.
+    pub rotor_effectiveness: [f64; ROTORS],
+    /// What is left of the battery's voltage.
+    pub battery_factor: f64,
 }
 
 impl Faults {
     /// A schedule under a seed. A fault's stream goes by its place in the schedule.
     pub fn new(schedule: &[Fault], seed: u64) -> Self {
-        let mut faults = Self { seed, next: 0, all: Vec::with_capacity(schedule.len() + SPARE) };
+        let most = schedule.len() + SPARE;
+        let mut faults = Self { seed, next: 0, all: Vec::with_capacity(most + SLOTS), most, slots: [None; SLOTS] };
         for fault in schedule {
             faults.start(fault);
         }
@@ -309,8 +324,31 @@ impl Faults {
     /// A fault that cannot be, or one too many.
     pub fn inject(&mut self, fault: &Fault) -> Result<FaultId> {
         fault.validate()?;
-        ensure!(self.all.len() < self.all.capacity(), "there are {} faults already: clear some", self.all.len());
+        let in_slots = self.slots.iter().flatten().count();
+        let count = self.all.len() - in_slots;
+        ensure!(count < self.most, "there are {count} faults already: clear some");
         Ok(self.start(fault))
+    }
+
+    /// Ends the fault in a slot, and puts a valid one in its place, if there is one. Does not allocate, and cannot fail.
+    pub fn hold(&mut self, slot: usize, fault: Option<&Fault>) {
+        if let Some(id) = self.slots.get_mut(slot).and_then(Option::take) {
+            self.clear(id);
+        }
+        let started = fault.map(|fault| self.start(fault));
+        if let Some(place) = self.slots.get_mut(slot) {
+            *place = started;
+        }
+    }
+
+    /// The faults that act now or will, in the order in which they were started.
+    pub fn list(&self, tick: Tick) -> impl Iterator<Item = Fault> + '_ {
+        self.all.iter().filter(move |fault| !fault.is_over(tick)).map(Running::fault)
+    }
+
+    /// What they make of rotors and battery at a tick.
+    pub fn of_plant(&self, tick: Tick) -> PlantFaults {
+        PlantFaults { rotor_effectiveness: self.rotor_effectiveness(tick), battery_factor: self.battery_factor(tick) }
     }
 
     /// Ends a fault, or takes it back before it has begun.
@@ -320,6 +358,7 @@ impl Faults {
 
     /// Ends all faults, those to come too.
     pub fn clear_all(&mut self) {
+        self.slots = [None; SLOTS];
         self.all.clear();
     }
 

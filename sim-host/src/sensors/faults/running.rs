@@ -270,6 +270,16 @@ impl Running {
         self.ticks.contains(&tick)
     }
 
+    pub(super) fn is_over(&self, tick: Tick) -> bool {
+        tick >= self.ticks.end
+    }
+
+    /// As it was asked for.
+    pub(super) fn fault(&self) -> Fault {
+        let to_s = (self.ticks.end != Tick::MAX).then(|| seconds(self.ticks.end));
+        Fault { sensor: self.sensor, kind: self.kind, from_s: seconds(self.ticks.start), to_s }
+    }
+
     /// Keeps a sample's value at the one before, if that is the fault.
     pub(super) fn hold<T: Sample>(&self, sample: &mut T, memory: &Memory<T>) {
         if let (Kind::Stuck {}, Some(sensor), Some(last)) = (self.kind, self.sensor, &memory.last) {

@@ -107,7 +107,7 @@ fn what_is_delayed_arrives_later_and_what_it_holds_up_is_lost() {
 #[test]
 fn not_a_number_is_none() {
     let faulted = with("sensor = \"imu\"\nkind = \"nan\"\nfrom_s = 1.0\nto_s = 2.0");
-    assert!(faulted[1000..2000].iter().all(|m| m.imu.is_some_and(|imu| !imu.is_finite())));
+    assert!(faulted[1000..2000].iter().all(|m| m.imu.is_some_and(|imu| !imu.is_plausible())));
     let faulted = with("sensor = \"accel\"\nkind = \"nan\"\nfrom_s = 1.0\nto_s = 2.0");
     let imu = faulted[1500].imu.expect("there");
     assert!(imu.gyro.iter().all(|rate| rate.is_finite()) && imu.accel.iter().all(|force| force.is_nan()));
@@ -116,7 +116,7 @@ fn not_a_number_is_none() {
         let spoilt = last.iter().any(|m| {
             m.mag.is_some_and(|mag| mag.field_ut.x.is_nan())
                 || m.baro.is_some_and(|baro| baro.pressure_pa.is_nan())
-                || m.gnss.is_some_and(|gnss| !gnss.is_finite())
+                || m.gnss.is_some_and(|gnss| !gnss.is_usable())
                 || m.pose.is_some_and(|pose| !pose.is_valid())
                 || m.battery.is_some_and(|battery| battery.voltage_v.is_nan())
         });

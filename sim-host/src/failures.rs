@@ -1,0 +1,281 @@
+//! Failures on command, while flying: from a ground station, as PX4 and MAVSDK name them, and in lines of text, with the
+//! keys of a scenario's `[[fault]]`.
+//!
+//! ```text
+//! fault sensor=gnss kind=off                 from now on, or from_s=…
+//! fault kind=rotor index=0 effectiveness=0.5
+//! clear                                      ends all
+//! faults                                     lists those that act, and those to come
+//! ```
+
+use anyhow::{Context, Result, anyhow, bail};
+use firmware::airframe::ROTORS;
+use firmware::failure::{Failure, Injectable, Manner, Unit};
+use firmware::signals::{TICK_S_EXACT, Tick};
+use toml::{Table, Value};
+
+use crate::sensors::faults::{Kind, SLOTS, Sensor};
+use crate::sensors::{Fault, Suite};
+
+/// What a line asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// A fault.
+    Fault(Fault),
+    /// The end of all faults.
+    Clear,
+    /// What there is.
+    List,
+}
+
+/// Reads a line at a tick; an empty one asks for nothing.
+///
+/// # Errors
+/// In one line, what is wrong with it.
+pub fn parse(line: &str, now: Tick) -> Result<Option<Order>> {
+    let mut words = line.split_whitespace();
+    let order = match words.next() {
+        None => return Ok(None),
+        Some("fault") => {
+            let mut table: Table = words.by_ref().map(key_and_value).collect::<Result<_>>()?;
+            table.entry("from_s").or_insert(Value::Float(f64::from(now) * TICK_S_EXACT));
+            Order::Fault(Fault::try_from(table).map_err(|error| anyhow!("{error}"))?)
+        }
+        Some("clear") => Order::Clear,
+        Some("faults") => Order::List,
+        Some(other) => bail!("`{other}` is not known here: use `fault KEY=VALUE …`, `clear` or `faults`"),
+    };
+    match words.next() {
+        None => Ok(Some(order)),
+        Some(rest) => bail!("`{rest}` is too much in `{}`", line.trim()),
+    }
+}
+
+fn key_and_value(word: &str) -> Result<(String, Value)> {
+    let (key, text) = word.split_once('=').with_context(|| format!("`{word}`: use KEY=VALUE"))?;
+    Ok((key.to_owned(), crate::scenario::value(text)))
+}
+
+/// A fault as a line would ask for it.
+pub fn describe(fault: &Fault) -> String {
+    let words = |table: Table| table.into_iter().map(|(key, value)| format!("{key}={}", plain(&value))).collect();
+    let words: Vec<String> = Table::try_from(fault).map_or_else(|_| Vec::new(), words);
+    format!("fault {}", words.join(" "))
+}
+
+/// A value without quotes and spaces.
+fn plain(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string().replace(' ', ""), str::to_owned)
+}
+
+/// Which failures a ground station may ask for: those of the sensors on board, of the rotors, and of the battery.
+/// Without sensors, none.
+pub fn injectable(sensors: Option<&Suite>, has_battery: bool) -> Injectable {
+    use Manner::{Delayed, Garbage, Intermittent, Off, Slow, Stuck, Wrong};
+    let Some(suite) = sensors else { return Injectable::NONE };
+    let readings = [Off, Stuck, Garbage, Delayed, Intermittent];
+    let mut injectable = Injectable::NONE
+        .with(Unit::Gyro, 1, &[Stuck, Garbage])
+        .with(Unit::Accel, 1, &[Stuck, Garbage])
+        .with(Unit::Motor, ROTORS as u8, &[Off, Slow]);
+    for (sensor, unit) in [(Sensor::Mag, Unit::Mag), (Sensor::Baro, Unit::Baro)] {
+        if suite.has(sensor) {
+            injectable = injectable.with(unit, 1, &readings);
+        }
+    }
+    if suite.has(Sensor::Gnss) {
+        injectable = injectable.with(Unit::Gnss, 1, &[Off, Stuck, Garbage, Wrong, Delayed, Intermittent]);
+    }
+    if has_battery {
+        injectable = injectable.with(Unit::Battery, 1, &[Off]);
+    }
+    injectable
+}
+
+/// What a failure does: in which slots, and with which fault in each; none makes well. One that is not
+/// [`injectable`] does nothing.
+pub fn of(failure: &Failure, now: Tick) -> impl Iterator<Item = (usize, Option<Fault>)> + use<> {
+    let Failure { unit, manner, instance } = *failure;
+    let instances = match (unit, instance) {
+        (Unit::Motor, None) => 0..ROTORS,
+        (Unit::Motor, Some(motor)) => usize::from(motor)..usize::from(motor) + 1,
+        _ => 0..1,
+    };
+    // The motors' slots are the last.
+    let slots = instances.map(move |instance| (unit as usize + instance, instance));
+    slots.filter(|(slot, _)| *slot < SLOTS).filter_map(move |(slot, instance)| {
+        let fault = match manner {
+            Manner::Well => None,
+            _ => Some(Fault::starting(sensor(unit), kind(unit, manner, instance)?, now)),
+        };
+        Some((slot, fault))
+    })
+}
+
+/// The sensor that fails; none for rotors and battery, which are no sensors.
+fn sensor(unit: Unit) -> Option<Sensor> {
+    match unit {
+        Unit::Gyro => Some(Sensor::Gyro),
+        Unit::Accel => Some(Sensor::Accel),
+        Unit::Mag => Some(Sensor::Mag),
+        Unit::Baro => Some(Sensor::Baro),
+        Unit::Gnss => Some(Sensor::Gnss),
+        Unit::Battery | Unit::Motor => None,
+    }
+}
+
+/// How it fails. MAVLink gives no numbers: these are far beyond what a sound part does.
+fn kind(unit: Unit, manner: Manner, instance: usize) -> Option<Kind> {
+    /// What is left of an empty battery's voltage, and of a slow rotor's thrust.
+    const EMPTY: f64 = 0.85;
+    const SLOW: f64 = 0.7;
+    Some(match (unit, manner) {
+        (Unit::Motor, Manner::Off) => Kind::Rotor { index: instance, effectiveness: 0.0 },
+        (Unit::Motor, Manner::Slow) => Kind::Rotor { index: instance, effectiveness: SLOW },
+        (Unit::Battery, Manner::Off) => Kind::Collapse { factor: EMPTY },
+        (Unit::Motor | Unit::Battery, _) => return None,
+        (_, Manner::Stuck) => Kind::Stuck {},
+        (_, Manner::Garbage) => Kind::Noise { sigma: garbage(unit) },
+        (Unit::Gyro | Unit::Accel, _) => return None,
+        (_, Manner::Off) => Kind::Off {},
+        (_, Manner::Delayed) => Kind::Delayed { extra_s: 0.5 },
+        (_, Manner::Intermittent) => Kind::Loss { probability: 0.7 },
+        (Unit::Gnss, Manner::Wrong) => Kind::Glitch { size_m: 50.0, direction: None },
+        (_, Manner::Wrong | Manner::Slow | Manner::Well) => return None,
+    })
+}
+
+/// Deviation of what is no measurement any more, in the sensor's unit.
+fn garbage(unit: Unit) -> f64 {
+    match unit {
+        Unit::Gyro => 1.0,
+        Unit::Accel => 10.0,
+        Unit::Mag => 50.0,
+        Unit::Baro => 1e3,
+        _ => 100.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flight;
+    use crate::scenario::Scenario;
+
+    fn fault(line: &str) -> Fault {
+        match parse(line, 1500).expect(line) {
+            Some(Order::Fault(fault)) => fault,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn lines_are_the_faults_of_files_from_now_on() {
+        let rotor = fault("fault kind=rotor index=0 effectiveness=0.5");
+        assert_eq!(rotor.kind, Kind::Rotor { index: 0, effectiveness: 0.5 });
+        assert_eq!((rotor.from_s, rotor.to_s, rotor.sensor), (1.5, None, None));
+        let gnss = fault("  fault sensor=gnss kind=glitch size_m=50 direction=[1,0,0] from_s=20 to_s=30 ");
+        assert_eq!(gnss.kind, Kind::Glitch { size_m: 50.0, direction: Some([1.0, 0.0, 0.0]) });
+        assert_eq!((gnss.from_s, gnss.to_s), (20.0, Some(30.0)));
+        assert_eq!(parse("clear", 0).expect("known"), Some(Order::Clear));
+        assert_eq!(parse(" faults", 0).expect("known"), Some(Order::List));
+        assert_eq!(parse("   ", 0).expect("nothing"), None);
+    }
+
+    #[test]
+    fn what_is_listed_can_be_asked_for() {
+        for line in
+            ["fault sensor=gnss kind=off", "fault kind=collapse factor=0.85", "fault sensor=gnss kind=glitch size_m=5"]
+        {
+            let asked = fault(line);
+            let again = describe(&asked);
+            assert_eq!(fault(&again), asked, "{again}");
+        }
+    }
+
+    #[test]
+    fn bad_lines_are_refused_by_what_is_wrong_with_them() {
+        for (line, culprit) in [
+            ("explode", "explode"),
+            ("fault", "kind"),
+            ("fault sensor=gnss", "kind"),
+            ("fault sensor=gnss off", "off"),
+            ("fault sensor=gps kind=off", "gps"),
+            ("fault sensor=gyro kind=off", "gyro"),
+            ("fault kind=rotor index=9 effectiveness=0.5", "index"),
+            ("fault sensor=gnss kind=off colour=1", "colour"),
+            ("clear gnss", "gnss"),
+        ] {
+            let error = format!("{:#}", parse(line, 0).expect_err(line));
+            assert!(error.contains(culprit) && !error.contains('\n'), "{line}: {error}");
+        }
+    }
+
+    #[test]
+    fn whatever_may_be_asked_for_is_done_and_is_a_valid_fault() {
+        let scenario = Scenario::load("field", &[]).expect("built in");
+        let flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("flies");
+        let injectable = injectable(flight.sensors(), true);
+        let mut slots = Vec::new();
+        for unit in Unit::ALL {
+            for manner in Manner::ALL.into_iter().filter(|manner| injectable.allows(unit, *manner)) {
+                let done: Vec<_> = of(&Failure { unit, manner, instance: None }, 1000).collect();
+                assert_eq!(done.len(), usize::from(injectable.count(unit)), "{unit:?} {manner:?}");
+                for (slot, fault) in done {
+                    assert_eq!(fault.is_none(), manner == Manner::Well, "{unit:?} {manner:?}");
+                    if let Some(fault) = fault {
+                        fault.validate().expect("a fault");
+                    }
+                    slots.push(slot);
+                }
+            }
+        }
+        slots.sort_unstable();
+        slots.dedup();
+        assert_eq!(slots, (0..SLOTS).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_failure_takes_the_place_of_the_one_before_and_can_be_taken_back() {
+        let scenario = Scenario::load("field", &[]).expect("built in");
+        let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("flies");
+        let count = |flight: &crate::sil::Flight<_>| flight.sensors().map(|suite| suite.faults().list(0).count());
+        for (manner, faults) in [(Manner::Off, 1), (Manner::Stuck, 1), (Manner::Well, 0)] {
+            for (slot, fault) in of(&Failure { unit: Unit::Gnss, manner, instance: None }, 0) {
+                flight.hold_fault(slot, fault.as_ref()).expect("on sensors");
+            }
+            assert_eq!(count(&flight), Some(faults), "{manner:?}");
+        }
+    }
+
+    #[test]
+    fn ideal_state_has_nothing_to_fail() {
+        assert!(injectable(None, true).is_none());
+        let scenario = Scenario::load("pad", &[]).expect("built in");
+        let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("flies");
+        let refusal = flight.inject(&fault("fault sensor=gnss kind=off")).expect_err("ideal");
+        assert!(refusal.to_string().contains("sensors"), "{refusal}");
+        let refusal = flight.inject(&fault("fault kind=collapse factor=0.5")).expect_err("no battery");
+        assert!(refusal.to_string().contains("battery"), "{refusal}");
+    }
+
+    #[test]
+    fn rotors_and_battery_go_by_what_is_commanded() {
+        let scenario = Scenario::load("field", &[]).expect("built in");
+        let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("flies");
+        let volts = |flight: &crate::sil::Flight<crate::plant::rigid_body::RigidBody>| {
+            crate::plant::Plant::battery(flight.plant()).map_or(0.0, |battery| battery.voltage_v)
+        };
+        flight.step(&mut ());
+        let (lift, full) = (flight.plant().constants().geometry[(0, 2)], volts(&flight));
+        flight.inject(&fault("fault kind=rotor index=2 effectiveness=0.5 from_s=0")).expect("a fault");
+        flight.inject(&fault("fault kind=collapse factor=0.8 from_s=0")).expect("a fault");
+        flight.step(&mut ());
+        let left = flight.plant().constants().geometry[(0, 2)] / lift;
+        assert!((left - 0.5).abs() < 1e-3 && (volts(&flight) / full - 0.8).abs() < 1e-3, "{left} {}", volts(&flight));
+        flight.clear_faults().expect("on sensors");
+        flight.step(&mut ());
+        let left = flight.plant().constants().geometry[(0, 2)] / lift;
+        assert!((left - 1.0).abs() < 1e-3 && (volts(&flight) / full - 1.0).abs() < 1e-3, "{left} {}", volts(&flight));
+    }
+}

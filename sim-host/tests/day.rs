@@ -1,0 +1,107 @@
+//! A day of hover on GNSS: what the filter believes of the IMU's biases stays as good as it says, its covariance stays one,
+//! and the log of the day is the same twice. Ten minutes of it always; the whole day takes `--ignored`.
+
+#[path = "common/fingerprint.rs"]
+mod fingerprint;
+#[path = "common/load.rs"]
+mod load;
+
+use fingerprint::Fingerprint;
+use firmware::estimator::covariance::{Covariance, STATES, index};
+use load::load;
+use nalgebra::{SMatrix, UnitQuaternion, Vector3};
+use sim_host::flight;
+use sim_host::plant::Plant;
+use sim_host::plant::rigid_body::RigidBody;
+use sim_host::sil::Flight;
+
+const SEED: u64 = 1;
+/// In hover from here on, ticks.
+const HOVERS: u32 = 60_000;
+const MINUTE: u32 = 60_000;
+
+/// A minute's look at the filter.
+struct Look {
+    minute: u32,
+    /// Errors of the biases of gyro and accelerometer, each in its own standard deviations.
+    errors: [f64; 6],
+}
+
+/// Flies that long; returns the fingerprint of the flight and a look a minute.
+fn fly(minutes: u32) -> ([u64; 2], Vec<Look>) {
+    let scenario = load("day", &[]);
+    let plant = flight::rigid_body(&scenario, SEED);
+    let mut flight = flight::lockstep(&scenario, SEED, plant).expect("can be flown");
+    let (mut seen, mut looks) = (Fingerprint::default(), Vec::new());
+    for minute in 1..=minutes {
+        for tick in 0..MINUTE {
+            assert!(flight.step(&mut seen), "lost in minute {minute}, {tick} ms");
+        }
+        assert_positive(flight.autopilot.filter.covariance(), minute);
+        if minute * MINUTE > HOVERS {
+            looks.push(look(&flight, minute));
+        }
+    }
+    (seen.hashes(), looks)
+}
+
+/// Cholesky in f64 of P, each state in its own deviation: no direction of the error is known better than exactly.
+fn assert_positive(covariance: &Covariance, minute: u32) {
+    let sigma = |state: usize| f64::from(covariance.variance(state)).sqrt();
+    let correlation = SMatrix::<f64, STATES, STATES>::from_fn(|i, j| {
+        // Either triangle of a block on the diagonal is as good as the other.
+        f64::from(0.5 * (covariance.get(i, j) + covariance.get(j, i))) / (sigma(i) * sigma(j))
+    });
+    let finite = correlation.iter().all(|value| value.is_finite());
+    assert!(finite && correlation.cholesky().is_some(), "minute {minute}: {:?}", correlation.symmetric_eigenvalues());
+}
+
+fn look(flight: &Flight<RigidBody>, minute: u32) -> Look {
+    let believed = flight.autopilot.inner.nominal().expect("flies on sensors");
+    let attitude = UnitQuaternion::new_normalize(flight.plant().motion().attitude);
+    // In hover the force is that of the weight, and what scales and axes make of it is a bias like any other.
+    let force = attitude.inverse() * Vector3::new(0.0, 0.0, 9.81);
+    let (gyro, accel) = flight.sensors().expect("flies on sensors").imu_error(&Vector3::zeros(), &force);
+    let covariance = flight.autopilot.filter.covariance();
+    let (gyro, accel) = (gyro - believed.gyro_bias.cast::<f64>(), accel - believed.accel_bias.cast::<f64>());
+    let sigma = |state: usize| f64::from(covariance.variance(state)).sqrt();
+    let errors = core::array::from_fn(|i| match i {
+        0..3 => gyro[i] / sigma(index::GYRO_BIAS + i),
+        _ => accel[i - 3] / sigma(index::ACCEL_BIAS + i - 3),
+    });
+    Look { minute, errors }
+}
+
+/// Biases within 3 σ: of 1440 looks at Gaussian numbers chance puts four beyond it, and none beyond 4.5.
+fn assert_biases_are_known(looks: &[Look]) {
+    for axis in 0..6 {
+        let beyond: Vec<(u32, f64)> = looks
+            .iter()
+            .filter(|look| look.errors[axis].abs() > 3.0)
+            .map(|look| (look.minute, look.errors[axis]))
+            .collect();
+        assert!(beyond.is_empty(), "axis {axis}: {beyond:?}");
+    }
+}
+
+fn assert_flies_the_same_twice(minutes: u32) {
+    let again = std::thread::spawn(move || fly(minutes));
+    let (hashes, looks) = fly(minutes);
+    assert_biases_are_known(&looks);
+    assert_eq!(hashes, again.join().expect("flies").0, "the same day, another log");
+    let mean =
+        |axis: usize| (looks.iter().map(|look| look.errors[axis].powi(2)).sum::<f64>() / looks.len() as f64).sqrt();
+    let rms: [f64; 6] = core::array::from_fn(mean);
+    println!("{minutes} min: biases' rms errors in their own deviations: {rms:.2?}");
+}
+
+#[test]
+fn ten_minutes_of_hover() {
+    assert_flies_the_same_twice(10);
+}
+
+#[test]
+#[ignore = "takes minutes: tests/run --full"]
+fn a_day_of_hover() {
+    assert_flies_the_same_twice(24 * 60);
+}
