@@ -92,7 +92,7 @@ impl Navigator {
     /// The battery as last measured, unless that is too long ago to say anything.
     pub fn battery(&self) -> Option<BatterySample> {
         /// Ticks.
-        const SILENT_AFTER: u32 = 1_000;
+        const SILENT_AFTER: u16 = 1_000;
         self.battery.filter(|_| self.battery_age < SILENT_AFTER)
     }
 

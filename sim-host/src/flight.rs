@@ -105,7 +105,8 @@ pub fn assess(scenario: &Scenario, assess: &Assess, seed: u64) -> Result<Measure
     };
     let places: Vec<_> = file.command.iter().filter_map(place).collect();
     let start = Vector3::from(file.start_position_m);
-    let mut assessor = Assessor::new(assess, file.duration_s, &start, &places);
+    let ground = rigid_body(scenario, seed).ground().cloned();
+    let mut assessor = Assessor::new(assess, file.duration_s, &start, ground, &places);
     let outcome = fly(scenario, seed, &mut assessor)?;
     Ok(assessor.finish(outcome.survived))
 }

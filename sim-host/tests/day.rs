@@ -57,7 +57,7 @@ fn assert_positive(covariance: &Covariance, minute: u32) {
 }
 
 fn look(flight: &Flight<RigidBody>, minute: u32) -> Look {
-    let believed = flight.autopilot.inner.nominal().expect("flies on sensors");
+    let believed = flight.autopilot.inner.navigator().expect("flies on sensors").state();
     let attitude = UnitQuaternion::new_normalize(flight.plant().motion().attitude);
     // In hover the force is that of the weight, and what scales and axes make of it is a bias like any other.
     let force = attitude.inverse() * Vector3::new(0.0, 0.0, 9.81);

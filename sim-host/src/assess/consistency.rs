@@ -83,10 +83,13 @@ pub fn quantile(degrees: u32) -> f64 {
 impl Consistency {
     /// One tick's readings, and now and then the error: `attitude` is that of the attitude in the world, rad.
     pub fn take(&mut self, navigation: &Navigation, attitude: &Vector3<f64>) {
-        if navigation.t >= self.next_look_s {
+        // The covariance is that of the filter's last job; what it has found is in the motion when it comes into effect.
+        let in_effect = navigation.filtered_at == Some((navigation.t * 1e3).round() as u32);
+        if navigation.t >= self.next_look_s && in_effect {
             self.next_look_s = navigation.t + LOOK_EVERY_S;
             self.looks += 1;
-            self.nees.extend(nees(navigation, attitude));
+            // A covariance that is none is as wrong as can be.
+            self.nees.push(nees(navigation, attitude).unwrap_or([f64::INFINITY; 4]));
         }
         if self.last_tick != navigation.filtered_at {
             self.last_tick = navigation.filtered_at;

@@ -131,7 +131,8 @@ pub fn fly(scenario: &Scenario, seeds: Seeds, flown: impl Fn() + Sync) -> Result
 
 fn report(scenario: &str, seeds: Seeds, assess: &Assess, flights: &[Measures]) -> Report {
     let verdict = |expected: &Expectation| {
-        let values = sorted(flights, expected.measure);
+        let missing = if expected.at_most.is_some() { f64::INFINITY } else { f64::NEG_INFINITY };
+        let values = sorted(flights, expected.measure, missing);
         let found = match expected.percentile {
             Some(percent) => percentile(&values, percent),
             None => root_mean_square(&values),
@@ -160,15 +161,15 @@ fn report(scenario: &str, seeds: Seeds, assess: &Assess, flights: &[Measures]) -
     }
 }
 
-/// A measure over the flights; infinite for those that have none.
-fn sorted(flights: &[Measures], measure: Measure) -> Vec<f64> {
-    let mut values: Vec<f64> = flights.iter().map(|flight| flight.get(measure).unwrap_or(f64::INFINITY)).collect();
+/// A measure over the flights, with what stands for those that have none.
+fn sorted(flights: &[Measures], measure: Measure, missing: f64) -> Vec<f64> {
+    let mut values: Vec<f64> = flights.iter().map(|flight| flight.get(measure).unwrap_or(missing)).collect();
     values.sort_by(f64::total_cmp);
     values
 }
 
 fn row(flights: &[Measures], measure: Measure) -> Option<Row> {
-    let values = sorted(flights, measure);
+    let values = sorted(flights, measure, f64::INFINITY);
     let count = values.iter().filter(|value| value.is_finite()).count();
     let at = |percent| percentile(&values, percent).filter(|value| value.is_finite());
     let rms = root_mean_square(&values).filter(|value| value.is_finite());

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Assess;
 use super::consistency::Consistency;
+use crate::plant::ground::Ground;
 use crate::record::{Navigation, Recorder, Row};
+use crate::report::Touchdown;
 use crate::statistics::MeanSquare;
 
 /// A number that a flight has measured; over the time that is judged, unless it says otherwise. Errors are true minus
@@ -13,7 +15,7 @@ use crate::statistics::MeanSquare;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Measure {
-    /// From leaving the ground until the height is within 0.35 m of where it ought to be, s.
+    /// From leaving the ground until the height is within 0.35 m of the one that is held, s.
     ClimbS,
     /// Greatest error of the height, m.
     HeightErrorMaxM,
@@ -45,15 +47,19 @@ pub enum Measure {
     TouchdownS,
     /// The whole flight: when the rotors stopped after it, s.
     DisarmedS,
-    /// The whole flight: greatest of the least distances to the places that the pilot sent it to, m.
+    /// The whole flight: greatest of the least distances to the places that the pilot sent it to, each counted once the
+    /// one before was reached within 2 m, m.
     MissMaxM,
-    /// 1 if the vehicle was neither lost nor given a motor command that is no number, else 0.
+    /// Part of the time in which it was in the air.
+    FlownPart,
+    /// 1 if the vehicle was not lost, never got a motor command that is no number, met the ground no faster than 4 m/s and
+    /// ended within 60° of upright; else 0.
     Survived,
 }
 
 impl Measure {
     /// All of them.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::ClimbS,
         Self::HeightErrorMaxM,
         Self::HeightWanderMaxM,
@@ -71,6 +77,7 @@ impl Measure {
         Self::TouchdownS,
         Self::DisarmedS,
         Self::MissMaxM,
+        Self::FlownPart,
         Self::Survived,
     ];
 
@@ -115,11 +122,17 @@ impl Range {
     }
 }
 
-/// Heights from which a fall counts as a flight, and from which it has touched down, over the start, m.
+/// In the air, over the start, m.
 const AIRBORNE_M: f64 = 0.5;
-const TOUCHED_M: f64 = 0.02;
 /// Off the ground.
 const LIFTED_M: f64 = 0.05;
+/// A place that the next one is counted after, m.
+const PASSED_M: f64 = 2.0;
+/// Fastest touchdown that a vehicle survives, m/s, and cosine of the tilt that it may end in.
+const HARDEST_M_S: f64 = 4.0;
+const UPRIGHT: f64 = 0.5;
+/// Ticks between two distances that are kept: a day has millions.
+const KEPT_EVERY: u64 = 20;
 /// Height that counts as reached, m.
 const REACHED_M: f64 = 0.35;
 
@@ -128,8 +141,6 @@ const REACHED_M: f64 = 0.35;
 struct Events {
     lifted_s: Option<f64>,
     reached_s: Option<f64>,
-    airborne: bool,
-    touchdown: Option<(f64, f64)>,
     disarmed_s: Option<f64>,
 }
 
@@ -141,6 +152,12 @@ pub struct Assessor {
     hold: Option<Vector3<f64>>,
     start_height: f64,
     events: Events,
+    touchdown: Option<Touchdown>,
+    /// Ticks judged, and those of them in the air.
+    judged: u64,
+    in_air: u64,
+    /// Cosine of the tilt in the last row.
+    upright: f64,
     height: Range,
     height_error: Range,
     height_sum: (f64, f64),
@@ -155,14 +172,25 @@ pub struct Assessor {
 }
 
 impl Assessor {
-    /// Before a flight of `duration_s` from `start`, in which the pilot sends the vehicle to `places` (m).
-    pub fn new(assess: &Assess, duration_s: f64, start: &Vector3<f64>, places: &[Vector3<f64>]) -> Self {
+    /// Before a flight of `duration_s` from `start` over a ground, if there is one, in which the pilot sends the vehicle to
+    /// `places` (m).
+    pub fn new(
+        assess: &Assess,
+        duration_s: f64,
+        start: &Vector3<f64>,
+        ground: Option<Ground>,
+        places: &[Vector3<f64>],
+    ) -> Self {
         Self {
             from_s: assess.from_s,
             to_s: assess.to_s.unwrap_or(duration_s),
             hold: assess.hold_m.map(Vector3::from),
             start_height: start.z,
             events: Events::default(),
+            touchdown: ground.map(Touchdown::new),
+            judged: 0,
+            in_air: 0,
+            upright: 1.0,
             height: Range::EMPTY,
             height_error: Range::EMPTY,
             height_sum: (0.0, 0.0),
@@ -180,23 +208,24 @@ impl Assessor {
         t >= self.from_s && t < self.to_s
     }
 
-    fn once(&mut self, row: &Row, wanted_height: f64) {
+    fn once(&mut self, row: &Row) {
         let height = row.position[2] - self.start_height;
         let events = &mut self.events;
         if height > LIFTED_M {
             events.lifted_s.get_or_insert(row.t);
         }
-        if events.lifted_s.is_some() && (row.position[2] - wanted_height).abs() < REACHED_M {
+        if events.lifted_s.is_some() && self.hold.is_some_and(|hold| (row.position[2] - hold.z).abs() < REACHED_M) {
             events.reached_s.get_or_insert(row.t);
         }
-        events.airborne |= height > AIRBORNE_M;
-        if events.airborne && height < TOUCHED_M {
-            events.touchdown.get_or_insert((row.t, -row.velocity[2]));
-        }
         let stopped = row.omega_command.iter().all(|omega| *omega == 0.0);
-        if events.touchdown.is_some() && stopped {
-            events.disarmed_s.get_or_insert(row.t);
+        if let Some(touchdown) = &mut self.touchdown {
+            touchdown.record(row);
+            if touchdown.first().is_some() && stopped {
+                events.disarmed_s.get_or_insert(row.t);
+            }
         }
+        let [_, x, y, _] = row.attitude;
+        self.upright = 1.0 - 2.0 * (x * x + y * y);
     }
 
     fn judge(&mut self, row: &Row, wanted: &Vector3<f64>) {
@@ -204,7 +233,11 @@ impl Assessor {
         self.height.take(row.position[2]);
         self.height_error.take(error.z.abs());
         self.height_sum = (self.height_sum.0 + row.position[2], self.height_sum.1 + 1.0);
-        self.horizontal.push(libm::hypot(error.x, error.y));
+        if self.judged.is_multiple_of(KEPT_EVERY) {
+            self.horizontal.push(libm::hypot(error.x, error.y));
+        }
+        self.judged += 1;
+        self.in_air += u64::from(row.position[2] - self.start_height > AIRBORNE_M);
         for (axis, error) in self.axes.iter_mut().zip(error.iter()) {
             axis.take(*error);
         }
@@ -217,6 +250,8 @@ impl Assessor {
         let mean = self.height_sum.0 / self.height_sum.1;
         let mut horizontal = self.horizontal;
         horizontal.sort_by(f64::total_cmp);
+        let contact = self.touchdown.as_ref().and_then(Touchdown::first);
+        let whole = self.upright > UPRIGHT && contact.is_none_or(|contact| contact.descent_m_s < HARDEST_M_S);
         let miss = self.places.iter().map(|(_, least)| *least).reduce(f64::max);
         let [tilt, heading, attitude, position] = self.known.map(MeanSquare::root);
         let [x, y, z] = self.axes.map(MeanSquare::root);
@@ -235,11 +270,12 @@ impl Assessor {
             Measure::HeadingKnownRmsDeg => heading.map(f64::to_degrees),
             Measure::AttitudeKnownRmsDeg => attitude.map(f64::to_degrees),
             Measure::PositionKnownRmsM => position,
-            Measure::TouchdownMS => events.touchdown.map(|(_, speed)| speed),
-            Measure::TouchdownS => events.touchdown.map(|(time, _)| time),
+            Measure::TouchdownMS => contact.map(|contact| contact.descent_m_s),
+            Measure::TouchdownS => contact.map(|contact| contact.t_s),
             Measure::DisarmedS => events.disarmed_s,
             Measure::MissMaxM => miss,
-            Measure::Survived => Some(f64::from(survived && self.sound)),
+            Measure::FlownPart => Some(self.in_air as f64 / self.judged.max(1) as f64),
+            Measure::Survived => Some(f64::from(survived && self.sound && whole)),
         };
         Measures { values: Measure::ALL.map(value), consistency: self.consistency }
     }
@@ -249,10 +285,13 @@ impl Recorder for Assessor {
     fn record(&mut self, row: &Row) {
         let [x, y, z, _] = row.reference;
         let wanted = self.hold.unwrap_or_else(|| Vector3::new(x, y, z));
-        self.once(row, wanted.z);
+        self.once(row);
         self.sound &= row.omega_command.iter().all(|omega| omega.is_finite());
         for (place, least) in &mut self.places {
             *least = least.min((Vector3::from(row.position) - *place).norm());
+            if *least > PASSED_M {
+                break;
+            }
         }
         if self.is_judged(row.t) {
             self.judge(row, &wanted);

@@ -19,14 +19,30 @@ pub(super) fn run(args: &AssessArgs) -> Result<()> {
         scenarios.iter().map(|scenario| ensemble::fly(scenario, args.seeds, || bar.inc(1))).collect::<Result<_>>()
     })?;
     bar.finish_and_clear();
+    let unmet = reports.iter().filter(|report| !report.is_met()).count();
     if args.json {
-        return super::say(&serde_json::to_string(&reports)?);
+        super::say(&serde_json::to_string(&reports)?)?;
+        return if unmet == 0 { Ok(()) } else { Err(Unmet { scenarios: unmet }.into()) };
     }
     let texts: Vec<String> = reports.iter().map(Report::render).collect();
-    let unmet = reports.iter().filter(|report| !report.is_met()).count();
     let end = if unmet == 0 { "all as expected".to_owned() } else { format!("{unmet} not as expected") };
-    super::say(&format!("{}\n{} scenarios: {end}", texts.join("\n"), reports.len()))
+    super::say(&format!("{}\n{} scenarios: {end}", texts.join("\n"), reports.len()))?;
+    if unmet == 0 { Ok(()) } else { Err(Unmet { scenarios: unmet }.into()) }
 }
+
+/// What was expected has not come.
+#[derive(Debug)]
+pub(super) struct Unmet {
+    scenarios: usize,
+}
+
+impl std::fmt::Display for Unmet {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "scenarios that are not as expected: {}", self.scenarios)
+    }
+}
+
+impl std::error::Error for Unmet {}
 
 /// Those asked for; without a name, all built-in ones that are judged, but for those that take hours.
 fn load(args: &AssessArgs) -> Result<Vec<Scenario>> {

@@ -301,7 +301,7 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("sim-host: {}", one_line(&error));
-            ExitCode::from(if pil::is_finding(&error) { 1 } else { 2 })
+            ExitCode::from(if pil::is_finding(&error) || error.is::<assess::Unmet>() { 1 } else { 2 })
         }
     }
 }
