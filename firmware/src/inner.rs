@@ -186,24 +186,27 @@ impl<A: AttitudeLaw> Inner<A> {
     /// One tick of control, `dt` seconds after the reference holds.
     #[inline]
     fn control<const GENTLE: bool>(&mut self, reference: &AttitudeReference, dt: f32) {
-        let wanted = if self.motor_out.is_none() {
-            self.law.step(&AttitudeInput {
+        // Each branch's numbers by themselves: one place in memory for both would be written and read every tick.
+        let (s, torque) = if self.motor_out.is_none() {
+            let wanted = self.law.step(&AttitudeInput {
                 attitude: &self.nav.attitude,
                 rates: &self.nav.rates,
                 target: &reference.target_after(dt),
                 rotor_speeds: self.rotors.omega_rad_s(),
                 rotors: &self.effect,
                 saturated: self.output.saturated,
-            })
+            });
+            (wanted.s, wanted.torque)
         } else {
-            self.wanted_without_rotor(reference, dt)
+            let wanted = self.wanted_without_rotor(reference, dt);
+            (wanted.s, wanted.torque)
         };
         let mut demand = ControlInput {
             // Below zero it is for the mixer to limit.
             thrust_n: reference.thrust_n + reference.thrust_rate_n_s * dt,
-            roll_n_m: wanted.torque.x,
-            pitch_n_m: wanted.torque.y,
-            yaw_n_m: self.yaw.demand(self.effect.yaw_n_m, wanted.torque.z),
+            roll_n_m: torque.x,
+            pitch_n_m: torque.y,
+            yaw_n_m: self.yaw.demand(self.effect.yaw_n_m, torque.z),
         };
         if GENTLE {
             let most = self.gentle_arm_m * math::max(demand.thrust_n, 0.0);
@@ -221,7 +224,7 @@ impl<A: AttitudeLaw> Inner<A> {
         self.output = InnerOutput {
             motors: MotorCommand { omega_rad_s: self.rotors.command(math::sqrt_each(allocation.omega_sq)) },
             demand,
-            s: wanted.s,
+            s,
             saturated: allocation.saturated,
         };
         self.effect = self.believed.after(&self.effect, self.rotors.omega_rad_s());

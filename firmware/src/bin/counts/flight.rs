@@ -186,7 +186,7 @@ impl Flight {
             self.navigation.publish();
         }
         self.navigation.step(&measured, self.plant.omega_rad_s());
-        if tick % FILTER.period == 0 {
+        if tick.is_multiple_of(FILTER.period) {
             self.navigation.job(tick, at_rest);
         }
     }

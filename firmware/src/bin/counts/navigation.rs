@@ -56,7 +56,7 @@ impl Navigation {
             counts: NavigationCounts::default(),
             predictor: Predictor::new(start.position, airframe.gravity_m_s2),
             gyro: GyroFilter::new(),
-            filter: Filter::new(&settings, airframe.gravity_m_s2, drag / airframe.mass_kg, config.start_position()),
+            filter: Filter::new(&settings, airframe.gravity_m_s2, drag / airframe.mass_kg, start.position),
             covariance: Covariance::diagonal(&ErrorState::repeat(0.01)),
             readings: Readings::default(),
             found: None,
