@@ -79,7 +79,7 @@ const WIND_WALK: f32 = 0.7;
 /// How fast the magnetic heading's error changes as the vehicle turns and draws current, rad/√s.
 const HEADING_WALK: f32 = 3e-5;
 /// A scale's error acts as noise of this correlation time, s: about as long as a manoeuvre turns one way.
-const MANOEUVRE_S: f32 = 0.7;
+const MANOEUVRE_S: f32 = 0.9;
 
 impl EstimatorSettings {
     /// Refuses settings with which the filter is not defined.

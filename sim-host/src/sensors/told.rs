@@ -8,7 +8,7 @@ use super::{Home, SuiteFile};
 /// Current of a vehicle of 2 kg in hover, A.
 const HOVER_A: f64 = 20.0;
 /// What rotors' vibration leaves in the accelerometer's integral, m/s²/√Hz.
-const VIBRATION: f64 = 1.8e-3;
+const VIBRATION: f64 = 2.4e-3;
 
 impl SuiteFile {
     /// The filter's settings for this suite at home. What a suite does not have keeps its default, and is not asked for.
