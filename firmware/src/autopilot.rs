@@ -19,7 +19,7 @@ use crate::failure::{Failures, Injectable};
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
 use crate::navigator::Navigator;
-use crate::outer::{Outer, OuterInput, OuterOutput};
+use crate::outer::{Authority, Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
 use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
 use crate::validate::ConfigError;
@@ -137,13 +137,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
         self.inner.sense(sample);
         let released = self.release(tick, mail);
         let armed = self.is_armed();
-        if armed && self.outer.idle {
-            self.inner.idle();
-        } else if armed && self.outer.descends {
-            self.inner.step_gently(tick, &self.outer.attitude);
-        } else {
-            self.inner.step(tick, &self.outer.attitude, armed);
-        }
+        match self.outer.authority {
+            Authority::Idle if armed => self.inner.idle(),
+            Authority::Gentle if armed => self.inner.step_gently(tick, &self.outer.attitude),
+            _ => self.inner.step(tick, &self.outer.attitude, armed),
+        };
         if self.inner.navigator().is_some() {
             self.inner.watch_rotors(armed, !self.commander.landed);
         }

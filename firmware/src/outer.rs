@@ -31,6 +31,17 @@ pub struct OuterInput {
     pub directive: Directive,
 }
 
+/// How much of the rotors is to be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Authority {
+    /// They idle, on the ground.
+    Idle,
+    /// Torque in proportion to thrust: in a descent the ground may come at any time.
+    Gentle,
+    /// All of it.
+    Full,
+}
+
 /// What the outer partition asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OuterOutput {
@@ -40,12 +51,10 @@ pub struct OuterOutput {
     pub s: Vector3<f32>,
     /// True if the force that control asks for had to be limited.
     pub limited: bool,
-    /// True if the rotors, while they may turn, are to idle.
-    pub idle: bool,
+    /// How much of the rotors is to be used, while they may turn.
+    pub authority: Authority,
     /// True if the heading is given up.
     pub heading_free: bool,
-    /// True in a descent with all rotors sound: the ground may come at any time.
-    pub descends: bool,
     /// Where the vehicle ought to be, m, and its heading, rad.
     pub wanted: Vector4<f32>,
 }
@@ -157,7 +166,9 @@ impl<P: PositionLaw> Outer<P> {
                 let target = velocity(Vector3::new(0.0, 0.0, -rate_m_s), 0.0);
                 let reference = self.steer(input, &target);
                 let output = self.descend(effective, input, reference, known, heading_free);
-                OuterOutput { heading_free, descends: !heading_free, ..output }
+                // Without a rotor there is no torque to spare.
+                let authority = if heading_free { Authority::Full } else { Authority::Gentle };
+                OuterOutput { authority, heading_free, ..output }
             }
             Directive::GoTo { position, yaw } => {
                 let reference = self.steer(input, &Target::Place { position, yaw });
@@ -183,9 +194,8 @@ impl<P: PositionLaw> Outer<P> {
             attitude,
             s: Vector3::zeros(),
             limited: false,
-            idle: true,
+            authority: Authority::Idle,
             heading_free: false,
-            descends: false,
             wanted,
         }
     }
@@ -346,9 +356,8 @@ impl<P: PositionLaw> Outer<P> {
             },
             s,
             limited: self.limited,
-            idle: false,
+            authority: Authority::Full,
             heading_free: false,
-            descends: false,
             wanted: reference.position.push(reference.yaw),
         }
     }

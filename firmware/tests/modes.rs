@@ -11,7 +11,7 @@ use firmware::control::attitude::{self, SlidingAttitude};
 use firmware::control::position::SlidingPosition;
 use firmware::guidance::Trajectory;
 use firmware::inner::Inner;
-use firmware::outer::{Outer, OuterInput, OuterOutput};
+use firmware::outer::{Authority, Outer, OuterInput, OuterOutput};
 use firmware::schedule::{COMMANDER, OUTER};
 use firmware::signals::{MotorCommand, NavHealth, NavState, SensorFrame, TICK_S, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -119,7 +119,7 @@ impl Vehicle {
             let input = OuterInput { nav, thrust_n: self.inner.thrust_n(), directive: self.told.directive };
             self.reference = self.outer.step(self.tick, &input);
         }
-        let output = if self.told.armed && self.reference.idle {
+        let output = if self.told.armed && self.reference.authority == Authority::Idle {
             self.inner.idle()
         } else {
             self.inner.step(self.tick, &self.reference.attitude, self.told.armed)
