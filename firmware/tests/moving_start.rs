@@ -1,8 +1,6 @@
 //! A vehicle that is switched on while it is carried about, rocking and translating, and never at rest: the estimator
 //! begins all the same, and satellites teach it what it could not see. Sensors by closed form from the motion.
 
-#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
-
 use core::f64::consts::PI;
 
 use firmware::autopilot::Autopilot;

@@ -76,7 +76,7 @@ fn look(flight: &Flight<RigidBody>, minute: u32) -> Look {
         minute,
         shown: [axis(0), axis(1), axis(2), accel.z / sigma(index::ACCEL_BIAS + 2)],
         across: [accel.x, accel.y],
-        tilt: error.x.hypot(error.y),
+        tilt: error.xy().norm(),
     }
 }
 

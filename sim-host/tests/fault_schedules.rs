@@ -23,7 +23,7 @@ const CASES: u32 = 24;
 /// Sizes from a thousandth to a million, as many of each order.
 fn size() -> impl Strategy<Value = f64> {
     (-3.0..6.0_f64, any::<bool>()).prop_map(|(order, negative)| {
-        let size = 10.0_f64.powf(order);
+        let size = libm::pow(10.0, order);
         if negative { -size } else { size }
     })
 }

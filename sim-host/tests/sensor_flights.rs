@@ -86,7 +86,7 @@ impl Recorder for Seen {
             self.touchdown_m_s.get_or_insert(-row.velocity[2]);
         }
         if row.t >= self.from_s {
-            self.away_m = self.away_m.max(x.hypot(y));
+            self.away_m = self.away_m.max(libm::hypot(x, y));
             self.off_height_m = self.off_height_m.max((z - 10.0).abs());
         }
     }
@@ -101,9 +101,9 @@ impl Recorder for Seen {
             let is = UnitQuaternion::new_normalize(truth.attitude);
             let error = (is * nav.attitude.cast::<f64>().inverse()).scaled_axis();
             let velocity: Vector3<f64> = truth.velocity - nav.velocity.cast();
-            self.tilt_deg = self.tilt_deg.max(error.x.hypot(error.y).to_degrees());
+            self.tilt_deg = self.tilt_deg.max(error.xy().norm().to_degrees());
             self.heading_deg = self.heading_deg.max(error.z.abs().to_degrees());
-            self.speed_m_s = self.speed_m_s.max(velocity.x.hypot(velocity.y));
+            self.speed_m_s = self.speed_m_s.max(velocity.xy().norm());
             self.climb_m_s = self.climb_m_s.max(velocity.z.abs());
         }
         if self.filtered_at != navigation.filtered_at {

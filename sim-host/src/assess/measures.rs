@@ -136,12 +136,12 @@ const KEPT_EVERY: u64 = 20;
 /// Height that counts as reached, m.
 const REACHED_M: f64 = 0.35;
 
-/// What happens once in a flight.
+/// What happens once in a flight, s.
 #[derive(Clone, Copy, Debug, Default)]
 struct Events {
-    lifted_s: Option<f64>,
-    reached_s: Option<f64>,
-    disarmed_s: Option<f64>,
+    lifted: Option<f64>,
+    reached: Option<f64>,
+    disarmed: Option<f64>,
 }
 
 /// Measures a flight as it is flown.
@@ -212,16 +212,16 @@ impl Assessor {
         let height = row.position[2] - self.start_height;
         let events = &mut self.events;
         if height > LIFTED_M {
-            events.lifted_s.get_or_insert(row.t);
+            events.lifted.get_or_insert(row.t);
         }
-        if events.lifted_s.is_some() && self.hold.is_some_and(|hold| (row.position[2] - hold.z).abs() < REACHED_M) {
-            events.reached_s.get_or_insert(row.t);
+        if events.lifted.is_some() && self.hold.is_some_and(|hold| (row.position[2] - hold.z).abs() < REACHED_M) {
+            events.reached.get_or_insert(row.t);
         }
         let stopped = row.omega_command.iter().all(|omega| *omega == 0.0);
         if let Some(touchdown) = &mut self.touchdown {
             touchdown.record(row);
             if touchdown.first().is_some() && stopped {
-                events.disarmed_s.get_or_insert(row.t);
+                events.disarmed.get_or_insert(row.t);
             }
         }
         let [_, x, y, _] = row.attitude;
@@ -255,7 +255,7 @@ impl Assessor {
         let miss = self.places.iter().map(|(_, least)| *least).reduce(f64::max);
         let [tilt, heading, attitude, position] = self.known.map(MeanSquare::root);
         let [x, y, z] = self.axes.map(MeanSquare::root);
-        let climb = events.reached_s.zip(events.lifted_s).map(|(reached, lifted)| reached - lifted);
+        let climb = events.reached.zip(events.lifted).map(|(reached, lifted)| reached - lifted);
         let value = |measure: Measure| match measure {
             Measure::ClimbS => climb,
             Measure::HeightErrorMaxM => self.height_error.some(|range| range.greatest),
@@ -272,7 +272,7 @@ impl Assessor {
             Measure::PositionKnownRmsM => position,
             Measure::TouchdownMS => contact.map(|contact| contact.descent_m_s),
             Measure::TouchdownS => contact.map(|contact| contact.t_s),
-            Measure::DisarmedS => events.disarmed_s,
+            Measure::DisarmedS => events.disarmed,
             Measure::MissMaxM => miss,
             Measure::FlownPart => Some(self.in_air as f64 / self.judged.max(1) as f64),
             Measure::Survived => Some(f64::from(survived && self.sound && whole)),
