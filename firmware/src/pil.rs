@@ -7,7 +7,7 @@
 //! host ◄─ Reply ─── image      a tick: what the inner task has done
 //! ```
 //!
-//! Every frame has a fixed size, so that it crosses in one file call; numbers are little-endian 32-bit words ([`words`]),
+//! Every frame has a fixed size, so that it crosses in one file call; numbers are little-endian 32-bit words,
 //! and what a frame does not need of its size is zero.
 
 #[cfg(feature = "pil-wire")]

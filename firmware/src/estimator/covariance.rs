@@ -291,7 +291,8 @@ impl Covariance {
     /// P ← (I − K H) P (I − K H)ᵀ + K R Kᵀ = P − K uᵀ − u Kᵀ,      u = c − s K/2
     /// ```
     ///
-    /// to second order indifferent to the gain's rounding. The diagonal is then [settled](Self::settle).
+    /// to second order indifferent to the gain's rounding. The diagonal is then kept symmetric, and its
+    /// variances above what no state is known better than.
     pub fn correct<const N: usize>(&mut self, c: &[ErrorState; N], s: &[f32; N]) {
         let mut parts = [Part::<N>::ZERO; BLOCKS];
         for (n, (c, s)) in c.iter().zip(s).enumerate() {

@@ -15,7 +15,7 @@ use super::models::MagneticNorth;
 use super::predictor::{Correction, Nominal, Span};
 use super::settings::EstimatorSettings;
 use super::update::Verdict;
-use super::watch::Watch;
+use super::watch::{Scatter, Watch};
 use crate::frames::LocalFrame;
 use crate::math;
 use crate::sensors::{BaroSample, GnssSample, MagSample, PoseSample};
@@ -191,6 +191,8 @@ pub struct Filter {
     pub(super) watches: Watches,
     pub(super) frame: Option<LocalFrame>,
     pub(super) height_by: HeightSource,
+    pub(super) baro_scatter: Scatter,
+    pub(super) mag_scatter: Scatter,
     last_pose: Option<PoseSample>,
     /// Found but not known to have been taken in.
     ordered: Correction,
@@ -237,6 +239,8 @@ impl Filter {
             watches: Watches::default(),
             frame: None,
             height_by: HeightSource::None,
+            baro_scatter: Scatter::default(),
+            mag_scatter: Scatter::default(),
             last_pose: None,
             ordered: Correction::default(),
             started: None,

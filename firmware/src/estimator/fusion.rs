@@ -78,13 +78,15 @@ impl Filter {
         }
         let reading = north.read(&field, &age.then.attitude);
         let sigma = self.settings.mag_noise_ut / reading.horizontal_ut;
+        let noisier = self.mag_scatter.noisier();
         let believed = self.offsets.heading + reading.row.dot(&age.since);
         let measurement = Measurement {
             rows: [reading.row],
             innovation: [math::wrap_angle(reading.turn - believed)],
-            variance: [sigma * sigma],
+            variance: [sigma * sigma * noisier],
         };
         let verdict = measurement.apply(&mut self.covariance, &mut job.error, gate::<1>());
+        self.mag_scatter.note(verdict.nis * noisier);
         job.note(Source::Heading, verdict);
         self.watches.mag.note(job.now.at, verdict.accepted);
         if self.watches.mag.is_at_odds(job.now.at, 2 * JUMPED_AFTER) {
@@ -104,7 +106,9 @@ impl Filter {
         let height = pressure_height(baro.pressure_pa);
         let noise = self.settings.baro_noise_m;
         if self.height_by == HeightSource::Baro || !self.watches.baro.is_live(job.now.at, LOST_AFTER) {
-            let verdict = self.fuse_height(job, &age, height, noise * noise, HeightSource::Baro);
+            let noisier = self.baro_scatter.noisier();
+            let verdict = self.fuse_height(job, &age, height, noise * noise * noisier, HeightSource::Baro);
+            self.baro_scatter.note(verdict.nis * noisier);
             job.note(Source::Baro, verdict);
             self.watches.baro.note(job.now.at, verdict.accepted);
             if self.watches.baro.is_at_odds(job.now.at, JUMPED_AFTER) {

@@ -85,6 +85,33 @@ impl Watch {
     }
 }
 
+/// How far a sensor's readings scatter, in units of the variance that they are said to have: a mean over some hundred.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scatter(f32);
+
+impl Default for Scatter {
+    fn default() -> Self {
+        Self(1.0)
+    }
+}
+
+impl Scatter {
+    /// Takes in a normalised innovation squared, in units of the variance that is said.
+    pub fn note(&mut self, square: f32) {
+        /// No reading counts for more, and each for so much.
+        const MOST: f32 = 400.0;
+        const PART: f32 = 0.01;
+        let square = if square < MOST { square } else { MOST };
+        self.0 += (square - self.0) * PART;
+    }
+
+    /// By how much the variance is larger than said: 1 within what chance does to a sound sensor, whose mean is 1 ± 0.14.
+    pub fn noisier(self) -> f32 {
+        const BEYOND_CHANCE: f32 = 2.0;
+        if self.0 > BEYOND_CHANCE { self.0 } else { 1.0 }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -123,5 +150,18 @@ mod tests {
         watch.note(400, false);
         watch.note(5_000, false);
         assert!(!watch.is_at_odds(5_000, 2_500));
+    }
+
+    #[test]
+    fn ten_times_the_noise_is_seen_and_chance_is_not() {
+        let mut scatter = Scatter::default();
+        for k in 0..300 {
+            scatter.note([0.0, 0.5, 2.5][k % 3]);
+            assert_eq!(scatter.noisier(), 1.0);
+        }
+        (0..500).for_each(|_| scatter.note(100.0));
+        assert!(scatter.noisier() > 90.0 && scatter.noisier() < 101.0);
+        scatter.note(f32::NAN);
+        assert!(scatter.noisier() < 110.0);
     }
 }
