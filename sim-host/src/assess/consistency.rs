@@ -16,6 +16,8 @@ const LOOK_EVERY_S: f64 = 2.0;
 /// The normalised innovations of one kind of reading.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Innovations {
+    /// Degrees of freedom of one.
+    pub degrees: u32,
     /// Readings.
     pub count: u64,
     /// Sum of their normalised innovations squared.
@@ -97,6 +99,7 @@ impl Consistency {
                 let (name, degrees) = kind(reading.source);
                 let all = self.innovations.entry(name).or_default();
                 let nis = f64::from(reading.verdict.nis);
+                all.degrees = degrees;
                 all.count += 1;
                 all.refused += u64::from(!reading.verdict.accepted);
                 all.within += u64::from(nis <= quantile(degrees));

@@ -180,6 +180,7 @@ fn nis(flights: &[Measures]) -> Vec<Nis> {
     let mut all: BTreeMap<&str, Innovations> = BTreeMap::new();
     for (name, one) in flights.iter().flat_map(|flight| &flight.consistency.innovations) {
         let sum = all.entry(name).or_default();
+        sum.degrees = one.degrees;
         sum.count += one.count;
         sum.sum += one.sum;
         sum.within += one.within;
@@ -194,8 +195,8 @@ fn nis(flights: &[Measures]) -> Vec<Nis> {
         Nis {
             reading: name.to_owned(),
             count: all.count,
-            mean: all.sum / accepted / degrees(name),
-            within_band: within_band(&looks, degrees(name)).map_or(0.0, |(_, within)| within),
+            mean: all.sum / accepted / f64::from(all.degrees),
+            within_band: within_band(&looks, f64::from(all.degrees)).map_or(0.0, |(_, within)| within),
             within_95: all.within as f64 / count,
             refused: all.refused as f64 / count,
         }
@@ -207,15 +208,6 @@ fn nis(flights: &[Measures]) -> Vec<Nis> {
 fn chi_square(degrees: f64, normal: f64) -> f64 {
     let spread = 2.0 / (9.0 * degrees);
     degrees * (1.0 - spread + normal * spread.sqrt()).powi(3)
-}
-
-/// Degrees of freedom of a kind of reading.
-fn degrees(name: &str) -> f64 {
-    match name {
-        "heading" | "baro" | "gnss-height" => 1.0,
-        "gnss-position" | "drag" => 2.0,
-        _ => 3.0,
-    }
 }
 
 /// Band that holds a mean over so many flights of χ²/degrees with 95 % probability.

@@ -6,6 +6,7 @@ use firmware::guidance::Trajectory;
 use super::{AttitudeWave, Disturbance, Gust, PlantKind, Scenario, ScenarioFile, ScheduledPush, Truth, Wind, World};
 use crate::airframe::AirframeFile;
 use crate::plant::air::ALTITUDE_M;
+use crate::sensors::check::within;
 use crate::sil::DELAY_TICKS_MAX;
 
 /// Greatest length or height, m: beyond it an f32 no longer resolves a decimetre.
@@ -20,12 +21,6 @@ const ACCELERATION_MAX: f64 = 1e6;
 const DURATION_MAX_S: f64 = 1e6;
 /// Longest flight on the decoupled plant, s: its steps of 10 µs are counted in 32 bits.
 const DECOUPLED_DURATION_MAX_S: f64 = 4e4;
-
-/// A number within `low ..= high`.
-fn within(key: &str, value: f64, low: f64, high: f64) -> Result<()> {
-    ensure!((low..=high).contains(&value), "`{key}` must be between {low} and {high}, not {value}");
-    Ok(())
-}
 
 impl Scenario {
     /// Refuses what makes no flight.

@@ -8,7 +8,7 @@ use super::process::TICKS_PER_S;
 pub(super) const LATENCY_MAX_S: f64 = 1.0;
 
 /// A number within `low ..= high`.
-pub(super) fn within(key: &str, value: f64, low: f64, high: f64) -> Result<()> {
+pub(crate) fn within(key: &str, value: f64, low: f64, high: f64) -> Result<()> {
     ensure!((low..=high).contains(&value), "`{key}` must be between {low} and {high}, not {value}");
     Ok(())
 }

@@ -11,7 +11,7 @@
 pub mod baro;
 pub mod battery;
 mod channel;
-mod check;
+pub(crate) mod check;
 pub mod faults;
 pub mod gnss;
 pub mod home;
