@@ -112,11 +112,8 @@ impl ModeSettings {
             ("modes.yaw_rate_rad_s", self.yaw_rate_rad_s),
             ("modes.yaw_acceleration_rad_s2", self.yaw_acceleration_rad_s2),
         ] {
-            ConfigError::require_positive(name, value)?;
             // Slower, nothing would ever arrive; faster, a step of the reference would be a leap.
-            if !(0.05..=100.0).contains(&value) {
-                return Err(ConfigError::OutOfRange(name));
-            }
+            ConfigError::require_within(name, value, 0.05, 100.0)?;
         }
         for (name, value) in [
             ("modes.landing_m_s", self.landing_m_s),
@@ -124,18 +121,14 @@ impl ModeSettings {
             ("modes.descent_m_s", self.descent_m_s),
         ] {
             // A vehicle that comes down as slowly as one that stands could not be told from it.
-            if value < 0.35 {
-                return Err(ConfigError::OutOfRange(name));
-            }
+            ConfigError::require_within(name, value, 0.35, 100.0)?;
         }
         ConfigError::require_not_negative("modes.return_height_m", self.return_height_m)?;
         ConfigError::require_not_negative("modes.battery_low_v", self.battery_low_v)?;
         ConfigError::require_not_negative("modes.battery_critical_v", self.battery_critical_v)?;
         for (name, part) in [("modes.idle_part", self.idle_part), ("modes.blind_thrust_part", self.blind_thrust_part)] {
             ConfigError::require_not_negative(name, part)?;
-            if part >= 1.0 {
-                return Err(ConfigError::OutOfRange(name));
-            }
+            ConfigError::require_below(name, part, 1.0)?;
         }
         Ok(())
     }
@@ -181,12 +174,10 @@ impl FlightConfig {
         self.attitude.validate()?;
         self.position.validate()?;
         ConfigError::require_positive("control.tilt_max_rad", self.tilt_max_rad)?;
-        if self.tilt_max_rad >= 1.5 {
-            return Err(ConfigError::OutOfRange("control.tilt_max_rad"));
-        }
+        ConfigError::require_below("control.tilt_max_rad", self.tilt_max_rad, 1.5)?;
         ConfigError::require_not_negative("control.rotor_time_constant_s", self.rotor_time_constant_s)?;
         if !crate::math::all_finite(&self.start_position_m) {
-            return Err(ConfigError::NonFinite("start_position_m"));
+            return Err(ConfigError::NonFinite("start_position_m".into()));
         }
         if let Some(estimator) = &self.estimator {
             estimator.validate()?;
@@ -255,12 +246,16 @@ mod tests {
     fn settings_out_of_range_are_refused_by_name() {
         let good = ModeSettings::default();
         assert_eq!(good.validate(), Ok(()));
+        let out_of_range = |name: &'static str, low| ConfigError::OutOfRange { field: name.into(), low, high: 100.0 };
         for (bad, error) in [
-            (ModeSettings { jerk_m_s3: f32::NAN, ..good }, ConfigError::NonFinite("modes.jerk_m_s3")),
-            (ModeSettings { climb_m_s: 0.0, ..good }, ConfigError::NotPositive("modes.climb_m_s")),
-            (ModeSettings { cruise_m_s: 1e3, ..good }, ConfigError::OutOfRange("modes.cruise_m_s")),
-            (ModeSettings { battery_low_v: -1.0, ..good }, ConfigError::Negative("modes.battery_low_v")),
-            (ModeSettings { blind_thrust_part: 1.0, ..good }, ConfigError::OutOfRange("modes.blind_thrust_part")),
+            (ModeSettings { jerk_m_s3: f32::NAN, ..good }, ConfigError::NonFinite("modes.jerk_m_s3".into())),
+            (ModeSettings { climb_m_s: 0.0, ..good }, out_of_range("modes.climb_m_s", 0.05)),
+            (ModeSettings { landing_m_s: 0.1, ..good }, out_of_range("modes.landing_m_s", 0.35)),
+            (ModeSettings { battery_low_v: -1.0, ..good }, ConfigError::Negative("modes.battery_low_v".into())),
+            (
+                ModeSettings { blind_thrust_part: 1.0, ..good },
+                ConfigError::NotBelow("modes.blind_thrust_part".into(), 1.0),
+            ),
         ] {
             assert_eq!(FlightConfig { modes: bad, ..FlightConfig::default() }.validate(), Err(error));
         }

@@ -26,6 +26,7 @@ pub mod plan;
 pub mod plant;
 pub mod record;
 pub mod reference;
+mod refusal;
 pub mod report;
 pub mod scenario;
 pub mod score;

@@ -54,7 +54,7 @@ pub struct Start<I, R, D> {
 }
 
 /// Why a board does not fly.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StartError {
     /// The application was started twice.
     Peripherals,

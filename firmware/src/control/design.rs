@@ -71,14 +71,17 @@ impl AxisBounds {
     /// The gains.
     ///
     /// # Errors
-    /// `name` if a number is not positive, or the disturbance not below the authority: no law can reject it then.
-    pub fn gains(&self, name: &'static str) -> Result<AxisGains, ConfigError> {
-        for value in [self.answer_s, self.disturbance, self.disturbance_rate, self.authority] {
+    /// The bound that is not positive, or the disturbance if it is not below the authority: no law can reject it then.
+    pub fn gains(&self) -> Result<AxisGains, ConfigError> {
+        for (name, value) in [
+            ("answer_s", self.answer_s),
+            ("disturbance", self.disturbance),
+            ("disturbance_rate", self.disturbance_rate),
+            ("authority", self.authority),
+        ] {
             ConfigError::require_positive(name, value)?;
         }
-        if self.disturbance >= self.authority {
-            return Err(ConfigError::OutOfRange(name));
-        }
+        ConfigError::require_below("disturbance", self.disturbance, self.authority)?;
         let horizon_s = LAYER_PER_ANSWER * self.answer_s;
         let lambda = LAYER_PER_SURFACE / horizon_s;
         let authority = self.authority;
@@ -124,7 +127,7 @@ mod tests {
     #[test]
     fn the_margins_are_those_that_the_text_promises() {
         for law in [Design::ImplicitSgn, Design::Sat] {
-            let gains = AxisBounds { law, ..BOUNDS }.gains("roll").expect("valid");
+            let gains = AxisBounds { law, ..BOUNDS }.gains().expect("valid");
             let (of_error, of_rate) = layer_gains(&gains);
             let tau = f64::from(BOUNDS.answer_s);
             let t = 2.5 * tau;
@@ -159,10 +162,10 @@ mod tests {
             Design::SuperTwisting,
             Design::ImplicitSuperTwisting,
         ] {
-            let gains = AxisBounds { law, ..BOUNDS }.gains("roll").expect("valid");
+            let gains = AxisBounds { law, ..BOUNDS }.gains().expect("valid");
             assert_eq!(gains.validate("roll"), Ok(()));
         }
         let weak = AxisBounds { authority: 20.0, ..BOUNDS };
-        assert_eq!(weak.gains("roll"), Err(ConfigError::OutOfRange("roll")));
+        assert_eq!(weak.gains(), Err(ConfigError::NotBelow("disturbance".into(), 20.0)));
     }
 }

@@ -98,7 +98,7 @@ impl Trajectory {
                     && math::all_finite(&[*rate_rad_s, *yaw_rad]),
             ),
         };
-        if finite { Ok(()) } else { Err(ConfigError::NonFinite(name)) }
+        if finite { Ok(()) } else { Err(ConfigError::NonFinite(name.into())) }
     }
 }
 

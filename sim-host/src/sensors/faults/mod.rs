@@ -20,9 +20,9 @@ use firmware::airframe::ROTORS;
 use firmware::signals::Tick;
 use serde::{Deserialize, Serialize};
 
-use super::check::within;
 use super::process::{seconds, ticks};
 use crate::noise::gaussian::Stream;
+use crate::refusal::{Refusal, after, typed, within};
 use running::Running;
 pub(super) use running::{Memory, Sample};
 
@@ -169,17 +169,50 @@ impl TryFrom<toml::Table> for Fault {
         for key in ["sensor", "from_s", "to_s"] {
             common.extend(table.remove_entry(key));
         }
-        let Common { sensor, from_s, to_s } = common.try_into().map_err(|error| in_a_fault(&error))?;
-        let kind = table.try_into().map_err(|error| in_a_fault(&error))?;
-        let fault = Self { sensor, kind, from_s, to_s };
+        let common = typed(common).map_err(in_a_fault)?;
+        let Common { sensor, from_s, to_s } = common;
+        require_kinds_of_values(&table).map_err(in_a_fault)?;
+        let fault = Self { sensor, kind: typed(table).map_err(in_a_fault)?, from_s, to_s };
         fault.validate().map_err(|error| format!("{error:#}"))?;
         Ok(fault)
     }
 }
 
-fn in_a_fault(error: &toml::de::Error) -> String {
-    format!("in a `fault`: {}", error.to_string().trim().replace('\n', ", "))
+fn in_a_fault(error: anyhow::Error) -> String {
+    format!("{:#}", Refusal::below(error, "fault"))
 }
+
+/// Refuses a value of another kind than its key's: an enumeration with its tag inside forgets which key it was.
+fn require_kinds_of_values(table: &toml::Table) -> Result<()> {
+    for (key, value) in table {
+        let (rule, is_one) = match key.as_str() {
+            "kind" => ("must be text in quotes", value.is_str()),
+            "direction" => ("must be an array of 3 numbers", value.as_array().is_some_and(|v| v.len() == 3)),
+            "index" => ("must be a whole number from 0 up", value.as_integer().is_some_and(|index| index >= 0)),
+            _ => ("must be a number", value.is_float() || value.is_integer()),
+        };
+        if !is_one && KEYS.contains(&key.as_str()) {
+            return Err(Refusal::new(key, rule).given(value).into());
+        }
+    }
+    Ok(())
+}
+
+/// Every key that some kind of fault has.
+const KEYS: [&str; 12] = [
+    "kind",
+    "direction",
+    "index",
+    "rate",
+    "sigma",
+    "probability",
+    "size",
+    "extra_s",
+    "size_m",
+    "shift_s",
+    "effectiveness",
+    "factor",
+];
 
 impl Sensor {
     /// The sensor whose samples it is part of.
@@ -234,7 +267,7 @@ impl Kind {
             Self::Loss { probability } | Self::Duplicate { probability } => part("probability", probability),
             Self::TimeJump { shift_s } => within("fault.shift_s", shift_s, -TIME_MAX_S, TIME_MAX_S),
             Self::Rotor { index, effectiveness } => {
-                ensure!(index < ROTORS, "`fault.index` must be a rotor, 0 to {}, not {index}", ROTORS - 1);
+                within("fault.index", index as f64, 0.0, (ROTORS - 1) as f64)?;
                 part("effectiveness", effectiveness)
             }
             Self::Collapse { factor } => part("factor", factor),
@@ -264,7 +297,10 @@ impl Fault {
     pub fn validate(&self) -> Result<()> {
         within("fault.from_s", self.from_s, 0.0, TIME_MAX_S)?;
         if let Some(to_s) = self.to_s {
-            within("fault.to_s", to_s, self.from_s, TIME_MAX_S)?;
+            within("fault.to_s", to_s, 0.0, TIME_MAX_S)?;
+            if to_s < self.from_s {
+                after(("fault.from_s", self.from_s), ("fault.to_s", to_s))?;
+            }
         }
         match self.sensor {
             Some(sensor) => ensure!(
