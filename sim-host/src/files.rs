@@ -132,7 +132,9 @@ fn read_text(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String
     let file = std::fs::File::open(name).map_err(|error| {
         let remedy = built_in_of(name, built_in).filter(|_| error.kind() == ErrorKind::NotFound);
         let remedy = remedy.map_or(String::new(), |near| format!(": did you mean the built-in `{near}`?"));
-        anyhow!("{}: {error}{remedy}", cannot())
+        let why = error.to_string();
+        let why = why.split(" (os error").next().unwrap_or(&why);
+        anyhow!("{}: {why}{remedy}", cannot())
     })?;
     let mut bytes = Vec::new();
     file.take(LARGEST + 1).read_to_end(&mut bytes).with_context(cannot)?;

@@ -54,7 +54,7 @@ impl Refusal {
 
     /// Whether a rule of values was broken and nobody has said yet by which.
     pub(crate) fn lacks_value(&self) -> bool {
-        self.given.is_none() && self.rule.starts_with("must ")
+        self.given.is_none() && self.rule.starts_with("must ") && !self.rule.contains(", not ")
     }
 
     /// The same with its key below another, as that of a table in which its own stands.
@@ -185,9 +185,10 @@ fn unit(key: &str) -> &'static str {
 
 /// The name most like `name`, if one is so much like it that it may have been meant.
 pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    /// Of 1; clap's own bound is as wide.
     const LIKE: f64 = 0.8;
-    let likeness = |candidate: &str| strsim::jaro_winkler(name, candidate);
+    // Short words with one slip are less alike by Jaro and Winkler than they look.
+    let one_slip = |candidate: &str| candidate.len() > 2 && strsim::osa_distance(name, candidate) == 1;
+    let likeness = |candidate: &str| if one_slip(candidate) { 1.0 } else { strsim::jaro_winkler(name, candidate) };
     let nearest = known.into_iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
     (likeness(nearest) > LIKE).then_some(nearest)
 }
@@ -234,6 +235,7 @@ mod tests {
     fn a_name_is_meant_if_it_is_like_enough() {
         assert_eq!(nearest("helicks", ["hover", "helix", "pad"]), Some("helix"));
         assert_eq!(nearest("lamda", ["gain", "lambda"]), Some("lambda"));
+        assert_eq!(nearest("sng", ["sgn", "sat", "tanh"]), Some("sgn"));
         assert_eq!(nearest("mass", ["mass_kg", "summary"]), Some("mass_kg"));
         assert_eq!(nearest("colour", ["control", "summary", "duration_s"]), None);
         assert_eq!(nearest("x", []), None);

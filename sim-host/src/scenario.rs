@@ -100,6 +100,7 @@ pub struct AttitudeWave {
 #[serde(deny_unknown_fields)]
 pub struct ScenarioFile {
     /// What it shows, in a line.
+    #[serde(default)]
     pub summary: String,
     /// Name or path of the airframe.
     #[serde(default = "default_airframe")]
@@ -220,6 +221,11 @@ pub struct Listed {
     pub group: Group,
 }
 
+/// Whether a scenario is built in by this name.
+pub(crate) fn is_built_in(name: &str) -> bool {
+    SCENARIOS.iter().any(|(known, _)| *known == name)
+}
+
 /// The built-in scenarios.
 ///
 /// # Errors
@@ -233,6 +239,12 @@ pub fn list() -> Result<Vec<Listed>> {
 }
 
 impl ScenarioFile {
+    /// Whether the seed makes a difference: sensors, disturbances, turbulence and a tumbling start are drawn from it.
+    pub fn is_random(&self) -> bool {
+        let gusty = self.wind.as_ref().is_some_and(|wind| wind.turbulence_20ft_m_s > 0.0);
+        self.disturbance.is_some() || self.tumble.is_some() || gusty || self.sensors.is_some()
+    }
+
     /// What it has in common with others.
     pub fn group(&self) -> Group {
         match (self.plant, &self.sensors) {

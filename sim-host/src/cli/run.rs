@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::Result;
 use firmware::guidance::Trajectory;
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
@@ -21,19 +21,14 @@ use crate::sil::Outcome;
 const FIGURES_UP_TO_S: f64 = 600.0;
 
 pub(super) fn run(args: &RunArgs) -> Result<()> {
-    ensure!(args.jobs != Some(0), "--jobs must be at least 1");
     let scenario = args.which.load()?;
+    super::note_idle_seeds(&scenario, args.seeds.is_some() || args.seed != 1);
     let Some(seeds) = args.seeds else {
         let summary = fly(&scenario, args.seed, args.out.as_deref(), !args.json)?;
         return super::say(&if args.json { summary.to_json() } else { table::render(&summary) });
     };
-    let count = seeds.count() as usize;
-    let threads = args.jobs.map_or(0, |jobs| jobs.min(count).min(super::MOST_THREADS));
     let bar = progress::of_flights(seeds.count(), !args.json);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .context("cannot start the threads that --jobs asks for")?;
+    let pool = args.threads.pool(seeds.count())?;
     let summaries: Vec<Summary> = pool.install(|| {
         let fly_one = |seed: u64| {
             let folder = args.out.as_ref().map(|out| out.join(format!("seed-{seed}")));

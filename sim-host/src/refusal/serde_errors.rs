@@ -34,9 +34,9 @@ fn below(path: &str, key: &str) -> String {
     if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
 }
 
-/// Where in a file the keys of a table stand.
-fn place(path: &str) -> String {
-    if path.is_empty() { "above the first table".to_owned() } else { format!("to `{path}`") }
+/// The table in which a key of serde's stands: its path ends with a key that is unknown, and without one that is missing.
+fn without<'a>(path: &'a str, key: &str) -> &'a str {
+    if path == key { "" } else { path.strip_suffix(key).and_then(|rest| rest.strip_suffix('.')).unwrap_or(path) }
 }
 
 /// The first name between backticks, and what follows it.
@@ -53,31 +53,40 @@ fn refusal(path: &str, message: &str) -> Refusal {
         return Refusal::new(in_full(path, key), rule.trim());
     }
     if let Some((name, _)) = message.strip_prefix("missing field ").and_then(quoted) {
-        return Refusal::new(below(path, name), "is missing").remedy(format!("add it {}", place(path)));
+        return Refusal::new(below(path, name), "is missing").remedy(format!("add `{name} = …`"));
     }
     if let Some((name, rest)) = message.strip_prefix("unknown field ").and_then(quoted) {
-        return unknown_key(path, name, &all_quoted(rest));
+        return unknown_key(without(path, name), name, &all_quoted(rest));
     }
     if let Some((name, rest)) = message.strip_prefix("unknown variant ").and_then(quoted) {
         return unknown_choice(path, name, &all_quoted(rest));
     }
     for prefix in ["invalid type: ", "invalid value: "] {
         if let Some((given, expected)) = message.strip_prefix(prefix).and_then(|rest| rest.rsplit_once(", expected ")) {
-            return Refusal::new(path, format!("must be {}", plain(expected))).given(unexpected(given));
+            let refusal = Refusal::new(path, format!("must be {}", plain(expected)));
+            // Whoever has the file looks the value up.
+            return if given == "unit variant" { refusal } else { refusal.given(unexpected(given)) };
         }
     }
     if let Some((count, expected)) =
         message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "))
     {
-        return Refusal::new(path, format!("must have {}", length(expected))).given(count);
+        return match expected.strip_prefix("an array of length ") {
+            Some(right) => Refusal::new(path, format!("must have {right} values")).given(count),
+            None => Refusal::new(path, format!("has too many values, {count}")),
+        };
     }
     Refusal::new(path, format!(": {}", message.replace('\n', " ")))
 }
 
 /// A key that may be relative to `path`, or begin with it (without indices of arrays), in full.
 fn in_full(path: &str, key: &str) -> String {
+    // The key itself, of a table that is read by hand.
     let is_name = |part: &&str| !part.bytes().all(|byte| byte.is_ascii_digit());
     let names = path.split('.').filter(is_name).collect::<Vec<_>>().join(".");
+    if key == names {
+        return path.to_owned();
+    }
     let relative = key.strip_prefix(&names).and_then(|rest| rest.strip_prefix('.')).unwrap_or(key);
     below(path, relative)
 }
@@ -119,6 +128,7 @@ fn plain(expected: &str) -> String {
         "a string" => "text in quotes".to_owned(),
         "a sequence" => "an array".to_owned(),
         "a map" => "a table".to_owned(),
+        "string only" => "the name of one of its kinds, or a table".to_owned(),
         other if other.starts_with("struct ") || other.starts_with("internally tagged") => "a table".to_owned(),
         other if other.contains("enum") || other.contains("variant") => "the name of one, or a table of one".to_owned(),
         other => array(other).unwrap_or_else(|| other.replace('\n', " ")),
@@ -129,12 +139,6 @@ fn plain(expected: &str) -> String {
 fn array(expected: &str) -> Option<String> {
     let length = expected.strip_prefix("an array of length ")?;
     Some(format!("an array of {length} values"))
-}
-
-/// How many values serde expected, from "an array of length 3".
-fn length(expected: &str) -> String {
-    let count = expected.strip_prefix("an array of length ");
-    count.map_or_else(|| expected.to_owned(), |count| format!("{count} values"))
 }
 
 /// The value that serde did not expect: "string \"fast\"", "integer `3`", "map".
@@ -182,7 +186,7 @@ mod tests {
     fn serdes_errors_are_put_with_the_whole_key_the_value_and_a_remedy() {
         let point = |rest: &str| format!("inner = [\"nothing\", {{ point = {{ {rest} }} }}]");
         for (text, expected) in [
-            (String::new(), "`inner` is missing: add it above the first table"),
+            (String::new(), "`inner` is missing: add `inner = …`"),
             ("iner = []".to_owned(), "`iner` is no key: did you mean `inner`?"),
             ("colour = []".to_owned(), "`colour` is no key: use inner"),
             ("inner = 3".to_owned(), "`inner` must be an array, not 3"),
@@ -190,11 +194,11 @@ mod tests {
                 "inner = [\"pint\"]".to_owned(),
                 "`inner.0` must be one of point, nothing, not `pint`: did you mean `point`?",
             ),
-            (point("count = 1, is_there = true"), "`inner.1.point.place_m` is missing: add it to `inner.1.point`"),
+            (point("count = 1, is_there = true"), "`inner.1.point.place_m` is missing: add `place_m = …`"),
             (point("count = -1"), "`inner.1.point.count` must be a whole number from 0 up, not -1"),
             (point("is_there = \"yes\""), "`inner.1.point.is_there` must be true or false, not \"yes\""),
             (point("place_m = [1.0, 2.0]"), "`inner.1.point.place_m` must have 3 values, not 2"),
-            (point("place_m = [1.0, 2.0, 3.0, 4.0]"), "`inner.1.point.place_m` must have 3 values, not 4"),
+            (point("place_m = [1.0, 2.0, 3.0, 4.0]"), "`inner.1.point.place_m` has too many values, 4"),
             (point("place_m = [1.0, \"b\", 3.0]"), "`inner.1.point.place_m.1` must be a number, not \"b\""),
             (point("place_m = { x = 1.0 }"), "`inner.1.point.place_m` must be an array of 3 values, not a table"),
         ] {

@@ -26,6 +26,12 @@ impl Layer {
     }
 
     fn set(&mut self, setting: &Setting, key: &str) -> Result<()> {
+        // A suite by its name is a table that builds on it.
+        if key.starts_with("sensors.")
+            && let Some(suite @ Value::String(_)) = self.table.get_mut("sensors")
+        {
+            *suite = Value::Table([("suite".to_owned(), suite.clone())].into_iter().collect());
+        }
         setting.apply(&mut self.table, key)?;
         self.set.push(key.to_owned());
         Ok(())
@@ -145,7 +151,7 @@ impl Scenario {
                 let remedy = "name a tuning file, or give gains under `[control]`";
                 return Err(Refusal::new("tuning", rule).remedy(remedy).into());
             }
-            _ => bail!("`tuning` and `control` both say what flies: keep one"),
+            _ => bail!(BOTH),
         };
         let scenario = Self { name: name.to_owned(), file, airframe, controller };
         scenario.validate()?;
@@ -161,8 +167,13 @@ pub fn tuning(name: &str) -> Result<TuningFile> {
     read(name, "tuning", &TUNINGS)
 }
 
+const BOTH: &str = "`tuning` and `control` both say what flies: keep one";
+
 /// Lays settings of gains over the scenario's own, or over those of its tuning, which is given back then.
 fn gains(own: &mut Layer, settings: &[(&Setting, &str)]) -> Result<Option<Layer>> {
+    if own.table.contains_key("tuning") && own.table.contains_key("control") {
+        bail!("{}: {BOTH}", own.source);
+    }
     let Some(mut tuning) = named_tuning(&own.table)? else {
         for (setting, key) in settings {
             require_controller("smc", setting, &own.source)?;
@@ -205,17 +216,14 @@ fn prefix(controller: &str) -> (&'static str, &'static str) {
 
 /// Refuses a setting of another controller's gains than those that `source` gives.
 fn require_controller(controller: &str, setting: &Setting, source: &Source) -> Result<()> {
-    let (of, rest) = setting.split();
+    let (of, _) = setting.split();
     let of = if of == "control" { "smc" } else { of };
     if of == controller {
         return Ok(());
     }
     let (right, _) = prefix(controller);
     let text = setting.text;
-    bail!(
-        "--set {text}: {source} has the gains of `{controller}`, not of `{of}`: set `{right}{}`, or another `tuning`",
-        rest.unwrap_or_default()
-    )
+    bail!("--set {text}: {source} has the gains of `{controller}`, not of `{of}`: set `{right}…`, or another `tuning`")
 }
 
 /// Whether a setting makes another problem of it than the one whose time-optimal bound is known.

@@ -1,6 +1,6 @@
 //! `--set KEY=VALUE`: a dotted key of a table, with indices for arrays (`fault.0.from_s`), and its value as TOML has it.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Error, Result, bail};
 use toml::{Table, Value};
 
 use crate::refusal::Refusal;
@@ -56,7 +56,7 @@ fn set(table: &mut Table, key: &str, value: Value) -> Result<()> {
         table.insert(key.to_owned(), value);
         return Ok(());
     };
-    match descend(table, path)? {
+    match descend(table, path, last)? {
         Value::Table(table) => drop(table.insert(last.to_owned(), value)),
         Value::Array(values) => *entry(values, path, last)? = value,
         other => return Err(no_table(path, other).into()),
@@ -64,21 +64,36 @@ fn set(table: &mut Table, key: &str, value: Value) -> Result<()> {
     Ok(())
 }
 
-/// The value at a dotted path.
-fn descend<'a>(table: &'a mut Table, path: &str) -> Result<&'a mut Value> {
-    let end_of = |part: &str| part.as_ptr() as usize - path.as_ptr() as usize + part.len();
-    let mut parts = path.split('.');
-    let first = parts.next().unwrap_or_default();
-    let mut place = table.entry(first).or_insert_with(|| Value::Table(Table::new()));
-    for part in parts {
-        let so_far = &path[..end_of(part) - part.len() - 1];
+fn is_index(part: &str) -> bool {
+    part.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// An array that an index is to reach into and that is not there.
+fn no_entry(key: &str) -> Error {
+    Refusal::new(key, "has no entries").remedy(format!("set it as a whole, as in --set '{key}=[{{ … }}]'")).into()
+}
+
+/// The value at a dotted path; `last` is the key that is set in it.
+fn descend<'a>(table: &'a mut Table, path: &str, last: &str) -> Result<&'a mut Value> {
+    let parts: Vec<&str> = path.split('.').chain([last]).collect();
+    let so_far = |count: usize| parts[..count].join(".");
+    let mut place = child(table, parts[0], parts[0], parts[1])?;
+    for i in 1..parts.len() - 1 {
         place = match place {
-            Value::Table(table) => table.entry(part).or_insert_with(|| Value::Table(Table::new())),
-            Value::Array(values) => entry(values, so_far, part)?,
-            other => return Err(no_table(so_far, other).into()),
+            Value::Table(table) => child(table, &so_far(i + 1), parts[i], parts[i + 1])?,
+            Value::Array(values) => entry(values, &so_far(i), parts[i])?,
+            other => return Err(no_table(&so_far(i), other).into()),
         };
     }
     Ok(place)
+}
+
+/// The value of a table by its name, `key` in full; one that is not there is made, unless `next` is an index into it.
+fn child<'a>(table: &'a mut Table, key: &str, name: &str, next: &str) -> Result<&'a mut Value> {
+    if !table.contains_key(name) && is_index(next) {
+        return Err(no_entry(key));
+    }
+    Ok(table.entry(name).or_insert_with(|| Value::Table(Table::new())))
 }
 
 fn no_table(key: &str, value: &Value) -> Refusal {
@@ -120,6 +135,7 @@ mod tests {
             ("a.1.b=1", "--set a.1.b=1: `a.1` is not there: `a` has the entries 0 to 0"),
             ("a.0.b.2=1", "--set a.0.b.2=1: `a.0.b.2` is not there: `a.0.b` has the entries 0 to 1"),
             ("f.0.x=1", "--set f.0.x=1: `f.0` is not there: `f` is empty"),
+            ("g.0.x=1", "--set g.0.x=1: `g` has no entries: set it as a whole, as in --set 'g=[{ … }]'"),
             ("c.x.y=1", "--set c.x.y=1: `c` is 3, and no table: it has no keys below it"),
             ("c=", "--set c=: the value is missing: use KEY=VALUE"),
             ("=3", "--set =3: a part of the key is missing: use KEY=VALUE, as in control.x.lambda=3"),

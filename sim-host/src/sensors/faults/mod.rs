@@ -280,7 +280,10 @@ impl Kind {
 fn pointing(direction: Option<[f64; 3]>) -> Result<()> {
     let Some(direction) = direction else { return Ok(()) };
     direction.iter().try_for_each(|value| within("fault.direction", *value, -1e6, 1e6))?;
-    ensure!(direction.iter().any(|value| value.abs() > 1e-6), "`fault.direction` must point somewhere");
+    ensure!(
+        direction.iter().any(|value| value.abs() > 1e-6),
+        "`fault.direction` must point somewhere, not be zero: leave it out for one drawn from the seed"
+    );
     Ok(())
 }
 
