@@ -41,7 +41,7 @@ pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
     }
     let (host, port) = match text.rsplit_once(':') {
         Some((host, port)) => {
-            let port = port.parse::<u16>();
+            let port = port.parse::<u16>().ok();
             (host, port.with_context(|| format!("`{text}` has no port from 0 to 65535: use {host}:{default_port}"))?)
         }
         None => (text, default_port),

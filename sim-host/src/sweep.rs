@@ -56,10 +56,12 @@ impl Recorder for Extremes {
 /// # Errors
 /// A scenario that has no disturbance.
 pub fn sweep(scenario: &Scenario, seed: u64, refinements: u32) -> Result<Vec<Strength>> {
-    let base = scenario
-        .file
-        .disturbance
-        .with_context(|| format!("scenario `{}` has no [disturbance]: choose one that has", scenario.name))?;
+    let base = scenario.file.disturbance.with_context(|| {
+        format!(
+            "scenario `{}` has no `[disturbance]` to scale: choose one that has, as paper-disturbed, or set one",
+            scenario.name
+        )
+    })?;
     let mut flown: Vec<Strength> = Vec::new();
     let (mut held, mut failed) = (0.0_f64, None);
     let mut factor = 1.0;

@@ -80,6 +80,10 @@ fn a_name_that_is_unknown_is_answered_with_the_one_that_was_meant() {
         (&["compare", "x500", "--disturbances", "mass30"], &["`mass30`", "did you mean `mass+30`?"]),
         (&["tune", "x500-scm", "--out", "out"], &["tune `x500-scm`", "did you mean `x500-smc`?"]),
         (&["asess"], &["'asess'", "'assess'"]),
+        (&["rnu", "helix"], &["'rnu'", "did you mean `run`?"]),
+        (&["fly", "helix"], &["'fly'", "run, scenarios, serve"]),
+        (&["sweep", "helix"], &["scenario `helix`", "no `[disturbance]`", "paper-disturbed"]),
+        (&["assess", "helix"], &["scenario `helix`", "no `[assess]`", "sim-host assess"]),
         (&["helix"], &["'helix'", "sim-host run helix"]),
         (&["run", "helix", "--sed", "3"], &["'--sed'", "'--seed'"]),
         (&["tune", "x500-smc", "--out", "o", "--method", "psoo"], &["'psoo'", "pso"]),
@@ -106,10 +110,16 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("helix", "control.x.reaching=sng", &["`control.x.reaching`", "`sng`", "did you mean `sgn`?"]),
         ("helix", "control.tilt_max_rad=1.6", &["`control.tilt_max_rad` must be below 1.5, not 1.6"]),
         ("helix", "airframe.mass=3", &["`airframe.mass` is no key", "did you mean `mass_kg`?"]),
+        (
+            "helix",
+            "airframe.thrust_to_weight=3",
+            &["scenario `helix` has its own `thrust_to_weight`", "set `thrust_to_weight`"],
+        ),
+        ("field", "sensors.gnss.rate_hz=3", &["`sensors.gnss.rate_hz`", "whole milliseconds, not 3", "divides 1000"]),
         ("helix", "airframe.mass_kg=-3", &["`airframe.mass_kg` must be above 0, not -3"]),
         ("helix", "airframe.rotors.1.lift_n_s2=0", &["`airframe.rotors.1.lift_n_s2` must be above 0, not 0"]),
         ("helix", "airframe.rotors.4.x_m=0", &["`rotors.4` is not there", "0 to 3"]),
-        ("helix", "plant=rubber-body", &["`plant` must be one of rigid-body,", "did you mean `rigid-body`?"]),
+        ("helix", "plant=rigd-body", &["`plant` must be one of rigid-body,", "did you mean `rigid-body`?"]),
         ("helix", "trajectory={helx={}}", &["`trajectory` must be one of", "did you mean `helix`?"]),
         ("helix", "trajectory=3", &["`trajectory` must be", "not 3"]),
         ("helix", "duration_s=0", &["`duration_s` must be between 0.001 and 1e6 s, not 0"]),
@@ -123,7 +133,7 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("helix", "duration_s.x=3", &["`duration_s` is 20.0, and no table"]),
         ("helix", "start_position_m=[0,0]", &["`start_position_m` must have 3 values, not 2"]),
         ("helix", "start_position_m=[0,0,0,0]", &["`start_position_m` has too many values, 4"]),
-        ("helix", "start_position_m.1=nan", &["`start_position_m.1` must be between -1e6 and 1e6 m, not nan"]),
+        ("x500-hover", "start_position_m.1=nan", &["`start_position_m.1` must be between -1e6 and 1e6 m, not nan"]),
         ("helix", "start_position_m.3=1", &["`start_position_m` has no entries", "as a whole"]),
         ("helix", "push=[{from_s=3,to_s=1}]", &["`push.0.to_s`", "from 3 to 1 s runs backwards"]),
         ("helix", "modes.climb_m_s=0", &["`modes.climb_m_s` must be between 0.05 and 100 m/s, not 0"]),
@@ -141,6 +151,13 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("kind=\"rotr\",index=0,effectiveness=0.5", &["`fault.0.kind`", "`rotr`", "did you mean `rotor`?"][..]),
         ("kind=\"rotor\",index=7,effectiveness=0.5", &["`fault.0.index` must be between 0 and 3, not 7"]),
         ("kind=\"rotor\",index=\"two\",effectiveness=0.5", &["`fault.0.index` must be a whole number", "not \"two\""]),
+        ("kind=\"glitch\",sensor=\"baro\",size_m=1", &["`fault.0.kind`", "`glitch`", "`baro`", "gnss, pose"]),
+        ("kind=\"off\"", &["`fault.0.sensor` is missing", "mag, baro, gnss, pose, battery"]),
+        ("kind=\"off\",sensor=\"gnss\"", &["`fault.0.sensor` is `gnss`", "`sensors`"]),
+        (
+            "kind=\"rotor\",to_s=0.5,index=1,effectiveness=0.5",
+            &["`fault.0.to_s`", "`fault.0.from_s`", "runs backwards"],
+        ),
         ("kind=\"rotor\",indx=2,effectiveness=0.5", &["`fault.0.indx` is no key", "did you mean `index`?"]),
     ] {
         folder.refuses_settings("x500-hover", &[&format!("fault=[{{{fault},from_s=1}}]")], parts);
@@ -272,12 +289,17 @@ fn ranges_of_seeds_and_numbers_of_threads_say_what_they_may_be() {
         ("5", "--seed 5"),
         ("a..b", "`a` is not a seed"),
         ("1..99999999", "more than 1000000"),
-        ("1..99999999999999999999", "too large"),
+        ("1..99999999999999999999", "0 to 18446744073709551615"),
     ] {
         folder.refuses(&["run", "helix", "--seeds", seeds], &["--seeds", seeds, part]);
     }
     folder.refuses(&["run", "helix", "--seeds", "1..2", "--jobs", "0"], &["--jobs", "'0'", "from 1 up"]);
     folder.refuses(&["compare", "--jobs", "many"], &["--jobs", "'many'", "from 1 up"]);
+    for arguments in
+        [&["run", "helix", "--seed", "-1"][..], &["sweep", "paper-disturbed", "--seed", "99999999999999999999"]]
+    {
+        folder.refuses(arguments, &["--seed", arguments[3], "0 to 18446744073709551615"]);
+    }
     folder.refuses(&["bench", "--seconds", "nan"], &["--seconds must be between 1 and 1e6 s, not nan"]);
     folder.refuses(&["bench", "--runs", "0"], &["--runs must be between 1 and 10000, not 0"]);
     let (_, said) = folder.prints(&["run", "helix", "--set", "duration_s=0.1", "--seeds", "1..=2", "--jobs", "100000"]);

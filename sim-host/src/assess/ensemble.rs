@@ -124,7 +124,11 @@ fn root_mean_square(values: &[f64]) -> Option<f64> {
 /// The scenario's name, if it is not one that is judged, or what of it the firmware refuses.
 pub fn fly(scenario: &Scenario, seeds: Seeds, flown: impl Fn() + Sync) -> Result<Report> {
     let assess = scenario.file.assess.as_ref().with_context(|| {
-        format!("scenario `{}` has no `[assess]`: it says nothing of what is expected of it", scenario.name)
+        format!(
+            "scenario `{}` has no `[assess]`, which says what is expected of it: add one, or fly those that have by \
+             `sim-host assess` alone",
+            scenario.name
+        )
     })?;
     assess.require_part_of(scenario.file.duration_s).with_context(|| format!("scenario `{}`", scenario.name))?;
     let measured: Vec<Measures> = (seeds.first..=seeds.last)

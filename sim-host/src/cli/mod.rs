@@ -24,11 +24,12 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use clap::error::{ContextKind, ContextValue};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory as _, Parser, Subcommand};
 
 use crate::link;
+use crate::refusal::did_you_mean;
 use crate::scenario::{self, Scenario};
-use crate::seeds::Seeds;
+use crate::seeds::{self, Seeds};
 use crate::tune::Method;
 
 /// More threads than this do not make it faster.
@@ -63,7 +64,7 @@ enum Command {
         #[command(flatten)]
         which: Which,
         /// Seed of the test noise.
-        #[arg(long, default_value_t = 1)]
+        #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
         seed: u64,
         /// Write analyse.json and figures there.
         #[arg(long, value_name = "DIR")]
@@ -91,7 +92,7 @@ enum Command {
         #[command(flatten)]
         which: Which,
         /// Seed of the random numbers.
-        #[arg(long, default_value_t = 1)]
+        #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
         seed: u64,
         /// Print a JSON array.
         #[arg(long)]
@@ -104,7 +105,7 @@ enum Command {
         #[command(flatten)]
         which: Which,
         /// Seed of the search.
-        #[arg(long, default_value_t = 1)]
+        #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
         seed: u64,
         /// Flights to spend at most.
         #[arg(long, default_value_t = 60_000)]
@@ -178,7 +179,13 @@ struct RunArgs {
     #[command(flatten)]
     which: Which,
     /// Seed of the random numbers.
-    #[arg(long, default_value_t = 1, conflicts_with = "seeds")]
+    #[arg(
+        long,
+        default_value_t = 1,
+        value_parser = seeds::number,
+        allow_negative_numbers = true,
+        conflicts_with = "seeds"
+    )]
     seed: u64,
     /// Seeds to fly, first and last.
     #[arg(long, value_name = "A..B")]
@@ -253,7 +260,7 @@ struct ServeArgs {
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     speed: f64,
     /// Seed of the random numbers.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
     seed: u64,
     #[command(flatten)]
     settings: Settings,
@@ -264,7 +271,7 @@ struct PilArgs {
     #[command(flatten)]
     which: Which,
     /// Seed of the random numbers.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
     seed: u64,
     /// The image; by default the one that `cargo fw-pil` has built.
     #[arg(long, value_name = "ELF")]
@@ -300,7 +307,7 @@ struct TuneArgs {
     #[arg(long, default_value_t = 60)]
     iterations: usize,
     /// Seed of the search.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
     seed: u64,
     #[command(flatten)]
     threads: Threads,
@@ -349,7 +356,10 @@ fn refuse(error: &clap::Error) -> ExitCode {
     }
     let text = error.to_string();
     let (complaint, tip) = complaint(&text);
-    let tip = misplaced_scenario(error).or(tip).map_or(String::new(), |tip| format!(": {tip}"));
+    let tip = misplaced_scenario(error)
+        .or(tip)
+        .or_else(|| meant_command(error))
+        .map_or(String::new(), |tip| format!(": {tip}"));
     eprintln!("sim-host: {complaint}{tip} (see --help)");
     ExitCode::from(2)
 }
@@ -359,7 +369,9 @@ fn complaint(text: &str) -> (String, Option<String>) {
     let before_usage = text.split("Usage:").next().unwrap_or(text);
     let lines = || before_usage.lines().map(str::trim);
     let complaint = lines().take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ");
-    let tip = lines().find_map(|line| line.strip_prefix("tip: ").map(str::to_owned));
+    // "To pass '-1' as a value, use '-- -1'" helps nobody here: no argument begins with a dash.
+    let tips = lines().filter_map(|line| line.strip_prefix("tip: "));
+    let tip = tips.filter(|tip| !tip.starts_with("to pass")).map(str::to_owned).next();
     (complaint.trim_start_matches("error: ").to_owned(), tip)
 }
 
@@ -367,6 +379,14 @@ fn complaint(text: &str) -> (String, Option<String>) {
 fn misplaced_scenario(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
     scenario::is_built_in(word).then(|| format!("it is a scenario, which `sim-host run {word}` flies"))
+}
+
+/// The command that an unknown one may have meant, or all.
+fn meant_command(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
+    let cli = Cli::command();
+    let names: Vec<&str> = cli.get_subcommands().map(clap::Command::get_name).collect();
+    Some(did_you_mean(word, &names))
 }
 
 /// Says, once, that seeds were given to a scenario of which none makes a difference.
@@ -391,8 +411,6 @@ fn say(text: &str) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory as _;
-
     use super::*;
 
     #[test]

@@ -50,7 +50,7 @@ fn refusal(path: &str, message: &str) -> Refusal {
         && let Some((key, rule)) = quoted(message)
     {
         // A refusal of ours on its way through serde: its key is below this one, or written in full.
-        return Refusal::new(in_full(path, key), rule.trim());
+        return Refusal::new(in_full(path, key), in_full_within(path, rule.trim()));
     }
     if let Some((name, _)) = message.strip_prefix("missing field ").and_then(quoted) {
         return Refusal::new(below(path, name), "is missing").remedy(format!("add `{name} = …`"));
@@ -79,11 +79,21 @@ fn refusal(path: &str, message: &str) -> Refusal {
     Refusal::new(path, format!(": {}", message.replace('\n', " ")))
 }
 
+/// A path without the indices of arrays.
+fn names(path: &str) -> String {
+    let is_name = |part: &&str| !part.bytes().all(|byte| byte.is_ascii_digit());
+    path.split('.').filter(is_name).collect::<Vec<_>>().join(".")
+}
+
+/// A rule that names another key of the same table, with that in full.
+fn in_full_within(path: &str, rule: &str) -> String {
+    if path.is_empty() { rule.to_owned() } else { rule.replace(&format!("`{}.", names(path)), &format!("`{path}.")) }
+}
+
 /// A key that may be relative to `path`, or begin with it (without indices of arrays), in full.
 fn in_full(path: &str, key: &str) -> String {
+    let names = names(path);
     // The key itself, of a table that is read by hand.
-    let is_name = |part: &&str| !part.bytes().all(|byte| byte.is_ascii_digit());
-    let names = path.split('.').filter(is_name).collect::<Vec<_>>().join(".");
     if key == names {
         return path.to_owned();
     }

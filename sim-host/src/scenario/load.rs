@@ -133,6 +133,9 @@ impl Scenario {
         layers.0.push(Layer::new(Source::read(&file.airframe, "airframe", &AIRFRAMES)?, ("airframe.", ""))?);
         let airframe_layer = layers.0.last_mut().ok_or_else(|| anyhow!("no airframe"))?;
         of_airframe.iter().try_for_each(|(setting, key)| airframe_layer.set(setting, key))?;
+        of_airframe
+            .iter()
+            .try_for_each(|(setting, key)| require_effective(&file, setting, key, &layers.0[0].source))?;
         Self::assemble(name, file, &layers).map_err(|error| layers.explain(error))
     }
 
@@ -157,6 +160,20 @@ impl Scenario {
         scenario.validate()?;
         Ok(scenario)
     }
+}
+
+/// Refuses a setting of the airframe that the scenario has in its place: it would change nothing.
+fn require_effective(file: &ScenarioFile, setting: &Setting, key: &str, source: &Source) -> Result<()> {
+    let own = match key {
+        "thrust_to_weight" => file.thrust_to_weight,
+        "rotor_lag_s" => file.rotor_lag_s,
+        "actuation_delay_s" => file.actuation_delay_s,
+        _ => None,
+    };
+    if own.is_some() {
+        bail!("--set {}: {source} has its own `{key}` in place of the airframe's: set `{key}`", setting.text);
+    }
+    Ok(())
 }
 
 /// Loads a built-in tuning by name or a file by path.

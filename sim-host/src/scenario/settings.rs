@@ -70,7 +70,7 @@ fn is_index(part: &str) -> bool {
 
 /// An array that an index is to reach into and that is not there.
 fn no_entry(key: &str) -> Error {
-    Refusal::new(key, "has no entries").remedy(format!("set it as a whole, as in --set '{key}=[{{ … }}]'")).into()
+    Refusal::new(key, "has no entries").remedy(format!("set it as a whole, as in --set '{key}=[…]'")).into()
 }
 
 /// The value at a dotted path; `last` is the key that is set in it.
@@ -135,7 +135,7 @@ mod tests {
             ("a.1.b=1", "--set a.1.b=1: `a.1` is not there: `a` has the entries 0 to 0"),
             ("a.0.b.2=1", "--set a.0.b.2=1: `a.0.b.2` is not there: `a.0.b` has the entries 0 to 1"),
             ("f.0.x=1", "--set f.0.x=1: `f.0` is not there: `f` is empty"),
-            ("g.0.x=1", "--set g.0.x=1: `g` has no entries: set it as a whole, as in --set 'g=[{ … }]'"),
+            ("g.0.x=1", "--set g.0.x=1: `g` has no entries: set it as a whole, as in --set 'g=[…]'"),
             ("c.x.y=1", "--set c.x.y=1: `c` is 3, and no table: it has no keys below it"),
             ("c=", "--set c=: the value is missing: use KEY=VALUE"),
             ("=3", "--set =3: a part of the key is missing: use KEY=VALUE, as in control.x.lambda=3"),

@@ -7,6 +7,7 @@ use super::{AttitudeWave, Disturbance, Gust, PlantKind, Scenario, ScenarioFile, 
 use crate::airframe::AirframeFile;
 use crate::plant::air::ALTITUDE_M;
 use crate::refusal::{Refusal, after, within};
+use crate::sensors::{Fault, SuiteFile};
 use crate::sil::DELAY_TICKS_MAX;
 
 /// Greatest length or height, m: beyond it an f32 no longer resolves a decimetre.
@@ -102,6 +103,7 @@ fn world(f: &ScenarioFile) -> Result<()> {
     }
     truth(&f.truth)?;
     start(f)?;
+    f.fault.iter().enumerate().try_for_each(|(i, fault)| on_board(i, fault, f.sensors.as_ref()))?;
     f.push.iter().enumerate().try_for_each(|(i, one)| push(&format!("push.{i}"), one))?;
     f.wind.as_ref().map_or(Ok(()), wind)
 }
@@ -132,6 +134,16 @@ fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
         ensure!(!asked || is_there, "`{key}` needs `{needs}`: set it, or leave `{key}` out");
     }
     f.battery.map_or(Ok(()), |battery| within("battery.soc", battery.soc, 0.0, 1.0))
+}
+
+/// Refuses a fault of a sensor that the vehicle does not have: nothing would fail.
+fn on_board(index: usize, fault: &Fault, suite: Option<&SuiteFile>) -> Result<()> {
+    let Some(sensor) = fault.sensor.filter(|sensor| !suite.is_some_and(|suite| suite.has(*sensor))) else {
+        return Ok(());
+    };
+    let rule = format!("is `{}`, which is not on board", sensor.name());
+    let remedy = if suite.is_some() { "choose a sensor of `sensors`" } else { "give the vehicle `sensors`" };
+    Err(Refusal::new(format!("fault.{index}.sensor"), rule).remedy(remedy).into())
 }
 
 fn push(key: &str, push: &ScheduledPush) -> Result<()> {

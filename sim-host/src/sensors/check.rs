@@ -28,7 +28,7 @@ impl Check {
         if (period - period.round()).abs() < 1e-6 {
             return Ok(());
         }
-        let remedy = format!("{} Hz does, every {} ms", TICKS_PER_S / period.round(), period.round());
+        let remedy = "use a rate that divides 1000, as 1, 2, 4, 5, 8, 10, 20, 25, 40, 50 or 100";
         Err(Refusal::new(key, "must make a period of whole milliseconds").given(rate_hz).remedy(remedy).into())
     }
 

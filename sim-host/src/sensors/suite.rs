@@ -19,6 +19,7 @@ use toml::{Table, Value};
 
 use super::baro::Baro;
 use super::battery::Battery;
+use super::faults::Sensor;
 use super::gnss::Gnss;
 use super::imu::Imu;
 use super::mag::Mag;
@@ -113,6 +114,18 @@ impl SuiteFile {
         let suite = Self { summary, imu, mag, baro, gnss, pose, battery };
         suite.validate()?;
         Ok(suite)
+    }
+
+    /// Whether a sensor is on board.
+    pub fn has(&self, sensor: Sensor) -> bool {
+        match sensor {
+            Sensor::Imu | Sensor::Gyro | Sensor::Accel => true,
+            Sensor::Mag => self.mag.is_some(),
+            Sensor::Baro => self.baro.is_some(),
+            Sensor::Gnss => self.gnss.is_some(),
+            Sensor::Pose => self.pose.is_some(),
+            Sensor::Battery => self.battery.is_some(),
+        }
     }
 
     /// Refuses parts that cannot be.

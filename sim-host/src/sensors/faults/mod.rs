@@ -215,6 +215,10 @@ const KEYS: [&str; 12] = [
 ];
 
 impl Sensor {
+    /// Every sensor.
+    const ALL: [Self; 8] =
+        [Self::Imu, Self::Gyro, Self::Accel, Self::Mag, Self::Baro, Self::Gnss, Self::Pose, Self::Battery];
+
     /// The sensor whose samples it is part of.
     fn channel(self) -> Self {
         if matches!(self, Self::Gyro | Self::Accel) { Self::Imu } else { self }
@@ -236,6 +240,12 @@ impl Sensor {
 }
 
 impl Kind {
+    /// As it is written in files.
+    fn name(&self) -> String {
+        let table = toml::Table::try_from(self).unwrap_or_default();
+        table.get("kind").and_then(toml::Value::as_str).unwrap_or_default().to_owned()
+    }
+
     /// Whether a sensor can fail like that.
     fn fits(&self, sensor: Option<Sensor>) -> bool {
         use Sensor::{Accel, Battery, Gnss, Gyro, Imu, Pose};
@@ -305,16 +315,29 @@ impl Fault {
                 after(("fault.from_s", self.from_s), ("fault.to_s", to_s))?;
             }
         }
-        match self.sensor {
-            Some(sensor) => ensure!(
-                self.kind.fits(Some(sensor)),
-                "`fault.kind` does not go with the sensor `{}`: {:?}",
-                sensor.name(),
-                self.kind
-            ),
-            None => ensure!(self.kind.fits(None), "`fault.sensor` is missing"),
-        }
+        self.require_fitting_sensor()?;
         self.kind.validate()
+    }
+
+    fn require_fitting_sensor(&self) -> Result<()> {
+        if self.kind.fits(self.sensor) {
+            return Ok(());
+        }
+        let fitting = Sensor::ALL.into_iter().filter(|sensor| self.kind.fits(Some(*sensor)));
+        let fitting = fitting.map(Sensor::name).collect::<Vec<_>>().join(", ");
+        let kind = self.kind.name();
+        Err(match self.sensor {
+            Some(_) if fitting.is_empty() => {
+                Refusal::new("fault.sensor", format!("does not go with `{kind}`, which is of no sensor"))
+                    .remedy("leave it out")
+            }
+            Some(sensor) => {
+                Refusal::new("fault.kind", format!("`{kind}` does not go with the sensor `{}`", sensor.name()))
+                    .remedy(format!("use it with {fitting}"))
+            }
+            None => Refusal::new("fault.sensor", "is missing").remedy(format!("`{kind}` goes with {fitting}")),
+        }
+        .into())
     }
 }
 
