@@ -306,7 +306,7 @@ impl Scenario {
             join: self.file.join.clone(),
             start: self.file.start,
             start_position_m: self.file.start_position_m.map(|v| v as f32),
-            estimator: self.file.sensors.as_ref().map(|suite| suite.told(&self.file.home)),
+            estimator: self.file.sensors.as_ref().map(|suite| suite.estimator_settings(&self.file.home)),
             modes: self.file.modes,
             ..FlightConfig::default()
         };

@@ -208,11 +208,11 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         self.tick
     }
 
-    /// What the sensors make of it, after what befalls the plant. Out of the way of the flights on ideal state.
+    /// What the sensors make of it, after faults have acted on the plant. Out of the way of the flights on ideal state.
     #[cold]
     fn measure(&mut self) -> SensorFrame {
         if let Some(faults) = self.sensors.as_mut().and_then(|suite| suite.tell_plant(self.tick)) {
-            self.plant.befall(&faults);
+            self.plant.apply_faults(&faults);
         }
         let (motion, specific_force) = (self.plant.motion(), self.specific_force());
         let battery = self.plant.battery().map_or_else(BatteryTruth::default, |state| BatteryTruth {
