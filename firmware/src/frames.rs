@@ -47,15 +47,15 @@ impl LocalFrame {
         let (sin, cos) = math::sin_cos(origin.latitude_e7 as f32 * UNIT_RAD);
         let cos = math::max(cos, 1e-3);
         let root = math::sqrt(1.0 - ECCENTRICITY_SQ * sin * sin);
-        let across = SEMI_MAJOR_M / root;
-        let along = across * (1.0 - ECCENTRICITY_SQ) / (root * root);
+        let normal_radius = SEMI_MAJOR_M / root;
+        let meridian_radius = normal_radius * (1.0 - ECCENTRICITY_SQ) / (root * root);
         let height = origin.height_mm as f32 * 1e-3;
         Self {
             origin,
-            north_m: (along + height) * UNIT_RAD,
-            east_m: (across + height) * cos * UNIT_RAD,
-            bend: 0.5 * sin / (cos * across),
-            fall: 0.5 / across,
+            north_m: (meridian_radius + height) * UNIT_RAD,
+            east_m: (normal_radius + height) * cos * UNIT_RAD,
+            bend: 0.5 * sin / (cos * normal_radius),
+            fall: 0.5 / normal_radius,
         }
     }
 

@@ -235,7 +235,7 @@ impl<A: AttitudeLaw> Inner<A> {
     #[inline(never)]
     fn wanted_without_rotor(&mut self, reference: &AttitudeReference, dt: f32) -> AttitudeDemand {
         let Some(law) = &mut self.motor_out else { return AttitudeDemand::default() };
-        law.step(&AttitudeInput {
+        law.demand(&AttitudeInput {
             attitude: &self.nav.attitude,
             rates: &self.nav.rates,
             target: &reference.target_after(dt),
@@ -272,7 +272,7 @@ impl<A: AttitudeLaw> Inner<A> {
             return;
         }
         let force_z = navigator.specific_force().z;
-        self.monitor.step(&self.nav.rates, force_z, &self.effect, self.rotors.omega_rad_s());
+        self.monitor.update(&self.nav.rates, force_z, &self.effect, self.rotors.omega_rad_s());
         if let Some(rotor) = self.monitor.failed() {
             let law = MotorOut::new(&self.airframe, usize::from(rotor));
             let _ = self.mixer.set_limits(law.limits());

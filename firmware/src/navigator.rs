@@ -44,9 +44,9 @@ impl Navigator {
     /// the speeds at which the rotors are believed to turn.
     #[inline]
     pub fn step(&mut self, measured: Option<&Measurements>, omega_rad_s: &[f32; ROTORS]) -> bool {
-        let fresh = self.predictor.step(measured.and_then(|m| m.imu.as_ref()));
+        let fresh = self.predictor.predict(measured.and_then(|m| m.imu.as_ref()));
         let raw = self.predictor.rates() + self.predictor.state().gyro_bias;
-        self.filtered = self.gyro.step(&raw, omega_rad_s);
+        self.filtered = self.gyro.filter(&raw, omega_rad_s);
         self.battery_age = self.battery_age.saturating_add(1);
         if let Some(measured) = measured {
             self.keep(measured);

@@ -222,7 +222,7 @@ impl<P: PositionLaw> Outer<P> {
             }
         }
         self.source = Source::Setpoint;
-        self.setpoint.step(target)
+        self.setpoint.advance(target)
     }
 
     /// Down, by what is known of the motion.

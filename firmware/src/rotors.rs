@@ -25,8 +25,8 @@ impl<P: SetDutyCycle> PwmRotors<P> {
     pub fn set(&mut self, command: &MotorCommand) -> Result<(), P::Error> {
         let mut result = Ok(());
         for (output, omega) in self.outputs.iter_mut().zip(command.omega_rad_s) {
-            let part = math::clamp(omega / self.omega_max_rad_s, 0.0, 1.0);
-            let duty = (part * f32::from(output.max_duty_cycle()) + 0.5) as u16;
+            let fraction = math::clamp(omega / self.omega_max_rad_s, 0.0, 1.0);
+            let duty = (fraction * f32::from(output.max_duty_cycle()) + 0.5) as u16;
             result = result.and(output.set_duty_cycle(duty));
         }
         result

@@ -99,7 +99,7 @@ impl GyroFilter {
 
     /// Rates for the controller, of those measured and the rotors' speeds, all rad/s.
     #[inline]
-    pub fn step(&mut self, measured: &Vector3<f32>, omega_rad_s: &[f32; ROTORS]) -> Vector3<f32> {
+    pub fn filter(&mut self, measured: &Vector3<f32>, omega_rad_s: &[f32; ROTORS]) -> Vector3<f32> {
         self.turn = (self.turn + 1) % ROTORS;
         if let (Some(notch), Some(omega)) = (self.notches.get_mut(self.turn), omega_rad_s.get(self.turn)) {
             notch.coefficients = Coefficients::notch(*omega);
@@ -126,7 +126,7 @@ mod tests {
         let (settle, count) = (4_000, 20_000);
         for k in 0..settle + count {
             let phase = omega * f64::from(k) * 1e-3;
-            let y = f64::from(filter.step(&Vector3::repeat(phase.sin() as f32), &rotors).y);
+            let y = f64::from(filter.filter(&Vector3::repeat(phase.sin() as f32), &rotors).y);
             if k >= settle {
                 sine += y * phase.sin();
                 cosine += y * phase.cos();

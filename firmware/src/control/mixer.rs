@@ -150,11 +150,11 @@ where
     ///
     /// # Errors
     /// [`MixerError::Limit`] with the first rotor whose part is out of range; all limits then stay as they were.
-    pub fn set_limits(&mut self, parts: [f32; N]) -> Result<(), MixerError> {
-        if let Some(rotor) = parts.iter().position(|part| !(0.0..=1.0).contains(part)) {
+    pub fn set_limits(&mut self, fractions: [f32; N]) -> Result<(), MixerError> {
+        if let Some(rotor) = fractions.iter().position(|fraction| !(0.0..=1.0).contains(fraction)) {
             return Err(MixerError::Limit(rotor));
         }
-        self.limits = parts.map(|part| math::abs(part) * self.omega_sq_max);
+        self.limits = fractions.map(|fraction| math::abs(fraction) * self.omega_sq_max);
         let slack = HAIR * self.omega_sq_max;
         let rotors = || self.limits.iter().zip(&self.columns);
         for facet in self.torque_facets.facets_mut() {

@@ -57,7 +57,7 @@ impl MotorOut {
     }
 
     /// Torque for this tick, of what can be given; nothing about z.
-    pub fn step(&mut self, input: &AttitudeInput) -> AttitudeDemand {
+    pub fn demand(&mut self, input: &AttitudeInput) -> AttitudeDemand {
         let AttitudeDemand { s, mut torque } = self.law.step(input);
         torque.z = 0.0;
         let beyond = torque.dot(&self.missing);
@@ -91,7 +91,7 @@ mod tests {
             rotors: &still,
             saturated: false,
         };
-        law.step(&input).torque
+        law.demand(&input).torque
     }
 
     #[test]

@@ -80,7 +80,7 @@ impl DisturbanceObserver {
 
     /// d̂ now, given the rate as measured now and the model's acceleration from now to the next step.
     #[inline]
-    pub fn step(&mut self, measured: &Vector3<f32>, model: &Vector3<f32>) -> Vector3<f32> {
+    pub fn estimate(&mut self, measured: &Vector3<f32>, model: &Vector3<f32>) -> Vector3<f32> {
         if !self.started {
             self.started = true;
             self.rate = *measured;
@@ -114,7 +114,7 @@ fn shortened(vector: &Vector3<f32>, square: f32, size: f32) -> Vector3<f32> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThrustEffectiveness {
     /// γ h.
-    part: f32,
+    adapt_gain: f32,
     value: f32,
 }
 
@@ -126,7 +126,7 @@ impl ThrustEffectiveness {
 
     /// Adapted at `rate` γ (1/s), stepped every `step_s` seconds.
     pub fn new(rate: f32, step_s: f32) -> Self {
-        Self { part: rate * step_s, value: 1.0 }
+        Self { adapt_gain: rate * step_s, value: 1.0 }
     }
 
     /// κ̂.
@@ -144,7 +144,7 @@ impl ThrustEffectiveness {
     #[inline]
     pub fn adapt(&mut self, force: &Vector3<f32>, observer: &mut DisturbanceObserver) {
         let square = math::max(force.norm_squared(), Self::FORCE_MIN * Self::FORCE_MIN);
-        let wanted = self.value + self.part * observer.disturbance.dot(force) / square;
+        let wanted = self.value + self.adapt_gain * observer.disturbance.dot(force) / square;
         let value = math::clamp(wanted, Self::RANGE.0, Self::RANGE.1);
         observer.disturbance -= force * (value - self.value);
         self.value = value;
@@ -166,7 +166,7 @@ mod tests {
             let t = i as f32 * h;
             // 7 m/s² at once, and from 2 s on 5 m/s³ more.
             let d = 7.0 + slope * math::max(t - 2.0, 0.0);
-            found = observer.step(&Vector3::repeat(y), &Vector3::repeat(model));
+            found = observer.estimate(&Vector3::repeat(y), &Vector3::repeat(model));
             if i == 1_999 {
                 assert!(math::abs(found.x - 7.0) < 1e-3, "{found}");
             }
@@ -188,7 +188,7 @@ mod tests {
         for i in 0..5_000 {
             let (sin, cos) = math::sin_cos(math::wrap_angle(i as f32 * h * 3.0));
             let force = Vector3::new(6.0 * sin, 6.0 * cos, 10.0);
-            found = observer.step(&velocity, &(force * effectiveness.value()));
+            found = observer.estimate(&velocity, &(force * effectiveness.value()));
             effectiveness.adapt(&force, &mut observer);
             velocity += (force * weak + wind) * h;
         }
@@ -203,7 +203,7 @@ mod tests {
         let mut observer = DisturbanceObserver::new(&gains, 1e-3);
         let mut y = 0.0_f32;
         for _ in 0..2_000 {
-            let found = observer.step(&Vector3::repeat(y), &Vector3::zeros());
+            let found = observer.estimate(&Vector3::repeat(y), &Vector3::zeros());
             assert!(found.norm() <= 2.000_001);
             y += 10.0 * 1e-3;
         }

@@ -21,7 +21,7 @@ use crate::signals::TICK_S;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotorModel {
     /// Part of the way to its command that a rotor goes in a tick, 1 − e^(−h/τ), and what is left; 1 and 0 without lag.
-    part: f32,
+    step_fraction: f32,
     rest: f32,
     /// What is asked for beyond it, and 1 less that; 1 and 0 without lead.
     lead: f32,
@@ -33,11 +33,11 @@ pub struct RotorModel {
 impl RotorModel {
     /// At rest; `lag_s` is τ and `answer_s` τ′, in s. A τ′ that is not below τ asks for no lead.
     pub fn new(lag_s: f32, answer_s: f32, omega_max_rad_s: f32) -> Self {
-        let part = |time_s: f32| if time_s > 0.0 { 1.0 - math::exp(-TICK_S / time_s) } else { 1.0 };
-        let lead = if answer_s < lag_s { part(answer_s) / part(lag_s) } else { 1.0 };
+        let step_fraction = |time_s: f32| if time_s > 0.0 { 1.0 - math::exp(-TICK_S / time_s) } else { 1.0 };
+        let lead = if answer_s < lag_s { step_fraction(answer_s) / step_fraction(lag_s) } else { 1.0 };
         Self {
-            part: part(lag_s),
-            rest: 1.0 - part(lag_s),
+            step_fraction: step_fraction(lag_s),
+            rest: 1.0 - step_fraction(lag_s),
             lead,
             behind: 1.0 - lead,
             omega_max: omega_max_rad_s,
@@ -62,7 +62,7 @@ impl RotorModel {
         let mut command = wanted_rad_s;
         for (command, omega) in command.iter_mut().zip(&mut self.omega) {
             *command = math::limit_positive(self.lead * *command + self.behind * *omega, self.omega_max);
-            *omega = self.part * *command + self.rest * *omega;
+            *omega = self.step_fraction * *command + self.rest * *omega;
         }
         command
     }
@@ -70,7 +70,7 @@ impl RotorModel {
     /// A tick passes with these commands, rad/s.
     pub fn follow(&mut self, command_rad_s: &[f32; ROTORS]) {
         for (omega, command) in self.omega.iter_mut().zip(command_rad_s) {
-            *omega = self.part * command + self.rest * *omega;
+            *omega = self.step_fraction * command + self.rest * *omega;
         }
     }
 }
@@ -119,19 +119,19 @@ impl RotorTorque {
 /// constant of T + τ′: from where it is, it is asked to go the part τ′/(T + τ′) of the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct YawInversion {
-    part: f32,
+    anticipation: f32,
 }
 
 impl YawInversion {
     /// With T and τ′, s.
     pub fn new(lead_s: f32, answer_s: f32) -> Self {
-        Self { part: if lead_s > 0.0 { answer_s / (lead_s + answer_s) } else { 1.0 } }
+        Self { anticipation: if lead_s > 0.0 { answer_s / (lead_s + answer_s) } else { 1.0 } }
     }
 
     /// U4 (N m) to ask for, given that of the speeds now and the torque wanted.
     #[inline]
     pub fn demand(self, now: f32, wanted: f32) -> f32 {
-        now + self.part * (wanted - now)
+        now + self.anticipation * (wanted - now)
     }
 }
 

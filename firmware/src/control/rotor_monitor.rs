@@ -99,17 +99,17 @@ impl RotorMonitor {
 
     /// A tick in the air: Ω (rad/s), the thrust axis' specific force (m/s²), and what the rotors are believed to do at
     /// their speeds (rad/s).
-    pub fn step(&mut self, rates: &Vector3<f32>, force_z: f32, believed: &RotorEffect, omega_rad_s: &[f32; ROTORS]) {
-        let part = TICK_S / LAG_S;
+    pub fn update(&mut self, rates: &Vector3<f32>, force_z: f32, believed: &RotorEffect, omega_rad_s: &[f32; ROTORS]) {
+        let lag_gain = TICK_S / LAG_S;
         let acceleration = (rates - self.rates.0) / LAG_S;
-        self.rates.0 += (rates - self.rates.0) * part;
+        self.rates.0 += (rates - self.rates.0) * lag_gain;
         let square = Vector4::from(*omega_rad_s).map(|omega| omega * omega);
         let thrust = Vector4::from(self.airframe.geometry.thrust).dot(&square);
         let holding = attitude::torque(&self.airframe, &Vector3::zeros(), rates, believed.spin_rad_s);
         let missing = holding - believed.torque;
         let lack = Vector4::new(self.airframe.mass_kg * force_z - thrust, missing.x, missing.y, missing.z);
-        self.missing.0 += (lack - self.missing.0) * part;
-        self.square.0 += (square - self.square.0) * part;
+        self.missing.0 += (lack - self.missing.0) * lag_gain;
+        self.square.0 += (square - self.square.0) * lag_gain;
         let inertia = Vector3::from(self.airframe.inertia_kg_m2).component_mul(&acceleration);
         let turning = Vector4::new(0.0, inertia.x, inertia.y, inertia.z);
         self.judge(&(self.missing.0 + turning));
@@ -123,10 +123,10 @@ impl RotorMonitor {
         }
         // A rotor that fails leaves less thrust than is believed; what is held up by more of it touches the ground.
         let lifted_less = missing.x < 0.0;
-        let mut parts = self.effectiveness;
-        parts.iter_mut().zip(&self.baseline).for_each(|(part, baseline)| *part /= baseline);
-        let weak = parts.iter().position(|part| *part < FAILED_BELOW).filter(|_| lifted_less);
-        let alone = |rotor: usize| parts.iter().enumerate().all(|(other, part)| other == rotor || *part > SOUND_ABOVE);
+        let mut relative = self.effectiveness;
+        relative.iter_mut().zip(&self.baseline).for_each(|(eta, baseline)| *eta /= baseline);
+        let weak = relative.iter().position(|eta| *eta < FAILED_BELOW).filter(|_| lifted_less);
+        let alone = |rotor: usize| relative.iter().enumerate().all(|(other, eta)| other == rotor || *eta > SOUND_ABOVE);
         if weak.is_none() {
             for (baseline, eta) in self.baseline.iter_mut().zip(&self.effectiveness) {
                 let next = *baseline + (eta - *baseline) * (TICK_S / BASELINE_S);
@@ -153,18 +153,18 @@ mod tests {
 
     /// A body at rest whose rotors turn at hover, with these parts of their thrust, and pushed by a torque (N m): rates
     /// as they grow from it.
-    fn watch(parts: [f32; ROTORS], push: Vector3<f32>, ticks: u32) -> RotorMonitor {
-        watch_held_up(parts, push, 0.0, ticks)
+    fn watch(effectiveness: [f32; ROTORS], push: Vector3<f32>, ticks: u32) -> RotorMonitor {
+        watch_held_up(effectiveness, push, 0.0, ticks)
     }
 
     /// The same with something from below that bears a part of the weight.
-    fn watch_held_up(parts: [f32; ROTORS], push: Vector3<f32>, held_up: f32, ticks: u32) -> RotorMonitor {
+    fn watch_held_up(effectiveness: [f32; ROTORS], push: Vector3<f32>, held_up: f32, ticks: u32) -> RotorMonitor {
         let airframe = Airframe::paper(2.0);
         let mut monitor = RotorMonitor::new(&airframe);
         let omega = [airframe.omega_for_thrust_to_weight(1.0); ROTORS];
         let effect = RotorTorque::new(&airframe).steady(&omega);
         let square = omega[0] * omega[0];
-        let sum = |row: [f32; ROTORS]| row.iter().zip(parts).map(|(b, part)| b * part * square).sum::<f32>();
+        let sum = |row: [f32; ROTORS]| row.iter().zip(effectiveness).map(|(b, eta)| b * eta * square).sum::<f32>();
         let g = &airframe.geometry;
         let torque = Vector3::new(sum(g.roll), sum(g.pitch), sum(g.yaw)) + push;
         let inertia = Vector3::from(airframe.inertia_kg_m2);
@@ -172,7 +172,7 @@ mod tests {
         monitor.reset(&rates);
         for _ in 0..ticks {
             let force = sum(g.thrust) / airframe.mass_kg + held_up * airframe.gravity_m_s2;
-            monitor.step(&rates, force, &effect, &omega);
+            monitor.update(&rates, force, &effect, &omega);
             let holding = attitude::torque(&airframe, &Vector3::zeros(), &rates, effect.spin_rad_s);
             rates += (torque - holding).component_div(&inertia) * TICK_S;
         }
@@ -182,9 +182,9 @@ mod tests {
     #[test]
     fn a_lost_rotor_is_found_within_an_eighth_of_a_second() {
         for rotor in 0..ROTORS {
-            let mut parts = [1.0; ROTORS];
-            parts[rotor] = 0.0;
-            assert_eq!(watch(parts, Vector3::zeros(), 125).failed(), Some(rotor as u8));
+            let mut effectiveness = [1.0; ROTORS];
+            effectiveness[rotor] = 0.0;
+            assert_eq!(watch(effectiveness, Vector3::zeros(), 125).failed(), Some(rotor as u8));
         }
     }
 

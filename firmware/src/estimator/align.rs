@@ -57,7 +57,7 @@ pub struct Aligner {
 impl Aligner {
     /// One job's sums and samples. None until the window is full; then what it has shown, or nothing if the vehicle moved
     /// and there is patience left.
-    pub fn step(
+    pub fn update(
         &mut self,
         span: &Span,
         mag: Option<&MagSample>,
@@ -180,7 +180,7 @@ mod tests {
             let (gyro, accel) = imu(job);
             let span = Span { ticks: 4, samples: 4, gyro: gyro * 4.0, accel: accel * 4.0, ..Span::default() };
             let mag = MagSample { at: job * 4, field_ut: field };
-            aligner.step(&span, Some(&mag), None, north.as_ref(), G).map(|a| (job, a))
+            aligner.update(&span, Some(&mag), None, north.as_ref(), G).map(|a| (job, a))
         })
     }
 

@@ -290,8 +290,8 @@ impl Filter {
         self.history.order(Moved::default());
         let c = &self.ordered;
         let mut error = ErrorState::zeros();
-        let parts = [c.theta, c.velocity, c.position, c.gyro_bias, c.accel_bias];
-        for (to, from) in error.iter_mut().zip(parts.iter().flat_map(|v| v.iter())) {
+        let components = [c.theta, c.velocity, c.position, c.gyro_bias, c.accel_bias];
+        for (to, from) in error.iter_mut().zip(components.iter().flat_map(|v| v.iter())) {
             *to = *from;
         }
         error
@@ -303,7 +303,7 @@ impl Filter {
         let mag = input.readings.mag.filter(|mag| math::all_finite(mag.field_ut.as_slice()));
         let pose = self.last_pose.filter(|pose| now.wrapping_sub(pose.at) < POSE_FRESH);
         let Some(aligner) = &mut self.aligner else { return FilterOutput::initial() };
-        let found = aligner.step(&input.span, mag.as_ref(), pose.as_ref(), self.north.as_ref(), self.gravity);
+        let found = aligner.update(&input.span, mag.as_ref(), pose.as_ref(), self.north.as_ref(), self.gravity);
         let Some(alignment) = found else { return FilterOutput::initial() };
         let state = self.begin(&alignment, pose.as_ref());
         self.aligner = None;

@@ -93,7 +93,7 @@ impl Filter {
             self.offsets.heading += measurement.innovation[0] - reading.row.dot(&job.error);
             // Which of the two is wrong the field cannot tell: satellites shall be able to.
             self.covariance.add_variance(index::THETA + 2, HEADING_IN_DOUBT * HEADING_IN_DOUBT);
-            self.anchor(job, &measurement, index::HEADING_OFFSET);
+            self.realign_offset(job, &measurement, index::HEADING_OFFSET);
             self.watches.mag.note(job.now.at, true);
         }
     }
@@ -125,7 +125,7 @@ impl Filter {
             self.height_by = by;
             self.offsets.height = beyond;
             let measurement = Measurement { rows: [row], innovation: [0.0], variance: [variance] };
-            self.anchor(job, &measurement, index::HEIGHT_OFFSET);
+            self.realign_offset(job, &measurement, index::HEIGHT_OFFSET);
             return Verdict { nis: 0.0, accepted: true };
         }
         let innovation = height - age.then.position.z - row.dot(&age.since) - self.offsets.height;
@@ -142,12 +142,12 @@ impl Filter {
         }
         self.fuse_gnss_velocity(job, &age, gnss);
         let believed = age.then.position;
-        let anchor = believed + axes_of(&age.since, index::POSITION);
+        let reference = believed + axes_of(&age.since, index::POSITION);
         let frame = *self.frame.get_or_insert_with(|| LocalFrame::new(place));
         let local = frame.to_local(&place);
         if !self.watches.gnss.is_live(job.now.at, Tick::MAX / 4) {
             // The first: its frame is where the vehicle is.
-            self.offsets.gnss = [local.x - anchor.x, local.y - anchor.y];
+            self.offsets.gnss = [local.x - reference.x, local.y - reference.y];
         }
         let [noise, noise_up] = self.settings.gnss_noise_m;
         let rows = [age.position(0, (index::OFFSET, 1.0)), age.position(1, (index::OFFSET + 1, 1.0))];
@@ -177,20 +177,20 @@ impl Filter {
         {
             *offset += innovation - row.dot(&job.error);
         }
-        self.anchor(job, measurement, index::OFFSET);
+        self.realign_offset(job, measurement, index::OFFSET);
         self.watches.gnss.note(job.now.at, true);
     }
 
     /// Offsets from `first` on have been set so that a reading agrees: nothing is left of its innovation, and what the
     /// offsets are known by is the reading and what else it depends on.
-    fn anchor<const N: usize>(&mut self, job: &mut Job, measurement: &Measurement<N>, first: usize) {
+    fn realign_offset<const N: usize>(&mut self, job: &mut Job, measurement: &Measurement<N>, first: usize) {
         let error = job.error;
         let agrees = Measurement { innovation: measurement.rows.map(|row| row.dot(&error)), ..*measurement };
-        self.anew(job, &agrees, first);
+        self.reset_states_from(job, &agrees, first);
     }
 
     /// States from `first` on are forgotten, and learnt from a reading whatever was believed.
-    fn anew<const N: usize>(&mut self, job: &mut Job, measurement: &Measurement<N>, first: usize) {
+    fn reset_states_from<const N: usize>(&mut self, job: &mut Job, measurement: &Measurement<N>, first: usize) {
         for state in first..first + N {
             self.covariance.set_variance(state, FORGOTTEN * FORGOTTEN);
         }
@@ -208,7 +208,7 @@ impl Filter {
         job.note(Source::GnssVelocity, verdict);
         self.watches.gnss_velocity.note(job.now.at, verdict.accepted);
         if self.watches.gnss_velocity.is_at_odds(job.now.at, JUMPED_AFTER) {
-            self.anew(job, &measurement, index::VELOCITY);
+            self.reset_states_from(job, &measurement, index::VELOCITY);
             self.watches.gnss_velocity.note(job.now.at, true);
         }
     }
@@ -232,7 +232,7 @@ impl Filter {
             for axis in 0..3 {
                 self.covariance.set_variance(index::VELOCITY + axis, 1.0);
             }
-            self.anew(job, &measurement, index::POSITION);
+            self.reset_states_from(job, &measurement, index::POSITION);
             self.watches.pose.note(job.now.at, true);
         }
         self.fuse_pose_attitude(job, &age, pose);
@@ -248,7 +248,7 @@ impl Filter {
         job.note(Source::PoseAttitude, verdict);
         self.watches.pose_attitude.note(job.now.at, verdict.accepted);
         if self.watches.pose_attitude.is_at_odds(job.now.at, JUMPED_AFTER / 2) {
-            self.anew(job, &measurement, index::THETA);
+            self.reset_states_from(job, &measurement, index::THETA);
             self.watches.pose_attitude.note(job.now.at, true);
         }
     }
@@ -272,9 +272,9 @@ impl Filter {
     /// Across the thrust axis nothing accelerates the vehicle but drag, −k/m (v − w). A mean over some turns of the rotors:
     /// they shake the accelerometer harder than any wind.
     fn fuse_drag(&mut self, job: &mut Job, force: &Vector3<f32>) {
-        let across = job.now.attitude * Vector3::new(force.x, force.y, 0.0);
+        let horizontal_force = job.now.attitude * Vector3::new(force.x, force.y, 0.0);
         let k = self.specific_drag;
-        if k <= 0.0 || !math::all_finite(across.as_slice()) {
+        if k <= 0.0 || !math::all_finite(horizontal_force.as_slice()) {
             return;
         }
         let (v, w) = (&job.now.velocity, &self.offsets.wind);
@@ -282,7 +282,7 @@ impl Filter {
             theta: Vector3::zeros(),
             entries: [(index::VELOCITY + axis, -k), (index::WIND + axis, k), NONE],
         });
-        let innovation = [across.x + k * (v.x - w[0]), across.y + k * (v.y - w[1])];
+        let innovation = [horizontal_force.x + k * (v.x - w[0]), horizontal_force.y + k * (v.y - w[1])];
         let measurement = Measurement { rows, innovation, variance: [DRAG_NOISE * DRAG_NOISE; 2] };
         let verdict = measurement.apply(&mut self.covariance, &mut job.error, gate::<2>());
         job.note(Source::Drag, verdict);

@@ -20,8 +20,8 @@ pub struct Moved {
 
 impl Moved {
     /// A part of it.
-    fn part(&self, part: f32) -> Self {
-        Self { theta: self.theta * part, velocity: self.velocity * part, position: self.position * part }
+    fn scaled(&self, fraction: f32) -> Self {
+        Self { theta: self.theta * fraction, velocity: self.velocity * fraction, position: self.position * fraction }
     }
 }
 
@@ -121,7 +121,7 @@ impl History {
                     Some(after) => between(&entry.snapshot, &after.snapshot, tick),
                 };
                 // The part of it that the later of the two snapshots does not bring in.
-                since += entry.ordered.part(1.0 - held);
+                since += entry.ordered.scaled(1.0 - held);
                 return Some(Past { snapshot, since });
             }
             since += entry.ordered;
@@ -139,18 +139,18 @@ impl Default for History {
 
 /// The motion at `tick`, between two snapshots a few ms apart, and the part of the later one in it.
 fn between(before: &Snapshot, after: &Snapshot, tick: Tick) -> (Snapshot, f32) {
-    let part = tick.wrapping_sub(before.at) as f32 / after.at.wrapping_sub(before.at).max(1) as f32;
+    let fraction = tick.wrapping_sub(before.at) as f32 / after.at.wrapping_sub(before.at).max(1) as f32;
     let (a, b) = (before.attitude.quaternion(), after.attitude.quaternion());
-    let mixed: Quaternion<f32> = a * (1.0 - part) + b * part;
+    let mixed: Quaternion<f32> = a * (1.0 - fraction) + b * fraction;
     // Of two unit quaternions a small turn apart the mean is nearly one: a Newton step of 1/√n² makes it so.
     let size = 1.5 - 0.5 * mixed.norm_squared();
     let snapshot = Snapshot {
         at: tick,
         attitude: UnitQuaternion::new_unchecked(mixed * size),
-        velocity: before.velocity + (after.velocity - before.velocity) * part,
-        position: before.position + (after.position - before.position) * part,
+        velocity: before.velocity + (after.velocity - before.velocity) * fraction,
+        position: before.position + (after.position - before.position) * fraction,
     };
-    (snapshot, part)
+    (snapshot, fraction)
 }
 
 #[cfg(test)]

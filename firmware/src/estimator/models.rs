@@ -45,13 +45,13 @@ impl Age {
 
     /// Row of the velocity along an axis (0 to 2).
     pub fn velocity(&self, axis: usize) -> Row {
-        Row { theta: across(axis, &self.first), entries: [(index::VELOCITY + axis, 1.0), NONE, NONE] }
+        Row { theta: cross_row(axis, &self.first), entries: [(index::VELOCITY + axis, 1.0), NONE, NONE] }
     }
 
     /// Row of the position along an axis, read with `offset` of another state in it.
     pub fn position(&self, axis: usize, offset: (usize, f32)) -> Row {
         let entries = [(index::POSITION + axis, 1.0), (index::VELOCITY + axis, -self.old_s), offset];
-        Row { theta: -across(axis, &self.lever), entries }
+        Row { theta: -cross_row(axis, &self.lever), entries }
     }
 }
 
@@ -68,7 +68,7 @@ pub fn axis_vector(axis: usize) -> Vector3<f32> {
 }
 
 /// e × v, with which (v × θ) along e is (e × v)·θ.
-fn across(axis: usize, v: &Vector3<f32>) -> Vector3<f32> {
+fn cross_row(axis: usize, v: &Vector3<f32>) -> Vector3<f32> {
     axis_vector(axis).cross(v)
 }
 
@@ -79,10 +79,10 @@ pub fn attitude_row(axis: usize) -> Row {
 
 fn error_of(moved: &Moved) -> ErrorState {
     let mut error = ErrorState::zeros();
-    for (start, part) in
+    for (start, component) in
         [(index::THETA, moved.theta), (index::VELOCITY, moved.velocity), (index::POSITION, moved.position)]
     {
-        for (to, from) in error.iter_mut().skip(start).zip(part.iter()) {
+        for (to, from) in error.iter_mut().skip(start).zip(component.iter()) {
             *to = *from;
         }
     }
@@ -136,8 +136,8 @@ impl MagneticNorth {
 
     /// Whether a field can be the earth's: within 35 % of its size.
     pub fn is_plausible(&self, field_ut: &Vector3<f32>) -> bool {
-        let part = math::sqrt(field_ut.norm_squared()) / self.strength_ut;
-        part > 0.65 && part < 1.35
+        let ratio = math::sqrt(field_ut.norm_squared()) / self.strength_ut;
+        ratio > 0.65 && ratio < 1.35
     }
 
     /// The heading ψ in which a field, measured level at heading 0, is the earth's.
@@ -149,10 +149,10 @@ impl MagneticNorth {
     /// to R̂ Rᵀ m = m − θ × m: left of north by −(θz − (mz/mh) θn), so a tilt towards north reads as a heading too.
     pub fn read(&self, field_ut: &Vector3<f32>, attitude: &UnitQuaternion<f32>) -> HeadingReading {
         let m = attitude * field_ut;
-        let (along, across) = (m.dot(&self.north), m.dot(&self.left));
+        let (north, left) = (m.dot(&self.north), m.dot(&self.left));
         let theta = Vector3::z() - self.north * self.slope;
         HeadingReading {
-            turn: -math::atan2(across, along),
+            turn: -math::atan2(left, north),
             row: Row { theta, entries: [(index::HEADING_OFFSET, 1.0), NONE, NONE] },
             horizontal_ut: self.horizontal_ut,
         }

@@ -102,7 +102,7 @@ impl Predictor {
     /// One tick, with the IMU's sample if a sound one has come. True if it was taken in: a sample that holds a number
     /// which no sensor can read, or is no newer than the last, is as good as none.
     #[inline]
-    pub fn step(&mut self, sample: Option<&ImuSample>) -> bool {
+    pub fn predict(&mut self, sample: Option<&ImuSample>) -> bool {
         let fresh = sample.filter(|sample| self.is_new(sample.at) && sample.is_plausible() && self.moves(sample));
         let (rates, force) = match fresh {
             Some(sample) => {
@@ -216,8 +216,8 @@ impl Predictor {
 fn small_turn(turn: &Vector3<f32>) -> Quaternion<f32> {
     let half = turn * 0.5;
     let square = half.norm_squared();
-    let part = 1.0 - square * (1.0 / 6.0);
-    Quaternion::new(1.0 - square * (0.5 - square * (1.0 / 24.0)), half.x * part, half.y * part, half.z * part)
+    let sinc = 1.0 - square * (1.0 / 6.0);
+    Quaternion::new(1.0 - square * (0.5 - square * (1.0 / 24.0)), half.x * sinc, half.y * sinc, half.z * sinc)
 }
 
 /// An attitude brought back to unit size by one Newton step of 1/√n².
@@ -266,7 +266,7 @@ mod tests {
         predictor.force = imu.1;
         predictor.force_in_world = imu.1;
         for tick in 1..=6_000 {
-            predictor.step(Some(&sample(tick, imu.0, imu.1)));
+            predictor.predict(Some(&sample(tick, imu.0, imu.1)));
         }
         let exact = 6.0_f32 * rate;
         let (sin, cos) = (f64::from(exact).sin() as f32, f64::from(exact).cos() as f32);
@@ -280,7 +280,7 @@ mod tests {
         let mut predictor = Predictor::new(Vector3::new(20_000.0, 0.0, 0.0), G);
         predictor.start(&Nominal { velocity: Vector3::new(0.1, 0.0, 0.0), ..*predictor.state() });
         for tick in 1..=10_000 {
-            predictor.step(Some(&sample(tick, Vector3::zeros(), Vector3::new(0.0, 0.0, G))));
+            predictor.predict(Some(&sample(tick, Vector3::zeros(), Vector3::new(0.0, 0.0, G))));
         }
         // A step of 0.1 mm is a twentieth of what an f32 resolves there.
         assert!((predictor.state().position.x - 20_001.0).abs() < 5e-3, "{}", predictor.state().position.x);
@@ -294,14 +294,14 @@ mod tests {
         let bad = sample(4, Vector3::new(f32::NAN, 0.0, 0.0), force);
         for tick in 1..=16 {
             let good = sample(tick, turning, force);
-            assert!(sound.step(Some(&good)));
+            assert!(sound.predict(Some(&good)));
             let given = match tick % 4 {
                 1 => Some(good),
                 2 => None,
                 3 => Some(sample(tick - 2, turning * 3.0, force)),
                 _ => Some(ImuSample { at: tick, ..bad }),
             };
-            assert_eq!(lossy.step(given.as_ref()), tick % 4 == 1);
+            assert_eq!(lossy.predict(given.as_ref()), tick % 4 == 1);
         }
         assert_eq!(sound.state(), lossy.state());
         assert_eq!((lossy.take_span().samples, lossy.take_span().ticks), (4, 0));
@@ -319,8 +319,8 @@ mod tests {
                 let of = if accel { &mut spike.accel } else { &mut spike.gyro };
                 of[axis] = -size;
                 let range = if accel { 544.0 } else { 121.0 };
-                assert_eq!(predictor.step(Some(&spike)), size < range, "{spike:?}");
-                predictor.step(Some(&sample(tick + 5, still.0, still.1)));
+                assert_eq!(predictor.predict(Some(&spike)), size < range, "{spike:?}");
+                predictor.predict(Some(&sample(tick + 5, still.0, still.1)));
                 let state = predictor.state();
                 assert!((state.attitude.norm() - 1.0).abs() < 1e-5, "{spike:?}: {state:?}");
                 assert!(state.velocity.norm() < 10.0 && state.position.norm() < 10.0, "{spike:?}: {state:?}");

@@ -168,8 +168,8 @@ fn scan_v1(bytes: &[u8]) -> Scan<'_> {
     let Some(&[_, payload, _, system, component, id]) = bytes.first_chunk::<HEADER_V1>() else {
         return Scan::Incomplete;
     };
-    let parts = Parts { header: HEADER_V1, payload: usize::from(payload), signature: 0 };
-    check(bytes, &parts, MavlinkVersion::V1, (system, component), u32::from(id))
+    let layout = Layout { header: HEADER_V1, payload: usize::from(payload), signature: 0 };
+    check(bytes, &layout, MavlinkVersion::V1, (system, component), u32::from(id))
 }
 
 fn scan_v2(bytes: &[u8]) -> Scan<'_> {
@@ -179,42 +179,42 @@ fn scan_v2(bytes: &[u8]) -> Scan<'_> {
     };
     let signed = incompatible & consts::v2::IFLAG_SIGNED != 0;
     let signature = if signed { consts::v2::SIGNATURE_SIZE } else { 0 };
-    let parts = Parts { header: HEADER_V2, payload: usize::from(payload), signature };
+    let layout = Layout { header: HEADER_V2, payload: usize::from(payload), signature };
     if incompatible & !consts::v2::IFLAG_SIGNED != 0 {
-        return Scan::Foreign { length: parts.length() };
+        return Scan::Foreign { length: layout.length() };
     }
-    check(bytes, &parts, MavlinkVersion::V2, (system, component), u32::from_le_bytes([id0, id1, id2, 0]))
+    check(bytes, &layout, MavlinkVersion::V2, (system, component), u32::from_le_bytes([id0, id1, id2, 0]))
 }
 
 /// Lengths of a frame's parts.
-struct Parts {
+struct Layout {
     header: usize,
     payload: usize,
     signature: usize,
 }
 
-impl Parts {
+impl Layout {
     fn length(&self) -> usize {
         self.header + self.payload + consts::CHECKSUM_SIZE + self.signature
     }
 }
 
-fn check<'a>(bytes: &'a [u8], parts: &Parts, version: MavlinkVersion, sender: Sender, id: u32) -> Scan<'a> {
-    let Some(extra) = extra_crc(id) else { return Scan::Foreign { length: parts.length() } };
-    if parts.payload > PAYLOAD_MAX {
+fn check<'a>(bytes: &'a [u8], layout: &Layout, version: MavlinkVersion, sender: Sender, id: u32) -> Scan<'a> {
+    let Some(extra) = extra_crc(id) else { return Scan::Foreign { length: layout.length() } };
+    if layout.payload > PAYLOAD_MAX {
         return Scan::Nothing;
     }
-    let end = parts.header + parts.payload;
+    let end = layout.header + layout.payload;
     let (Some(_), Some(covered), Some(payload), Some(&checksum)) = (
-        bytes.get(..parts.length()),
+        bytes.get(..layout.length()),
         bytes.get(consts::STX_SIZE..end),
-        bytes.get(parts.header..end),
+        bytes.get(layout.header..end),
         bytes.get(end..).and_then(|rest| rest.first_chunk::<{ consts::CHECKSUM_SIZE }>()),
     ) else {
         return Scan::Incomplete;
     };
     if calculate_crc(covered, extra) == u16::from_le_bytes(checksum) {
-        Scan::Frame { length: parts.length(), frame: Frame { version, sender, id, payload } }
+        Scan::Frame { length: layout.length(), frame: Frame { version, sender, id, payload } }
     } else {
         Scan::BadChecksum
     }

@@ -16,7 +16,7 @@ pub(super) fn write_refusal(request: &Request, refusal: Refusal, out: &mut Write
 
 /// Sends what has happened; false if it does not fit.
 pub(super) fn write_event(event: Event, out: &mut Writer) -> bool {
-    let parts = match event {
+    let words = match event {
         Event::SensorsLost => ["Sensors lost", ": descending blind", ""],
         Event::SensorsGone => ["Sensors lost", ": rotors stopped", ""],
         Event::AttitudeLost => ["Attitude lost", ": descending blind", ""],
@@ -27,7 +27,7 @@ pub(super) fn write_event(event: Event, out: &mut Writer) -> bool {
         Event::BatteryCritical => ["Battery critical", ": landing", ""],
         Event::RotorFailed { rotor } => ["Rotor", number(rotor), " failed: descending, turning"],
     };
-    write(parts, MavSeverity::MAV_SEVERITY_CRITICAL, out)
+    write(words, MavSeverity::MAV_SEVERITY_CRITICAL, out)
 }
 
 /// The number of a rotor as pilots count them.
@@ -67,9 +67,9 @@ fn reason(refusal: Refusal) -> &'static str {
 }
 
 /// What does not fit is cut.
-fn write(parts: [&str; 3], severity: MavSeverity, out: &mut Writer) -> bool {
+fn write(words: [&str; 3], severity: MavSeverity, out: &mut Writer) -> bool {
     let mut text = [0; LENGTH];
-    for (to, from) in text.iter_mut().zip(parts.iter().flat_map(|part| part.bytes())) {
+    for (to, from) in text.iter_mut().zip(words.iter().flat_map(|word| word.bytes())) {
         *to = from;
     }
     out.write(&STATUSTEXT_DATA { severity, text: CharArray::new(text) })

@@ -33,7 +33,7 @@ pub struct Facet<const K: usize> {
 
 impl<const K: usize> Facet<K> {
     /// The facet with the given normal, whose part along `x` is made one; none if `x` does not cross it.
-    fn across(x: f32, known: [f32; K]) -> Option<Self> {
+    fn bounding(x: f32, known: [f32; K]) -> Option<Self> {
         (math::abs(x) > PARALLEL).then(|| Self { normal: known.map(|v| v / x), middle: 0.0, half: 0.0 })
     }
 
@@ -51,14 +51,14 @@ impl<const K: usize> Facet<K> {
     /// The smaller of `part` and the greatest part of `known` that lies on the facet's inner side. The origin does,
     /// for rotors may always stand still.
     #[inline]
-    pub(super) fn shorten(&self, part: f32, known: &[f32; K]) -> f32 {
+    pub(super) fn shorten(&self, fraction: f32, known: &[f32; K]) -> f32 {
         let along = dot(&self.normal, known);
         let beyond = along - self.middle;
         if math::abs(beyond) > self.half {
             let bound = if beyond > 0.0 { self.middle + self.half } else { self.middle - self.half };
-            return math::min(part, bound / along);
+            return math::min(fraction, bound / along);
         }
-        part
+        fraction
     }
 
     /// Finds how far rotors reach along the normal: of each its limit and what it adds to `x` and to the known
@@ -181,7 +181,7 @@ pub(super) fn thrust<const N: usize, T: Table<2>>(columns: &[Column; N], scale: 
     for (i, a) in columns.iter().enumerate() {
         for b in columns.iter().skip(i + 1) {
             if let Some([x, roll, pitch]) = cross_3(a, b) {
-                table.add(0, Facet::across(x, [roll, pitch]));
+                table.add(0, Facet::bounding(x, [roll, pitch]));
             }
         }
     }
@@ -198,7 +198,7 @@ pub(super) fn yaw<const N: usize, T: Table<3>>(columns: &[Column; N], scale: &[f
         return table;
     }
     for_each_triple(columns.iter(), |[thrust, roll, pitch, x]| {
-        table.add(0, Facet::across(x, [thrust, roll, pitch]));
+        table.add(0, Facet::bounding(x, [thrust, roll, pitch]));
     });
     let [thrust, roll, pitch, x] = *scale;
     table.rescale([thrust / x, roll / x, pitch / x]);
@@ -213,7 +213,7 @@ pub(super) fn spare<'a, T: Table<4>>(table: &mut T, last: &Column, others: impl 
     for_each_triple(others, |normal| {
         // U less what the last rotor gives: its speed is counted along the normal with the opposite sign.
         let x = dot(&normal, last) / size;
-        table.add(from, Facet::across(x, normal.map(|v| -v / size)));
+        table.add(from, Facet::bounding(x, normal.map(|v| -v / size)));
     });
 }
 
@@ -234,9 +234,9 @@ pub(super) fn order<const N: usize>(columns: &[Column; N]) -> [usize; N] {
         let direction = beyond[k];
         let square = dot(&direction, &direction);
         for column in beyond.iter_mut().skip(k + 1) {
-            let part = dot(column, &direction) / square;
+            let component = dot(column, &direction) / square;
             for (v, d) in column.iter_mut().zip(direction) {
-                *v -= part * d;
+                *v -= component * d;
             }
         }
     }
