@@ -237,7 +237,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             armed: self.is_armed(),
             mode: self.commander.mode,
             landed: self.commander.landed,
-            armable: self.commander.armable,
+            armable: self.commander.armable.is_ok(),
             health: Health {
                 nav_fresh: self.inner.is_nav_fresh(),
                 refused_samples: self.inner.refused_samples(),

@@ -11,6 +11,7 @@ mod checks;
 mod directive;
 mod request;
 mod state;
+mod text;
 mod watch;
 
 #[cfg(test)]
@@ -18,7 +19,8 @@ mod tests;
 
 pub use directive::{Directive, Known, Mode};
 pub use request::{
-    Command, Commands, Event, Events, Origin, Outcome, Refusal, Replies, Reply, Request, TAKE_OFF_HEIGHT_M,
+    Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies, Reply, Request,
+    TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
 };
 pub use state::State;
 
@@ -63,8 +65,8 @@ pub struct CommanderOutput {
     pub directive: Directive,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
-    /// Whether an arm request would be accepted.
-    pub armable: bool,
+    /// Whether an arm request would be accepted, and why not.
+    pub armable: Result<(), Refusal>,
     /// Answers to the commands.
     pub replies: Replies,
     /// What the pilot is to know.
@@ -148,7 +150,7 @@ impl Commander {
             mode: self.state.mode(),
             directive: self.directive(self.home.z),
             landed: !self.ground.is_airborne(),
-            armable: false,
+            armable: Err(Refusal::NoNavigation),
             replies: Replies::new(),
             event: None,
         }
@@ -178,7 +180,7 @@ impl Commander {
             mode: self.state.mode(),
             directive: self.directive(input.nav.position.z),
             landed: !self.ground.is_airborne(),
-            armable: self.check(input).is_ok(),
+            armable: self.check(input),
             replies,
             event,
         }

@@ -1,9 +1,18 @@
 //! What may be asked of the commander, and what it answers and reports.
 
+use core::ops::RangeInclusive;
+
 use crate::math;
 
 /// Height of a take-off for which none is given, m.
 pub const TAKE_OFF_HEIGHT_M: f32 = 2.5;
+/// Heights of a take-off, m: higher than what a landed vehicle's height is uncertain by, and low enough to be over in a
+/// minute or so.
+pub const TAKE_OFF_HEIGHTS_M: RangeInclusive<f32> = 0.3..=100.0;
+/// No flight goes farther from its origin along an axis, m.
+pub const FARTHEST_M: f32 = 10_000.0;
+/// Faster than any limit that may be configured, m/s.
+pub const FASTEST_M_S: f32 = 100.0;
 
 /// What a ground station, or a program on board, may ask for. World frame NWU.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,18 +59,12 @@ pub enum Request {
 impl Request {
     /// True if every number of it is one that a vehicle can be asked for.
     pub fn is_sane(&self) -> bool {
-        /// No flight goes farther from its origin, m.
-        const FARTHEST_M: f32 = 10_000.0;
-        /// Faster than any limit that may be configured, m/s.
-        const FASTEST_M_S: f32 = 100.0;
-        /// Low enough to be over in a minute or so, and higher than what a landed vehicle's height is uncertain by.
-        const TAKE_OFF_M: core::ops::RangeInclusive<f32> = 0.3..=100.0;
         /// Two turns, or two turns a second.
         const ANGLE: f32 = 4.0 * core::f32::consts::PI;
         // A comparison with NaN is false.
         let within = |values: &[f32], most: f32| values.iter().all(|value| math::abs(*value) <= most);
         match self {
-            Self::TakeOff { height_m } => TAKE_OFF_M.contains(height_m),
+            Self::TakeOff { height_m } => TAKE_OFF_HEIGHTS_M.contains(height_m),
             Self::GoTo { position_m, yaw_rad } => within(position_m, FARTHEST_M) && within(&[*yaw_rad], ANGLE),
             Self::Velocity { velocity_m_s, yaw_rate_rad_s } => {
                 within(velocity_m_s, FASTEST_M_S) && within(&[*yaw_rate_rad_s], ANGLE)

@@ -220,7 +220,7 @@ fn arming_is_refused_with_the_reason_and_lets_the_rotors_idle() {
         let mut bench = Bench::new(State::Disarmed);
         let arm = Request::Arm { force: false };
         assert_eq!(bench.ask(arm, &input), Outcome::TemporarilyRejected(refusal));
-        assert!(!bench.step(&input).armable);
+        assert_eq!(bench.step(&input).armable, Err(refusal));
         assert_eq!(bench.ask(Request::Arm { force: true }, &input), Outcome::Accepted);
     }
     let mut bench = Bench::new(State::Disarmed);
