@@ -27,7 +27,9 @@ pub(super) struct Row {
 /// In one line: the file, and where in it what is wrong.
 pub(super) fn read(path: &Path) -> Result<Vec<Row>> {
     let context = || format!("trajectory file `{}`", path.display());
-    let text = std::fs::read_to_string(path).with_context(context)?;
+    let text = std::fs::read_to_string(path).with_context(|| {
+        format!("cannot read trajectory file `{}` (a path from the scenario file's folder)", path.display())
+    })?;
     rows(&text).with_context(context)
 }
 

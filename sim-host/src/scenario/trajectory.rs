@@ -358,7 +358,7 @@ pub(super) fn flyable(path: &Spline, config: &FlightConfig) -> Result<()> {
         );
         ensure!(
             tilt <= steepest,
-            "`trajectory` needs a tilt of {tilt:.2} rad at {t:.2} s, and `tilt_max_rad` is {steepest}: fly it slower"
+            "`trajectory` needs a tilt of {tilt:.3} rad at {t:.2} s, and `tilt_max_rad` is {steepest}: fly it slower"
         );
     }
     Ok(())
