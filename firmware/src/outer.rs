@@ -131,7 +131,7 @@ impl<P: PositionLaw> Outer<P> {
             mass_kg: config.airframe.mass_kg,
             model: Translation::new(&config.airframe),
             limits: ForceLimits::new(&config.airframe, config.tilt_max_rad),
-            guidance: Guidance::new(config.trajectory, config.join.as_ref(), config.start_position())?,
+            guidance: Guidance::new(config.trajectory.clone(), config.join.as_ref(), config.start_position())?,
             setpoint: Setpoint::new(&config.modes),
             source: Source::Ground,
             law,

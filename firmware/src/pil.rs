@@ -26,7 +26,7 @@ pub use hello::{Answer, BusyWait, Fault, HELLO_BYTES, Hello, HelloError};
 use words::{Reader, Words, Writer, as_words};
 
 /// Protocol version, incremented with every change of a frame: host and image of different versions refuse each other.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// Bytes of a [`Request`].
 pub const REQUEST_BYTES: usize = 4 * Request::WORDS;

@@ -127,7 +127,7 @@ impl Commander {
         let flies = config.start == Start::InFlight;
         let start = config.start_position();
         // An invalid trajectory has been refused before.
-        let (entry, entry_yaw) = Guidance::new(config.trajectory, config.join.as_ref(), start)
+        let (entry, entry_yaw) = Guidance::new(config.trajectory.clone(), config.join.as_ref(), start)
             .map_or((start, 0.0), |guidance| guidance.entry(config.start));
         Self {
             settings: config.modes,

@@ -4,10 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{REPLY_BYTES, VERSION};
 use crate::config::FlightConfig;
+use crate::guidance::CONTROL_POINTS;
 use crate::signals::Tick;
 
 /// Bytes of an encoded [`Hello`]: version, length, content, zeros.
-pub const HELLO_BYTES: usize = 2048;
+pub const HELLO_BYTES: usize = 2048 + 16 * CONTROL_POINTS;
 const TEXT_BYTES: usize = REPLY_BYTES - 4;
 
 /// The host's first frame.

@@ -21,5 +21,6 @@ mod physics;
 mod pil;
 mod sensor_flights;
 mod sensor_streams;
+mod trajectories;
 mod tune;
 mod world;
