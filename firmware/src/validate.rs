@@ -1,6 +1,6 @@
-//! Why a configuration is refused, and the checks that its parts share.
+//! Configuration errors, and the range checks that configuration types share.
 
-/// Where a field stands in a configuration: the dotted key of its group, and its own in the group.
+/// The dotted key of a configuration field, in two pieces: that of its group, and its own within the group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Field {
     /// Key of the group, as `control.x`; empty for a field whose own key is the whole.
@@ -31,7 +31,7 @@ impl core::fmt::Display for Field {
     }
 }
 
-/// Why a configuration is refused; each names the field, and the bounds that it misses.
+/// Error of a configuration, with the field and the bounds that it violates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConfigError {
     /// Not a finite number.
@@ -40,9 +40,9 @@ pub enum ConfigError {
     NotPositive(Field),
     /// Must not be below zero.
     Negative(Field),
-    /// Must be within these bounds, which are allowed themselves.
+    /// Outside `low ..= high`.
     OutOfRange {
-        /// Which.
+        /// The field.
         field: Field,
         /// Least value.
         low: f32,
@@ -55,14 +55,15 @@ pub enum ConfigError {
     SingularGeometry,
 }
 
-/// Sizes, in SI units, with which products of three neither overflow nor vanish in an f32.
+/// Least and greatest accepted size, in SI units: a product of three still fits an f32.
 const SMALLEST: f32 = 1e-9;
 const LARGEST: f32 = 1e9;
 
 impl ConfigError {
+    /// Checks that `value` is from 1e-9 to 1e9, where f32 arithmetic neither overflows nor underflows.
+    ///
     /// # Errors
-    /// `field` unless `value` is finite, above zero, and of a size with which f32 arithmetic neither overflows nor
-    /// vanishes: 1e-9 to 1e9.
+    /// `field`, if it is not.
     pub fn require_positive(field: impl Into<Field>, value: f32) -> Result<(), Self> {
         let field = field.into();
         if value.is_finite() && value <= 0.0 {
@@ -71,8 +72,10 @@ impl ConfigError {
         Self::require_within(field, value, SMALLEST, LARGEST)
     }
 
+    /// Checks that `value` is from 0 to 1e9.
+    ///
     /// # Errors
-    /// `field` unless `value` is finite, not below zero and at most 1e9.
+    /// `field`, if it is not.
     pub fn require_not_negative(field: impl Into<Field>, value: f32) -> Result<(), Self> {
         let field = field.into();
         if value.is_finite() && value < 0.0 {
@@ -81,8 +84,10 @@ impl ConfigError {
         Self::require_within(field, value, 0.0, LARGEST)
     }
 
+    /// Checks that `value` is finite and within `low ..= high`.
+    ///
     /// # Errors
-    /// `field` unless `value` is finite and within `low ..= high`.
+    /// `field`, if it is not.
     pub fn require_within(field: impl Into<Field>, value: f32, low: f32, high: f32) -> Result<(), Self> {
         let field = field.into();
         if !value.is_finite() {
@@ -94,8 +99,10 @@ impl ConfigError {
         }
     }
 
+    /// Checks that `value` is below `limit`.
+    ///
     /// # Errors
-    /// `field` unless `value` is below `limit`.
+    /// `field`, if it is not.
     pub fn require_below(field: impl Into<Field>, value: f32, limit: f32) -> Result<(), Self> {
         if value < limit { Ok(()) } else { Err(Self::NotBelow(field.into(), limit)) }
     }

@@ -57,11 +57,11 @@ impl Refusal {
         self.given.is_none() && self.rule.starts_with("must ") && !self.rule.contains(", not ")
     }
 
-    /// The same with its key below another, as that of a table in which its own stands.
+    /// An error about a table at `group`: a refusal's key is put below it, any other is told where it is.
     pub(crate) fn below(error: anyhow::Error, group: &str) -> anyhow::Error {
         match error.downcast::<Self>() {
             Ok(refusal) => Self { key: format!("{group}.{}", refusal.key), ..refusal }.into(),
-            Err(error) => error,
+            Err(error) => error.context(format!("`{group}`")),
         }
     }
 

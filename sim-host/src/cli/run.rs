@@ -13,7 +13,7 @@ use crate::noise::Noise;
 use crate::record::{Recorder, Row};
 use crate::report::estimate::Belief;
 use crate::report::{Disturbance, Figures, Flight, Metrics, OutFolder, Progress, Summary, TruthWriter};
-use crate::report::{Sensed, SensedRecorder, progress, summary, table};
+use crate::report::{Sensed, SensedRecorder, Timeline, TimelineRecorder, progress, summary, table};
 use crate::scenario::Scenario;
 use crate::sil::Outcome;
 
@@ -70,16 +70,18 @@ pub(super) fn fly(scenario: &Scenario, seed: u64, out: Option<&Path>, visible: b
         Some(recorder) => Some(recorder.writing(folder.estimate()?, is_drawn(scenario))),
         None => None,
     };
-    let mut recorder = ((((Metrics::new(), folder.truth()?), bar), Rows::new(scenario)), sensed);
+    let course = TimelineRecorder::new(&scenario.file.command);
+    let mut recorder = (((((Metrics::new(), folder.truth()?), bar), Rows::new(scenario)), sensed), course);
     let flown = timed(scenario, seed, &mut recorder)?;
-    let ((((metrics, truth), bar), rows), sensed) = recorder;
+    let (((((metrics, truth), bar), rows), sensed), course) = recorder;
+    let timeline = course.finish(&scenario.file.fault);
     bar.finish();
     let (sensed, beliefs) = finish(sensed)?;
     let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics).with_sensed(sensed);
     folder.summary(&summary)?;
-    draw(scenario, seed, &folder, &rows.kept)?;
+    draw(scenario, seed, &folder, &rows.kept, &timeline)?;
     if !beliefs.is_empty() {
-        folder.beliefs(&beliefs)?;
+        folder.beliefs(&beliefs, &timeline)?;
     }
     Ok(summary)
 }
@@ -142,7 +144,7 @@ pub(super) fn summarise(
     Summary::new(flight, metrics)
 }
 
-fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, rows: &[Row]) -> Result<()> {
+fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, rows: &[Row], timeline: &Timeline) -> Result<()> {
     if rows.is_empty() {
         return Ok(());
     }
@@ -151,7 +153,7 @@ fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, rows: &[Row]) -> Res
         let (linear_unit, angular_unit) = if d.is_on_accelerations() { ("m/s²", "rad/s²") } else { ("m", "rad") };
         Disturbance { samples: &samples, linear_unit, angular_unit, acting: (d.from_s, d.to_s) }
     });
-    folder.figures(&Figures { rows, disturbance })?;
+    folder.figures(&Figures { rows, disturbance, timeline })?;
     Ok(())
 }
 

@@ -1,10 +1,12 @@
 //! Reading a scenario: its file, its airframe's and its tuning's, with settings from the command line laid over them.
 
+use std::path::Path;
+
 use anyhow::{Error, Result, anyhow, bail};
 use toml::{Table, Value};
 
 use super::settings::Setting;
-use super::{AIRFRAMES, SCENARIOS, Scenario, ScenarioFile, TUNINGS, default_airframe};
+use super::{AIRFRAMES, SCENARIOS, Scenario, ScenarioFile, TUNINGS, default_airframe, trajectory};
 use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
 use crate::files::{Source, read};
@@ -126,6 +128,9 @@ impl Scenario {
         let tuning = gains(&mut own, &of_gains)?;
         let mut layers = Layers(vec![own]);
         layers.0.extend(tuning);
+        let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+        let resolved = trajectory::resolve(&mut layers.0[0].table, folder);
+        resolved.map_err(|error| layers.explain(error))?;
         let mut file: ScenarioFile = layers.0[0].typed().map_err(|error| layers.explain(error))?;
         if settings.iter().any(moves_the_bound) {
             file.time_optimal_s = None;

@@ -11,6 +11,7 @@ use super::series::{Points, thin_series};
 use super::{POSITIONS, TALL};
 use crate::assess::consistency::{SOURCES, kind, quantile};
 use crate::report::estimate::Belief;
+use crate::report::timeline::Timeline;
 
 /// Most dots of a panel; of more, evenly many are drawn, and all that were refused.
 const MOST_DOTS: usize = 1500;
@@ -21,7 +22,7 @@ const DECADES: (f64, f64) = (-2.1, 4.1);
 ///
 /// # Errors
 /// When a file cannot be written; the message names it.
-pub fn draw(folder: &Path, beliefs: &[Belief]) -> Result<Vec<PathBuf>> {
+pub fn draw(folder: &Path, beliefs: &[Belief], _timeline: &Timeline) -> Result<Vec<PathBuf>> {
     Ok(vec![position(folder, beliefs)?, attitude(folder, beliefs)?, innovations(folder, beliefs)?])
 }
 
@@ -146,7 +147,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("glissade-{}-beliefs", std::process::id()));
         std::fs::create_dir_all(&folder).expect("the temporary folder can be written");
         let beliefs: Vec<_> = (0..500).map(|k| belief(f64::from(k) * 0.02)).collect();
-        for file in draw(&folder, &beliefs).expect("drawn") {
+        for file in draw(&folder, &beliefs, &Timeline::default()).expect("drawn") {
             let svg = std::fs::read_to_string(&file).expect("written");
             assert!(svg.starts_with("<svg") && !svg.contains("NaN"), "{}", file.display());
         }

@@ -20,6 +20,7 @@ pub use self::convergence::convergence;
 use self::panel::{Key, Panel, Role, grid, save};
 use self::series::{Points, angles_deg, over_time, phase, thin_path, thin_series};
 use super::metrics::errors;
+use super::timeline::Timeline;
 use crate::record::Row;
 
 /// The approach, shown where a whole flight would hide it, s.
@@ -50,6 +51,8 @@ pub struct Figures<'a> {
     pub rows: &'a [Row],
     /// The disturbance, where there is one; without, Figures 5 and 6 are left out.
     pub disturbance: Option<Disturbance<'a>>,
+    /// What the vehicle did when.
+    pub timeline: &'a Timeline,
 }
 
 impl Figures<'_> {

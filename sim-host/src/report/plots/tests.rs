@@ -61,7 +61,7 @@ fn draw_all(name: &str, rows: &[Row]) -> Vec<(PathBuf, String)> {
     fs::create_dir_all(&folder).expect("a folder for the figures");
     let applied =
         Disturbance { samples: &samples(), linear_unit: "m/s²", angular_unit: "rad/s²", acting: (5.0, 10.0) };
-    let files = Figures { rows, disturbance: Some(applied) }.draw(&folder);
+    let files = Figures { rows, disturbance: Some(applied), timeline: &Timeline::default() }.draw(&folder);
     let read = |file: PathBuf| (file.clone(), fs::read_to_string(file).expect("the file was written"));
     let texts = files.expect("drawn").into_iter().map(read).collect();
     if kept.is_none() {
@@ -117,7 +117,7 @@ fn empty_and_diverged_flights_are_drawn_too() {
 fn without_a_disturbance_two_figures_are_left_out() {
     let folder = std::env::temp_dir().join(format!("glissade-{}-calm", std::process::id()));
     fs::create_dir_all(&folder).expect("a folder for the figures");
-    let files = Figures { rows: &flight(1.0), disturbance: None }.draw(&folder);
+    let files = Figures { rows: &flight(1.0), disturbance: None, timeline: &Timeline::default() }.draw(&folder);
     fs::remove_dir_all(&folder).expect("the folder is there");
     assert_eq!(files.map(|files| files.len()).expect("drawn"), 4);
 }
