@@ -79,10 +79,7 @@ impl Navigation {
             self.counter.count(counter::mark_begin_gyro_filter, || black_box(gyro.filter(raw, omega)));
         self.counts.gyro_filter.add(instructions);
 
-        let readings = &mut self.readings;
-        readings.mag = measured.mag.or(readings.mag);
-        readings.baro = measured.baro.or(readings.baro);
-        readings.gnss = measured.gnss.or(readings.gnss);
+        self.readings.keep(measured);
     }
 
     /// The filter's job.

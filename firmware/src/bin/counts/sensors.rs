@@ -38,8 +38,7 @@ impl Sensors {
             mag: at.is_multiple_of(MAG_EVERY).then(|| self.mag(at, nav)),
             baro: at.is_multiple_of(BARO_EVERY).then(|| self.baro(at, nav)),
             gnss: self.fix.take_if(|fix| at.wrapping_sub(fix.at) >= GNSS_DELAY),
-            pose: None,
-            battery: None,
+            ..Measurements::default()
         }
     }
 
