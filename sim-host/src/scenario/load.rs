@@ -1,5 +1,7 @@
 //! Reading a scenario: its file, its airframe's and its tuning's, with settings from the command line laid over them.
 
+use std::path::Path;
+
 use anyhow::{Context, Result, bail};
 
 use super::settings::{set, split_setting};
@@ -30,6 +32,8 @@ impl Scenario {
             file.time_optimal_s = None;
         }
 
+        file.airframe = beside(name, &file.airframe);
+        file.tuning = file.tuning.map(|tuning| beside(name, &tuning));
         let airframe_name = file.airframe.clone();
         let context_airframe = || format!("airframe `{airframe_name}`");
         let mut table = parse(&source(&airframe_name, "airframe", &AIRFRAMES)?).with_context(context_airframe)?;
@@ -47,6 +51,13 @@ impl Scenario {
         scenario.validate().with_context(context)?;
         Ok(scenario)
     }
+}
+
+/// The path of a file that a scenario names: beside the scenario's own, if there is one; else as it is.
+fn beside(scenario: &str, name: &str) -> String {
+    let near = Path::new(scenario).with_file_name(name);
+    let is_path = scenario.ends_with(".toml") || scenario.contains('/');
+    if is_path && near.is_file() { near.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
 /// Loads a built-in tuning by name or a file by path.
