@@ -9,6 +9,7 @@ mod assess;
 mod bench;
 mod compare;
 mod demo;
+mod fly;
 mod pil;
 mod plan;
 mod run;
@@ -26,6 +27,7 @@ use anyhow::{Context, Result};
 use clap::error::{ContextKind, ContextValue};
 use clap::{Args, CommandFactory as _, Parser, Subcommand};
 
+use crate::interrupt::{self, Interrupted};
 use crate::link;
 use crate::refusal::did_you_mean;
 use crate::scenario::{self, Scenario};
@@ -341,9 +343,15 @@ pub fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        // What was flown has been reported.
+        Err(error) if error.is::<Interrupted>() => ExitCode::from(interrupt::EXIT_CODE),
         Err(error) => {
             eprintln!("sim-host: {}", one_line(&error));
-            ExitCode::from(if pil::is_finding(&error) || error.is::<assess::Unmet>() { 1 } else { 2 })
+            ExitCode::from(if error.is::<run::SomeFailed>() || pil::is_finding(&error) || error.is::<assess::Unmet>() {
+                1
+            } else {
+                2
+            })
         }
     }
 }
