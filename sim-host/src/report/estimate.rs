@@ -90,7 +90,7 @@ impl Sampler {
 }
 
 /// A mode as the file writes it.
-fn name(mode: Mode) -> &'static str {
+pub(super) fn name(mode: Mode) -> &'static str {
     match mode {
         Mode::Disarmed => "disarmed",
         Mode::Idle => "idle",
