@@ -131,9 +131,11 @@ impl ModeSettings {
         ConfigError::require_not_negative("modes.return_height_m", self.return_height_m)?;
         ConfigError::require_not_negative("modes.battery_low_v", self.battery_low_v)?;
         ConfigError::require_not_negative("modes.battery_critical_v", self.battery_critical_v)?;
-        for (name, part) in [("modes.idle_part", self.idle_part), ("modes.blind_thrust_part", self.blind_thrust_part)] {
-            ConfigError::require_not_negative(name, part)?;
-            if part >= 1.0 {
+        for (name, fraction) in
+            [("modes.idle_part", self.idle_part), ("modes.blind_thrust_part", self.blind_thrust_part)]
+        {
+            ConfigError::require_not_negative(name, fraction)?;
+            if fraction >= 1.0 {
                 return Err(ConfigError::OutOfRange(name));
             }
         }

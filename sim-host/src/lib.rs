@@ -33,6 +33,7 @@ pub mod seeds;
 pub mod sensors;
 pub mod serve;
 pub mod sil;
+pub mod spline;
 pub mod statistics;
 pub mod sweep;
 pub mod tune;

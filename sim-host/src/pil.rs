@@ -146,7 +146,7 @@ impl Pil {
         match Answer::decode(&qemu.receive::<REPLY_BYTES>()?) {
             Some(Answer::Ready) => Ok(Self { qemu, tick: 0 }),
             Some(Answer::Refused(reason)) => bail!("the image refuses the flight: {reason}"),
-            None => bail!("the image's answer cannot be read: build it anew with `cargo fw-pil`"),
+            None => bail!("the image's answer cannot be read: rebuild it with `cargo fw-pil`"),
         }
     }
 

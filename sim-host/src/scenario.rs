@@ -1,26 +1,34 @@
 //! Scenarios: what to fly, typed. Built into the binary, or read from a file; every key can be set from outside.
 
+mod csv;
+mod load;
+mod settings;
+#[cfg(test)]
+mod tests;
+mod trajectory;
 mod validate;
 mod world;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail};
 use firmware::config::{FlightConfig, ModeSettings, Start};
 use firmware::guidance::{JoinPlan, Trajectory};
 use serde::{Deserialize, Serialize};
 
 use crate::airframe::AirframeFile;
 use crate::assess::Assess;
-use crate::controller::{Control, Controller, TuningFile};
-use crate::files::{built_in, one_line, parse, read, source};
+use crate::controller::{Control, Controller};
+use crate::files::built_in;
 use crate::pilot::Command;
 use crate::sensors::{Fault, Home, SuiteFile};
+pub use load::tuning;
+pub(crate) use settings::value;
 pub use world::{BatteryStart, Gust, ScheduledPush, Truth, Tumble, Wind, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.
-const SCENARIOS: [(&str, &str); 36] = built_in!("scenarios":
+const SCENARIOS: [(&str, &str); 37] = built_in!("scenarios":
     "helix", "helix-tw4", "helix-lag", "figure-eight", "step", "hover", "pad",
     "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
-    "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery",
+    "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery", "waypoints",
     "outdoor-tour", "field", "outdoor-hover", "outdoor-eight", "indoor-hover", "indoor-helix", "path", "path-gnss-lost", "path-mag-off",
     "path-mag-stuck", "path-baro-off", "path-baro-stuck", "gnss-glitch", "twist", "weak-rotor", "lost-rotor", "battery-collapse",
     "day",
@@ -238,45 +246,6 @@ impl ScenarioFile {
 }
 
 impl Scenario {
-    /// Loads a built-in scenario by name or a file by path, with `KEY=VALUE` settings applied to it. Keys are
-    /// dotted (`control.roll.lambda`); those under `airframe.` set the airframe's.
-    ///
-    /// # Errors
-    /// One line that names the scenario or file, the key, and what is wrong with it.
-    pub fn load(name: &str, settings: &[String]) -> Result<Self> {
-        let context = || format!("scenario `{name}`");
-        let mut table = parse(&source(name, "scenario", &SCENARIOS)?).with_context(context)?;
-        let mut airframe_settings = Vec::new();
-        for setting in settings {
-            let (key, value) = split_setting(setting)?;
-            match key.strip_prefix("airframe.") {
-                Some(key) => airframe_settings.push((key, value)),
-                None => set(&mut table, key, value).with_context(|| format!("--set {setting}"))?,
-            }
-        }
-        let mut file: ScenarioFile = table.try_into().map_err(|error| one_line(&error)).with_context(context)?;
-        if settings.iter().any(|setting| moves_the_bound(setting)) {
-            file.time_optimal_s = None;
-        }
-
-        let airframe_name = file.airframe.clone();
-        let context_airframe = || format!("airframe `{airframe_name}`");
-        let mut table = parse(&source(&airframe_name, "airframe", &AIRFRAMES)?).with_context(context_airframe)?;
-        for (key, value) in airframe_settings {
-            set(&mut table, key, value).with_context(|| format!("--set airframe.{key}"))?;
-        }
-        let mut airframe: AirframeFile =
-            table.try_into().map_err(|error| one_line(&error)).with_context(context_airframe)?;
-        airframe.thrust_to_weight = file.thrust_to_weight.unwrap_or(airframe.thrust_to_weight);
-        airframe.rotor_lag_s = file.rotor_lag_s.unwrap_or(airframe.rotor_lag_s);
-        airframe.actuation_delay_s = file.actuation_delay_s.unwrap_or(airframe.actuation_delay_s);
-
-        let controller = controller(&file).with_context(context)?;
-        let scenario = Self { name: name.to_owned(), file, airframe, controller };
-        scenario.validate().with_context(context)?;
-        Ok(scenario)
-    }
-
     /// The same scenario with another controller.
     ///
     /// # Errors
@@ -302,11 +271,11 @@ impl Scenario {
     pub fn flight_config(&self) -> FlightConfig {
         let mut config = FlightConfig {
             airframe: self.airframe.flight(),
-            trajectory: self.file.trajectory,
+            trajectory: self.file.trajectory.clone(),
             join: self.file.join.clone(),
             start: self.file.start,
             start_position_m: self.file.start_position_m.map(|v| v as f32),
-            estimator: self.file.sensors.as_ref().map(|suite| suite.told(&self.file.home)),
+            estimator: self.file.sensors.as_ref().map(|suite| suite.estimator_settings(&self.file.home)),
             modes: self.file.modes,
             ..FlightConfig::default()
         };
@@ -327,194 +296,5 @@ impl Scenario {
     /// Number of ticks to fly.
     pub fn ticks(&self) -> u32 {
         (self.file.duration_s * 1e3).round() as u32
-    }
-}
-
-/// Loads a built-in tuning by name or a file by path.
-///
-/// # Errors
-/// One line that names the tuning or file, and what is wrong with it.
-pub fn tuning(name: &str) -> Result<TuningFile> {
-    read(name, "tuning", &TUNINGS)
-}
-
-/// The controller that a scenario asks for.
-fn controller(file: &ScenarioFile) -> Result<Controller> {
-    let own = format!("{}-smc", file.airframe);
-    match (&file.tuning, &file.control) {
-        (Some(name), None) => Ok(tuning(name)?.controller),
-        (None, Some(control)) => Ok(Controller::Smc(control.clone())),
-        (None, None) if TUNINGS.iter().any(|(name, _)| *name == own) => Ok(tuning(&own)?.controller),
-        (Some(_), Some(_)) => bail!("`tuning` and `control` both say what flies: keep one"),
-        (None, None) => bail!("`tuning` is missing: name a tuning file, or give gains under `[control]`"),
-    }
-}
-
-/// Whether a setting makes another problem of it than the one whose time-optimal bound is known.
-fn moves_the_bound(setting: &str) -> bool {
-    let key = setting.split(['=', '.']).next().unwrap_or_default();
-    let start = key.starts_with("start_") || key == "tumble";
-    let world = matches!(key, "truth" | "wind" | "world" | "push" | "battery" | "fault" | "sensors");
-    start || world || matches!(key, "airframe" | "thrust_to_weight" | "trajectory" | "plant")
-}
-
-fn split_setting(setting: &str) -> Result<(&str, toml::Value)> {
-    let (key, text) = setting.split_once('=').ok_or_else(|| anyhow!("--set {setting}: use KEY=VALUE"))?;
-    Ok((key, value(text)))
-}
-
-/// A value as TOML has it; what is none, is a string.
-pub(crate) fn value(text: &str) -> toml::Value {
-    format!("value = {text}")
-        .parse::<toml::Table>()
-        .ok()
-        .and_then(|mut table| table.remove("value"))
-        .unwrap_or_else(|| toml::Value::String(text.to_owned()))
-}
-
-/// Sets a dotted key; integers become floats where a float stood.
-fn set(table: &mut toml::Table, key: &str, value: toml::Value) -> Result<()> {
-    let (path, last) = key.rsplit_once('.').map_or((None, key), |(path, last)| (Some(path), last));
-    let mut place = table;
-    for part in path.into_iter().flat_map(|path| path.split('.')) {
-        place = place
-            .entry(part)
-            .or_insert_with(|| toml::Value::Table(toml::Table::new()))
-            .as_table_mut()
-            .ok_or_else(|| anyhow!("`{part}` is not a table"))?;
-    }
-    place.insert(last.to_owned(), value);
-    Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn refusal(name: &str, settings: &[&str]) -> String {
-        let settings: Vec<String> = settings.iter().map(|s| (*s).to_owned()).collect();
-        let error = Scenario::load(name, &settings).expect_err("must be refused");
-        let text = format!("{error:#}");
-        assert!(!text.contains('\n'), "{text}");
-        text
-    }
-
-    #[test]
-    fn every_built_in_scenario_loads() {
-        assert_eq!(list().expect("all load").len(), SCENARIOS.len());
-    }
-
-    #[test]
-    fn bad_input_is_one_line_that_names_the_culprit() {
-        assert!(refusal("helicks", &[]).contains("helicks"));
-        assert!(refusal("helix", &["airframe=papper"]).contains("papper"));
-        assert!(refusal("helix", &["airframe.mass_kg=-1"]).contains("mass_kg"));
-        assert!(refusal("helix", &["airframe.mass_kg=nan"]).contains("mass_kg"));
-        assert!(refusal("helix", &["control.roll.lambda=nan"]).contains("control.roll"));
-        assert!(refusal("helix", &["colour=1"]).contains("colour"));
-        assert!(refusal("helix", &["control.roll.colour=1"]).contains("colour"));
-        assert!(refusal("helix", &["duration_s=soon"]).contains("duration_s"));
-        assert!(refusal("helix", &["duration_s"]).contains("KEY=VALUE"));
-        assert!(refusal("helix", &["modes.colour=1"]).contains("colour"));
-        assert!(refusal("helix", &["modes.cruise_m_s=0"]).contains("modes.cruise_m_s"));
-        assert!(refusal("helix", &["modes.cruise_m_s=\"fast\""]).contains("cruise_m_s"));
-        assert!(refusal("/nowhere/x.toml", &[]).contains("/nowhere/x.toml"));
-    }
-
-    #[test]
-    fn numbers_with_which_no_flight_makes_sense_are_refused_by_their_key() {
-        for (scenario, setting, culprit) in [
-            ("helix", "time_optimal_s=nan", "time_optimal_s"),
-            ("helix", "duration_s=0.0001", "duration_s"),
-            ("paper-ideal", "duration_s=50000", "duration_s"),
-            ("helix", "trajectory.helix.yaw_rad=1e30", "yaw_rad"),
-            ("helix", "trajectory.helix.rate_rad_s=1e4", "rate_rad_s"),
-            ("helix", "trajectory.helix.base_m=1e38", "base_m"),
-            ("helix", "join.duration_s=1e9", "join.duration_s"),
-            ("helix", "thrust_to_weight=1e30", "thrust_to_weight"),
-            ("helix", "airframe.mass_kg=1e-40", "mass_kg"),
-            ("helix", "control.x.lambda=1e38", "control.x"),
-            ("paper-disturbed", "duration_s=3", "disturbance"),
-            ("paper-disturbed", "disturbance.to_s=4", "disturbance"),
-            ("paper-disturbed", "disturbance.hold_s=0.0014", "hold_s"),
-            ("paper-disturbed", "disturbance.position_output_m=-0.1", "position_output_m"),
-            ("paper-ideal", "ground=true", "ground"),
-            ("helix", "truth.mass_factor=0", "truth.mass_factor"),
-            ("helix", "truth.inertia_factor=nan", "truth.inertia_factor"),
-            ("helix", "truth.rotor_effectiveness=[1,1,1,-1]", "truth.rotor_effectiveness"),
-            ("helix", "truth.rotor_effectiveness=[0,0,0,0]", "truth.rotor_effectiveness"),
-            ("helix", "truth.rotor_lag_s=-1", "truth.rotor_lag_s"),
-            ("helix", "truth.colour=1", "colour"),
-            ("helix", "true_mass_kg=1", "true_mass_kg"),
-            ("helix", "actuation_delay_s=0.0005", "actuation_delay_s"),
-            ("helix", "actuation_delay_s=0.017", "actuation_delay_s"),
-            ("helix", "airframe.actuation_delay_s=-0.001", "actuation_delay_s"),
-            ("helix", "start_velocity_m_s=[1e3,0,0]", "start_velocity_m_s"),
-            ("helix", "start_rates_rad_s=[0,nan,0]", "start_rates_rad_s"),
-            ("helix", "tumble={rate_rad_s=-1.0,speed_m_s=0.0}", "tumble.rate_rad_s"),
-            ("helix", "wind.turbulence_20ft_m_s=-1", "wind.turbulence_20ft_m_s"),
-            ("helix", "wind.airspeed_m_s=0", "wind.airspeed_m_s"),
-            ("helix", "wind.mean_m_s=[0,0,inf]", "wind.mean_m_s"),
-            ("helix", "wind.gust=[{from_s=1.0,rise_s=0.0,peak_m_s=[1.0,0.0,0.0]}]", "wind.gust.rise_s"),
-            ("helix", "wind.gust=[{from_s=1.0,rise_s=1.0,peak_m_s=[1e3,0.0,0.0]}]", "wind.gust.peak_m_s"),
-            ("helix", "push=[{from_s=1.0,to_s=1.0}]", "push.to_s"),
-            ("helix", "push=[{from_s=1.0,to_s=2.0,acceleration_m_s2=[0.0,nan,0.0]}]", "push.acceleration_m_s2"),
-            ("helix", "push=[{from_s=1.0,to_s=2.0,colour=1.0}]", "colour"),
-            ("helix", "world.altitude_m=2e4", "world.altitude_m"),
-            ("pad", "world.ground_effect=true", "rotor_radius_m"),
-            ("pad", "world.ground_height_m=1", "world.ground_height_m"),
-            ("helix", "world.ground_height_m=-1", "ground"),
-            ("x500-hover", "world.ground_effect=true", "ground"),
-            ("helix", "world.rotor_lag_down=true", "rotor_lag_down_s"),
-            ("helix", "battery.soc=0.5", "airframe.battery"),
-            ("x500-hover", "battery.soc=1.1", "battery.soc"),
-            ("x500-hover", "fault=[{kind=\"collapse\",from_s=1.0,to_s=2.0,factor=-1.0}]", "fault.factor"),
-            ("x500-hover", "airframe.battery.efficiency=0", "airframe.battery.efficiency"),
-            ("x500-hover", "airframe.rotor_radius_m=0", "airframe.rotor_radius_m"),
-            ("helix", "fault=[{kind=\"rotor\",index=0,effectiveness=1.0,from_s=-1.0}]", "fault.from_s"),
-            ("helix", "fault=[{kind=\"rotor\",index=4,effectiveness=1.0,from_s=1.0}]", "fault.index"),
-            ("helix", "sensors=\"gps\"", "gps"),
-            ("helix", "command=[{order=\"dance\"}]", "dance"),
-            ("helix", "assess={from_s=-1.0}", "assess.from_s"),
-            ("helix", "assess={from_s=9.0,to_s=8.0}", "assess.from_s"),
-            ("helix", "home.latitude_deg=91", "latitude_deg"),
-            ("paper-ideal", "world.altitude_m=100", "world"),
-            ("paper-ideal", "push=[{from_s=1.0,to_s=2.0}]", "push"),
-            ("paper-ideal", "battery.soc=1", "battery"),
-            ("paper-ideal", "fault=[{kind=\"rotor\",index=0,effectiveness=0.0,from_s=1.0}]", "fault"),
-            ("paper-ideal", "sensors=\"gnss\"", "sensors"),
-            ("paper-ideal", "actuation_delay_s=0.001", "actuation_delay_s"),
-            ("paper-ideal", "start_attitude_deg=[10,0,0]", "start_attitude_deg"),
-            ("paper-ideal", "wind.mean_m_s=[1,0,0]", "wind"),
-            ("paper-ideal", "tumble={rate_rad_s=1.0,speed_m_s=0.0}", "tumble"),
-            ("helix", "attitude={amplitude_rad=[1,0,0],rate_rad_s=[1,1,1],phase_rad=[0,0,0]}", "attitude"),
-        ] {
-            assert!(refusal(scenario, &[setting]).contains(culprit), "{setting}");
-        }
-    }
-
-    #[test]
-    fn a_start_is_either_drawn_or_written_down() {
-        let settings = ["tumble={rate_rad_s=1.0,speed_m_s=0.0}", "start_rates_rad_s=[0,0,0]"];
-        assert!(refusal("helix", &settings).contains("start_rates_rad_s"));
-    }
-
-    #[test]
-    fn the_bound_is_not_shown_for_another_problem() {
-        let bound = |settings: &[&str]| {
-            let settings: Vec<String> = settings.iter().map(|s| (*s).to_owned()).collect();
-            Scenario::load("helix", &settings).expect("valid").file.time_optimal_s
-        };
-        assert_eq!(bound(&["control.x.lambda=3"]), Some(1.31));
-        assert_eq!(bound(&["thrust_to_weight=4"]), None);
-        assert_eq!(bound(&["truth.mass_factor=1.1"]), None);
-        assert_eq!(bound(&["start_velocity_m_s=[1,0,0]"]), None);
-    }
-
-    #[test]
-    fn a_setting_takes_effect_in_plant_and_firmware() {
-        let scenario = Scenario::load("helix", &["airframe.mass_kg=1".to_owned()]).expect("valid");
-        assert_eq!(scenario.constants().mass, 1.0);
-        assert_eq!(scenario.flight_config().airframe.mass_kg, 1.0);
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Owns the wall clock, which nobody else reads. The vehicle is told of time only by being ticked; `speed` says
 //! how often that is, never what a tick does. A process that was held up catches up, but only so far: what it
-//! missed beyond that is left out rather than flown in a rush. Lines of text are obeyed between ticks.
+//! missed beyond that is left out rather than flown in a rush. Lines of text are executed between ticks.
 
 use std::io::Write as _;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,7 +27,7 @@ pub trait Vehicle {
     ///
     /// # Errors
     /// In one line, why it is not done.
-    fn obey(&mut self, line: &str) -> anyhow::Result<String>;
+    fn execute(&mut self, line: &str) -> anyhow::Result<String>;
 }
 
 /// Lines of text for the vehicle, and where answers and complaints go.
@@ -52,10 +52,10 @@ impl Console {
         Self::new(lines)
     }
 
-    /// Lets the vehicle obey the lines that have come.
+    /// Executes the lines that have come.
     fn pass_on(&self, vehicle: &mut impl Vehicle) {
         for line in self.lines.try_iter() {
-            match vehicle.obey(&line) {
+            match vehicle.execute(&line) {
                 // Nobody may be there to read the answer.
                 Ok(answer) if !answer.is_empty() => drop(writeln!(std::io::stdout(), "{answer}")),
                 Ok(_) => {}
@@ -170,7 +170,7 @@ mod tests {
             self.ticks.is_multiple_of(10).then(|| TxBytes::from_slice(b"whole").expect("fits"))
         }
 
-        fn obey(&mut self, line: &str) -> anyhow::Result<String> {
+        fn execute(&mut self, line: &str) -> anyhow::Result<String> {
             ensure!(line == "end", "no");
             self.end = self.ticks + 1;
             Ok(String::new())
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_obeyed_and_bad_ones_do_no_harm() {
+    fn lines_are_executed_and_bad_ones_do_no_harm() {
         let stop = AtomicBool::new(false);
         let mut vehicle = Counter { ticks: 0, end: u64::MAX, received: Vec::new(), largest: 0, stop: &stop };
         let mut link = UdpLink::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port");

@@ -147,8 +147,8 @@ fn open(
     how: fn(&CStr) -> Result<File, semihosting::io::Error>,
 ) -> Result<File, StartError> {
     let mut path: heapless::Vec<u8, PATH_MAX> = heapless::Vec::new();
-    for part in [directory, "/", name, "\0"] {
-        path.extend_from_slice(part.as_bytes()).map_err(|_| StartError::NoHost)?;
+    for piece in [directory, "/", name, "\0"] {
+        path.extend_from_slice(piece.as_bytes()).map_err(|_| StartError::NoHost)?;
     }
     let path = CStr::from_bytes_with_nul(&path).map_err(|_| StartError::NoHost)?;
     how(path).map_err(|_| StartError::NoHost)

@@ -124,7 +124,7 @@ impl AttitudeLaw for SlidingAttitude {
         let holding = holding_torque(&self.airframe, input.rates, input.rotors.spin_rad_s);
         if let Some(observer) = &mut self.observer {
             acceleration -=
-                observer.step(input.rates, &(input.rotors.torque - holding).component_mul(&self.inverse_inertia));
+                observer.estimate(input.rates, &(input.rotors.torque - holding).component_mul(&self.inverse_inertia));
         }
         let inertia = Vector3::from(self.airframe.inertia_kg_m2);
         AttitudeDemand { s, torque: holding + inertia.component_mul(&acceleration) }

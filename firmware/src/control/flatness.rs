@@ -75,7 +75,7 @@ fn turn_back(v: &Vector3<f32>, (sin, cos): (f32, f32)) -> Vector3<f32> {
 }
 
 /// `e3 × v`.
-fn across(v: &Vector3<f32>) -> Vector3<f32> {
+fn quarter_turn(v: &Vector3<f32>) -> Vector3<f32> {
     Vector3::new(-v.y, v.x, 0.0)
 }
 
@@ -90,11 +90,11 @@ pub fn attitude_target(profile: &ForceProfile, heading: &Heading) -> AttitudeTar
     // In the frame that turns with ψ: d/dt [Rz(−ψ) n] = Rz(−ψ)(ṅ − ψ̇ e3×n), and once more.
     let n = turn_back(&direction.n, turn);
     let n_rate = turn_back(&direction.rate, turn);
-    let rate = n_rate - across(&n) * heading.rate;
+    let rate = n_rate - quarter_turn(&n) * heading.rate;
     let acceleration = turn_back(&direction.acceleration, turn)
-        - across(&n_rate) * (2.0 * heading.rate)
-        - across(&n) * heading.acceleration
-        + across(&across(&n)) * (heading.rate * heading.rate);
+        - quarter_turn(&n_rate) * (2.0 * heading.rate)
+        - quarter_turn(&n) * heading.acceleration
+        + quarter_turn(&quarter_turn(&n)) * (heading.rate * heading.rate);
 
     let sin_roll = math::clamp(-n.y, -0.999_95, 0.999_95);
     let cos_roll = math::sqrt(1.0 - sin_roll * sin_roll);

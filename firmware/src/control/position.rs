@@ -109,7 +109,7 @@ impl SlidingPosition {
         let Some(observer) = &mut self.observer else { return (Vector3::zeros(), Vector3::zeros()) };
         let force = self.model.force(input.acceleration, input.velocity);
         let wrong_thrust = force * (self.effectiveness.value() - 1.0);
-        let beyond = wrong_thrust + observer.step(input.velocity, &(input.acceleration + wrong_thrust));
+        let beyond = wrong_thrust + observer.estimate(input.velocity, &(input.acceleration + wrong_thrust));
         self.effectiveness.adapt(&force, observer);
         (beyond, observer.disturbance())
     }

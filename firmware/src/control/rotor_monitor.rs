@@ -1,9 +1,9 @@
-//! Which rotor has failed: what the body does, against what its rotors are believed to do.
+//! Rotor failure detection: compares the measured motion with what the estimated rotor speeds should cause.
 //!
-//! What the body feels is `U = (m f_z, I Ω̇ + Ω × IΩ + …)`, from the accelerometer and the differentiated gyroscope. What
-//! is missing of it, turned into squared speeds by the inverse of Eq. 4, is a number a rotor: a rotor that gives the part
-//! η of its thrust lacks (1 − η) ω² of its own and nothing of the others', a push on the body lacks or adds on all. Both
-//! sides pass through the same lag, so nothing is seen of a change that both have.
+//! The measured control input is `U = (m f_z, I Ω̇ + Ω × IΩ + …)`, from the accelerometer and the differentiated
+//! gyroscope. The difference from the expected U, converted to squared speeds by the inverse of Eq. 4, gives one value
+//! per rotor: a rotor with effectiveness η lacks (1 − η) ω² and leaves the others' values unchanged, while an external
+//! push changes all of them. Both sides pass through the same low-pass, so a manoeuvre does not show as a difference.
 
 use nalgebra::{Matrix4, Vector3, Vector4};
 
@@ -13,37 +13,38 @@ use crate::control::law::RotorEffect;
 use crate::math;
 use crate::signals::TICK_S;
 
-/// Time constant of the comparison, s: longer than vibration, shorter than a fall.
+/// Time constant of the low-pass on both sides of the comparison, s: longer than vibration, shorter than a fall.
 const LAG_S: f32 = 0.02;
-/// How slowly what is thought of a sound rotor follows, s: a spent battery, thin air, a frame that is a little twisted.
+/// Time constant with which the baseline of a working rotor follows, s: slow changes such as a draining battery, thin
+/// air or a slightly twisted frame are no failure.
 const BASELINE_S: f32 = 5.0;
-/// How far it follows: below, a rotor that fades is not lost sight of.
+/// Range of the baseline: bounded from below so that a rotor that fades slowly is still detected.
 const BASELINE: (f32, f32) = (0.5, 1.5);
-/// A rotor that gives less than this part of what it gave has failed…
+/// A rotor whose effectiveness falls below this fraction of its baseline has failed…
 const FAILED_BELOW: f32 = 0.4;
-/// …if every other gives more than this.
+/// …if every other is above this fraction: an external push lowers several at once.
 const SOUND_ABOVE: f32 = 0.55;
-/// For so many ticks in a row.
+/// The condition must hold for this many ticks in a row: twice the low-pass' time constant.
 const FAILED_AFTER: u32 = 40;
-/// A rotor slower than this part of hover's speed tells nothing.
+/// A rotor slower than this fraction of the hover speed is not judged: its thrust is too small to measure.
 const SLOWEST: f32 = 0.5;
 
-/// A first-order lag of a tick.
+/// The state of a first-order low-pass, updated once per tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Lagged<T>(T);
 
-/// The comparison, and what has come of it.
+/// The failure detector and its state.
 #[derive(Clone, Debug)]
 pub struct RotorMonitor {
     airframe: Airframe,
-    /// B⁻¹; none for rotors that cannot be told apart.
+    /// B⁻¹; `None` for a singular geometry, whose rotors cannot be told apart.
     inverse: Option<Matrix4<f32>>,
-    /// The least ω² that tells something.
+    /// The least ω² at which a rotor is judged, rad²/s².
     least: f32,
     rates: Lagged<Vector3<f32>>,
     missing: Lagged<Vector4<f32>>,
     square: Lagged<Vector4<f32>>,
-    /// η as last found, and as it is in the long run.
+    /// η now, and its slowly following baseline.
     effectiveness: [f32; ROTORS],
     baseline: [f32; ROTORS],
     suspect: Option<(u8, u32)>,
@@ -51,7 +52,7 @@ pub struct RotorMonitor {
 }
 
 impl RotorMonitor {
-    /// All rotors sound.
+    /// With all rotors working.
     pub fn new(airframe: &Airframe) -> Self {
         let rows = airframe.geometry.rows();
         let hover = airframe.omega_for_thrust_to_weight(1.0);
@@ -69,17 +70,17 @@ impl RotorMonitor {
         }
     }
 
-    /// The rotor that has failed, from 0.
+    /// The index of the failed rotor, from 0.
     pub fn failed(&self) -> Option<u8> {
         self.failed
     }
 
-    /// η of each rotor as last found; 1 for those too slow to tell.
+    /// The last estimate of η for each rotor; 1 for those too slow to judge.
     pub fn effectiveness(&self) -> &[f32; ROTORS] {
         &self.effectiveness
     }
 
-    /// All rotors sound again, as they are taken to be before a flight.
+    /// All rotors are taken to work again, as before a flight.
     pub fn reset(&mut self, rates: &Vector3<f32>) {
         self.rates = Lagged(*rates);
         self.missing = Lagged::default();
@@ -90,26 +91,26 @@ impl RotorMonitor {
         self.failed = None;
     }
 
-    /// A tick whose motion was not measured: nothing may be concluded from it.
+    /// A tick without a measured motion: restarts the comparison, so that nothing is concluded from the gap.
     pub fn miss(&mut self, rates: &Vector3<f32>) {
         self.rates = Lagged(*rates);
         self.missing = Lagged::default();
         self.suspect = None;
     }
 
-    /// A tick in the air: Ω (rad/s), the thrust axis' specific force (m/s²), and what the rotors are believed to do at
-    /// their speeds (rad/s).
-    pub fn step(&mut self, rates: &Vector3<f32>, force_z: f32, believed: &RotorEffect, omega_rad_s: &[f32; ROTORS]) {
-        let part = TICK_S / LAG_S;
+    /// A tick in the air, with Ω (rad/s), the specific force along the thrust axis (m/s²), the expected effect of the
+    /// rotors, and their estimated speeds (rad/s).
+    pub fn update(&mut self, rates: &Vector3<f32>, force_z: f32, believed: &RotorEffect, omega_rad_s: &[f32; ROTORS]) {
+        let lag_gain = TICK_S / LAG_S;
         let acceleration = (rates - self.rates.0) / LAG_S;
-        self.rates.0 += (rates - self.rates.0) * part;
+        self.rates.0 += (rates - self.rates.0) * lag_gain;
         let square = Vector4::from(*omega_rad_s).map(|omega| omega * omega);
         let thrust = Vector4::from(self.airframe.geometry.thrust).dot(&square);
         let holding = attitude::torque(&self.airframe, &Vector3::zeros(), rates, believed.spin_rad_s);
         let missing = holding - believed.torque;
         let lack = Vector4::new(self.airframe.mass_kg * force_z - thrust, missing.x, missing.y, missing.z);
-        self.missing.0 += (lack - self.missing.0) * part;
-        self.square.0 += (square - self.square.0) * part;
+        self.missing.0 += (lack - self.missing.0) * lag_gain;
+        self.square.0 += (square - self.square.0) * lag_gain;
         let inertia = Vector3::from(self.airframe.inertia_kg_m2).component_mul(&acceleration);
         let turning = Vector4::new(0.0, inertia.x, inertia.y, inertia.z);
         self.judge(&(self.missing.0 + turning));
@@ -121,12 +122,12 @@ impl RotorMonitor {
         for ((eta, lack), square) in self.effectiveness.iter_mut().zip(&lacking).zip(&self.square.0) {
             *eta = if *square > self.least { 1.0 + lack / square } else { 1.0 };
         }
-        // A rotor that fails leaves less thrust than is believed; what is held up by more of it touches the ground.
+        // A failed rotor leaves less thrust than expected. More than expected means contact with the ground.
         let lifted_less = missing.x < 0.0;
-        let mut parts = self.effectiveness;
-        parts.iter_mut().zip(&self.baseline).for_each(|(part, baseline)| *part /= baseline);
-        let weak = parts.iter().position(|part| *part < FAILED_BELOW).filter(|_| lifted_less);
-        let alone = |rotor: usize| parts.iter().enumerate().all(|(other, part)| other == rotor || *part > SOUND_ABOVE);
+        let mut relative = self.effectiveness;
+        relative.iter_mut().zip(&self.baseline).for_each(|(eta, baseline)| *eta /= baseline);
+        let weak = relative.iter().position(|eta| *eta < FAILED_BELOW).filter(|_| lifted_less);
+        let alone = |rotor: usize| relative.iter().enumerate().all(|(other, eta)| other == rotor || *eta > SOUND_ABOVE);
         if weak.is_none() {
             for (baseline, eta) in self.baseline.iter_mut().zip(&self.effectiveness) {
                 let next = *baseline + (eta - *baseline) * (TICK_S / BASELINE_S);
@@ -153,18 +154,18 @@ mod tests {
 
     /// A body at rest whose rotors turn at hover, with these parts of their thrust, and pushed by a torque (N m): rates
     /// as they grow from it.
-    fn watch(parts: [f32; ROTORS], push: Vector3<f32>, ticks: u32) -> RotorMonitor {
-        watch_held_up(parts, push, 0.0, ticks)
+    fn watch(effectiveness: [f32; ROTORS], push: Vector3<f32>, ticks: u32) -> RotorMonitor {
+        watch_held_up(effectiveness, push, 0.0, ticks)
     }
 
     /// The same with something from below that bears a part of the weight.
-    fn watch_held_up(parts: [f32; ROTORS], push: Vector3<f32>, held_up: f32, ticks: u32) -> RotorMonitor {
+    fn watch_held_up(effectiveness: [f32; ROTORS], push: Vector3<f32>, held_up: f32, ticks: u32) -> RotorMonitor {
         let airframe = Airframe::paper(2.0);
         let mut monitor = RotorMonitor::new(&airframe);
         let omega = [airframe.omega_for_thrust_to_weight(1.0); ROTORS];
         let effect = RotorTorque::new(&airframe).steady(&omega);
         let square = omega[0] * omega[0];
-        let sum = |row: [f32; ROTORS]| row.iter().zip(parts).map(|(b, part)| b * part * square).sum::<f32>();
+        let sum = |row: [f32; ROTORS]| row.iter().zip(effectiveness).map(|(b, eta)| b * eta * square).sum::<f32>();
         let g = &airframe.geometry;
         let torque = Vector3::new(sum(g.roll), sum(g.pitch), sum(g.yaw)) + push;
         let inertia = Vector3::from(airframe.inertia_kg_m2);
@@ -172,7 +173,7 @@ mod tests {
         monitor.reset(&rates);
         for _ in 0..ticks {
             let force = sum(g.thrust) / airframe.mass_kg + held_up * airframe.gravity_m_s2;
-            monitor.step(&rates, force, &effect, &omega);
+            monitor.update(&rates, force, &effect, &omega);
             let holding = attitude::torque(&airframe, &Vector3::zeros(), &rates, effect.spin_rad_s);
             rates += (torque - holding).component_div(&inertia) * TICK_S;
         }
@@ -182,9 +183,9 @@ mod tests {
     #[test]
     fn a_lost_rotor_is_found_within_an_eighth_of_a_second() {
         for rotor in 0..ROTORS {
-            let mut parts = [1.0; ROTORS];
-            parts[rotor] = 0.0;
-            assert_eq!(watch(parts, Vector3::zeros(), 125).failed(), Some(rotor as u8));
+            let mut effectiveness = [1.0; ROTORS];
+            effectiveness[rotor] = 0.0;
+            assert_eq!(watch(effectiveness, Vector3::zeros(), 125).failed(), Some(rotor as u8));
         }
     }
 

@@ -70,7 +70,7 @@ struct Lag {
 pub struct Setpoint {
     limits: ModeSettings,
     /// Part of the way to its input that a lag goes in a step, 1 − e^(−h/τ).
-    part: f32,
+    step_fraction: f32,
     /// x, y, z and ψ of the course, and their rates.
     place: Vector4<f32>,
     speed: Vector4<f32>,
@@ -120,7 +120,7 @@ impl Setpoint {
         let zero = Vector4::zeros();
         Self {
             limits: *limits,
-            part: 1.0 - math::exp(-STEP_S / time_constant),
+            step_fraction: 1.0 - math::exp(-STEP_S / time_constant),
             place: zero,
             speed: zero,
             lags: [Lag { behind: zero, velocity: zero, acceleration: zero }; 3],
@@ -130,7 +130,7 @@ impl Setpoint {
     /// Goes on from a reference without a leap in position to snap: the course is set ahead of it by what the lags
     /// will take away.
     pub fn start(&mut self, from: &FlatReference) {
-        let ahead_s = STEP_S / self.part;
+        let ahead_s = STEP_S / self.step_fraction;
         let mut velocity = four(&from.velocity, from.yaw_rate);
         let mut acceleration = four(&from.acceleration, from.yaw_acceleration);
         let mut jerk = four(&from.jerk, 0.0);
@@ -148,7 +148,7 @@ impl Setpoint {
     }
 
     /// The reference a step later.
-    pub fn step(&mut self, target: &Target) -> FlatReference {
+    pub fn advance(&mut self, target: &Target) -> FlatReference {
         let (way, change) = self.translate(target);
         let (angle, rate_change) = self.turn(target);
         let (way, change) = (four(&way, angle), four(&change, rate_change));
@@ -247,13 +247,13 @@ impl Setpoint {
 
     /// The lags follow the course for a step in which it goes a `way` with an acceleration.
     fn follow(&mut self, way: &Vector4<f32>, acceleration: &Vector4<f32>) {
-        let part = self.part;
+        let gain = self.step_fraction;
         let (mut way, mut velocity, mut acceleration) = (*way, self.speed, *acceleration);
         for lag in &mut self.lags {
             let before = *lag;
-            lag.velocity += (velocity - before.velocity) * part;
-            lag.acceleration += (acceleration - before.acceleration) * part;
-            let own_way = before.behind * part;
+            lag.velocity += (velocity - before.velocity) * gain;
+            lag.acceleration += (acceleration - before.acceleration) * gain;
+            let own_way = before.behind * gain;
             lag.behind += way - own_way;
             (way, velocity, acceleration) = (own_way, before.velocity, before.acceleration);
         }
@@ -266,7 +266,7 @@ impl Setpoint {
 
     /// The reference now.
     pub fn reference(&self) -> FlatReference {
-        let per_s = self.part / STEP_S;
+        let per_s = self.step_fraction / STEP_S;
         let [first, second, third] = &self.lags;
         let place = self.place - self.behind();
         let jerk = (second.acceleration - third.acceleration) * per_s;
@@ -286,10 +286,10 @@ impl Setpoint {
 
 /// The greatest size of a vector in a direction whose horizontal and vertical parts are limited.
 fn within(direction: &Vector3<f32>, horizontal: f32, vertical: f32) -> f32 {
-    let across = math::sqrt(direction.x * direction.x + direction.y * direction.y);
+    let level = math::sqrt(direction.x * direction.x + direction.y * direction.y);
     let up = math::abs(direction.z);
     // One of the two is 0.7 at least, but for no direction at all.
-    math::min(horizontal / math::max(across, 1e-6), vertical / math::max(up, 1e-6))
+    math::min(horizontal / math::max(level, 1e-6), vertical / math::max(up, 1e-6))
 }
 
 /// A horizontal vector made `most` long at most.

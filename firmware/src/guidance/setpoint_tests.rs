@@ -93,7 +93,7 @@ fn it_arrives_without_overshoot_and_nearly_as_fast_as_can_be() {
         let mut setpoint = standing([0.0; 3]);
         let mut arrival = None;
         for step in 0..steps(60.0) {
-            let r = setpoint.step(&place([distance, 0.0, 0.0], 0.0));
+            let r = setpoint.advance(&place([distance, 0.0, 0.0], 0.0));
             assert!(r.position.x <= distance * 1.000_1, "overshoot at {distance}: {}", r.position.x);
             if r.position.x >= 0.98 * distance {
                 arrival = arrival.or(Some(step as f32 * STEP_S));
@@ -114,7 +114,7 @@ fn a_move_from_rest_is_a_straight_line_within_the_limits() {
         let direction = (Vector3::from(to) - from).normalize();
         let mut before = setpoint.reference();
         for _ in 0..steps(40.0) {
-            let r = setpoint.step(&place(to, 1.0));
+            let r = setpoint.advance(&place(to, 1.0));
             assert_within_limits(&r);
             assert_continuous(&before, &r);
             let way = r.position - from;
@@ -131,12 +131,12 @@ fn it_brakes_where_the_limits_allow_and_stays_there() {
     let go = Target::Velocity { velocity: Vector3::new(9.0, 0.0, 0.0), yaw_rate: 0.5 };
     let stop = Target::Velocity { velocity: Vector3::zeros(), yaw_rate: 0.0 };
     for _ in 0..steps(6.0) {
-        setpoint.step(&go);
+        setpoint.advance(&go);
     }
     let moving = setpoint.reference();
     assert!(math::abs(moving.velocity.x - 5.0) < 1e-3, "the limit, not the 9 m/s asked for");
     for _ in 0..steps(6.0) {
-        assert_within_limits(&setpoint.step(&stop));
+        assert_within_limits(&setpoint.advance(&stop));
     }
     let stopped = setpoint.reference();
     // v²/2a, and what the lags are behind.
@@ -144,7 +144,7 @@ fn it_brakes_where_the_limits_allow_and_stays_there() {
     assert!((25.0 / 6.0..25.0 / 6.0 + 2.5 + 0.1).contains(&way), "{way}");
     assert!(stopped.velocity.norm() < 1e-4 && math::abs(stopped.yaw_rate) < 1e-4);
     for _ in 0..steps(60.0) {
-        setpoint.step(&stop);
+        setpoint.advance(&stop);
     }
     assert!((setpoint.reference().position - stopped.position).norm() < 1e-3);
 }
@@ -164,7 +164,7 @@ fn it_goes_on_from_a_trajectory_without_a_leap() {
         assert!((start.jerk - from.jerk).norm() < 1e-3 && (start.snap - from.snap).norm() < 0.05);
         let mut before = start;
         for _ in 0..steps(8.0) {
-            let r = setpoint.step(&Target::Velocity { velocity: Vector3::zeros(), yaw_rate: 0.0 });
+            let r = setpoint.advance(&Target::Velocity { velocity: Vector3::zeros(), yaw_rate: 0.0 });
             assert_continuous(&before, &r);
             before = r;
         }
@@ -177,7 +177,7 @@ fn heading_goes_the_short_way_around() {
     let mut setpoint = Setpoint::new(&LIMITS);
     setpoint.start(&FlatReference::standing(Vector3::zeros(), 3.0));
     for _ in 0..steps(3.0) {
-        let r = setpoint.step(&place([0.0; 3], -3.0));
+        let r = setpoint.advance(&place([0.0; 3], -3.0));
         assert!(math::abs(r.yaw) > 2.9, "{}", r.yaw);
     }
     assert!(math::abs(setpoint.reference().yaw + 3.0) < 1e-4);
@@ -187,10 +187,10 @@ fn heading_goes_the_short_way_around() {
 fn a_height_is_reached_at_its_own_speed_and_sideways_it_stops() {
     let mut setpoint = standing([0.0; 3]);
     for _ in 0..steps(3.0) {
-        setpoint.step(&Target::Velocity { velocity: Vector3::new(3.0, 0.0, 0.0), yaw_rate: 0.0 });
+        setpoint.advance(&Target::Velocity { velocity: Vector3::new(3.0, 0.0, 0.0), yaw_rate: 0.0 });
     }
     for _ in 0..steps(15.0) {
-        let r = setpoint.step(&Target::Height { height_m: 6.0, speed_m_s: 0.8 });
+        let r = setpoint.advance(&Target::Height { height_m: 6.0, speed_m_s: 0.8 });
         assert!(r.velocity.z < 0.81 && r.position.z < 6.000_1);
         assert_within_limits(&r);
     }
@@ -202,7 +202,7 @@ fn a_height_is_reached_at_its_own_speed_and_sideways_it_stops() {
 fn what_is_put_elsewhere_keeps_its_motion() {
     let mut setpoint = standing([0.0; 3]);
     for _ in 0..steps(1.0) {
-        setpoint.step(&Target::Velocity { velocity: Vector3::new(3.0, 0.0, -1.0), yaw_rate: 0.0 });
+        setpoint.advance(&Target::Velocity { velocity: Vector3::new(3.0, 0.0, -1.0), yaw_rate: 0.0 });
     }
     let before = setpoint.reference();
     setpoint.put_horizontally(10.0, 20.0);
@@ -230,7 +230,7 @@ proptest! {
         let mut before = setpoint.reference();
         for (target, count) in targets {
             for _ in 0..count {
-                let r = setpoint.step(&target);
+                let r = setpoint.advance(&target);
                 assert_within_limits(&r);
                 assert_continuous(&before, &r);
                 before = r;
@@ -244,10 +244,10 @@ proptest! {
     ) {
         let mut setpoint = standing([0.0, 0.0, 10.0]);
         for _ in 0..lasting {
-            setpoint.step(&before);
+            setpoint.advance(&before);
         }
         for _ in 0..steps(90.0) {
-            setpoint.step(&place([x, y, z], 0.0));
+            setpoint.advance(&place([x, y, z], 0.0));
         }
         let r = setpoint.reference();
         prop_assert!((r.position - Vector3::new(x, y, z)).norm() < 1e-3, "{:?}", r);

@@ -1,4 +1,4 @@
-//! What is told to pilots in words: why a command was refused, and what has happened.
+//! Texts for pilots (`STATUSTEXT`): why a command was refused, and failsafe events.
 
 use glissade_dialect::mavlink_core::types::CharArray;
 use glissade_dialect::{MavSeverity, STATUSTEXT_DATA};
@@ -11,65 +11,18 @@ const LENGTH: usize = 50;
 
 /// Sends why a command was refused; false if it does not fit.
 pub(super) fn write_refusal(request: &Request, refusal: Refusal, out: &mut Writer) -> bool {
-    write([name(request), " refused: ", reason(refusal)], MavSeverity::MAV_SEVERITY_WARNING, out)
+    write(&[request.name(), " refused: ", refusal.reason()], MavSeverity::MAV_SEVERITY_WARNING, out)
 }
 
-/// Sends what has happened; false if it does not fit.
+/// Sends an event; false if it does not fit.
 pub(super) fn write_event(event: Event, out: &mut Writer) -> bool {
-    let parts = match event {
-        Event::SensorsLost => ["Sensors lost", ": descending blind", ""],
-        Event::SensorsGone => ["Sensors lost", ": rotors stopped", ""],
-        Event::AttitudeLost => ["Attitude lost", ": descending blind", ""],
-        Event::HeightLost => ["Height lost", ": descending blind", ""],
-        Event::VelocityLost => ["Velocity lost", ": descending level", ""],
-        Event::PositionLost => ["Position lost", ": descending", ""],
-        Event::BatteryLow => ["Battery low", ": returning", ""],
-        Event::BatteryCritical => ["Battery critical", ": landing", ""],
-        Event::RotorFailed { rotor } => ["Rotor", number(rotor), " failed: descending, turning"],
-    };
-    write(parts, MavSeverity::MAV_SEVERITY_CRITICAL, out)
+    write(&[event.text()], MavSeverity::MAV_SEVERITY_CRITICAL, out)
 }
 
-/// The number of a rotor as pilots count them.
-fn number(rotor: u8) -> &'static str {
-    [" 1", " 2", " 3", " 4"].get(usize::from(rotor)).copied().unwrap_or_default()
-}
-
-fn name(request: &Request) -> &'static str {
-    match request {
-        Request::Arm { .. } => "Arming",
-        Request::Disarm { .. } => "Disarming",
-        Request::TakeOff { .. } => "Take-off",
-        Request::Hold => "Hold",
-        Request::GoTo { .. } => "Go to",
-        Request::Velocity { .. } => "Velocity",
-        Request::Land => "Landing",
-        Request::Return => "Return",
-        Request::Follow => "Trajectory",
-    }
-}
-
-fn reason(refusal: Refusal) -> &'static str {
-    match refusal {
-        Refusal::NoNavigation => "no sensor data",
-        Refusal::NotAligned => "attitude unknown",
-        Refusal::NoPosition => "position unknown",
-        Refusal::NoHeight => "height unknown",
-        Refusal::NotLevel => "not level",
-        Refusal::Moving => "moving",
-        Refusal::Battery => "battery low",
-        Refusal::RotorFailed => "rotor failed",
-        Refusal::InAir => "in the air",
-        Refusal::OnGround => "on the ground",
-        Refusal::Disarmed => "disarmed",
-        Refusal::NotAtStart => "it begins elsewhere",
-    }
-}
-
-/// What does not fit is cut.
-fn write(parts: [&str; 3], severity: MavSeverity, out: &mut Writer) -> bool {
+/// Sends the concatenated text, truncated to [`LENGTH`]; false if the message does not fit.
+fn write(pieces: &[&str], severity: MavSeverity, out: &mut Writer) -> bool {
     let mut text = [0; LENGTH];
-    for (to, from) in text.iter_mut().zip(parts.iter().flat_map(|part| part.bytes())) {
+    for (to, from) in text.iter_mut().zip(pieces.iter().flat_map(|piece| piece.bytes())) {
         *to = from;
     }
     out.write(&STATUSTEXT_DATA { severity, text: CharArray::new(text) })

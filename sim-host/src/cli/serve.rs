@@ -29,7 +29,7 @@ impl Vehicle for Flight<RigidBody> {
         self.autopilot.inner.has_transmit().then(|| self.autopilot.inner.take_transmit())
     }
 
-    fn obey(&mut self, line: &str) -> Result<String> {
+    fn execute(&mut self, line: &str) -> Result<String> {
         let tick = self.next_tick();
         match failures::parse(line, tick)? {
             None => Ok(String::new()),

@@ -65,8 +65,8 @@ impl Battery {
         }
         let place = self.state.soc.min(1.0) * (curve.len() - 1) as f64;
         let below = (place as usize).min(curve.len() - 2);
-        let part = place - below as f64;
-        self.factor * (curve[below] + (curve[below + 1] - curve[below]) * part)
+        let fraction = place - below as f64;
+        self.factor * (curve[below] + (curve[below + 1] - curve[below]) * fraction)
     }
 
     /// Puts a load on it: the mechanical power of the rotors, W.

@@ -132,7 +132,7 @@ pub trait Plant {
     }
 
     /// What is left of its rotors' thrust and of its battery's voltage from now on, whatever was scheduled.
-    fn befall(&mut self, _faults: &PlantFaults) {}
+    fn apply_faults(&mut self, _faults: &PlantFaults) {}
 
     /// Its battery, if it has one.
     fn battery(&self) -> Option<BatteryState> {

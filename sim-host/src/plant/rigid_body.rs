@@ -127,8 +127,8 @@ impl RigidBody {
 
     /// What is left of each rotor's thrust and torques from now on: 1 for a sound rotor, 0 for one that is gone. Its
     /// spin goes on.
-    pub fn set_rotor_effectiveness(&mut self, parts: [f64; ROTORS]) {
-        self.sound.effectiveness = parts;
+    pub fn set_rotor_effectiveness(&mut self, effectiveness: [f64; ROTORS]) {
+        self.sound.effectiveness = effectiveness;
         match self.effects.take() {
             Some(mut active) => {
                 self.evaluate(&mut active);
@@ -279,8 +279,8 @@ impl RigidBody {
     #[inline(never)]
     fn step_with_effects(&mut self, command: &[f64; ROTORS], push: &Push, h: f64) {
         let Some(mut active) = self.effects.take() else { return };
-        if let Some(parts) = active.failure(h) {
-            self.sound.effectiveness = parts;
+        if let Some(effectiveness) = active.failure(h) {
+            self.sound.effectiveness = effectiveness;
             self.evaluate(&mut active);
         }
         let command = active.limit(command);
@@ -318,8 +318,8 @@ fn unpack(state: &State) -> Motion {
 fn normalise(state: &mut State) {
     let [_, _, _, _, _, _, w, x, y, z, ..] = &mut state.data.0[0];
     let inverse = 1.5 - 0.5 * ((*w * *w + *x * *x) + (*y * *y + *z * *z));
-    for part in [w, x, y, z] {
-        *part *= inverse;
+    for component in [w, x, y, z] {
+        *component *= inverse;
     }
 }
 
@@ -355,7 +355,7 @@ impl Plant for RigidBody {
         self.effects.as_ref().map_or(1.0, |active| active.density)
     }
 
-    fn befall(&mut self, faults: &PlantFaults) {
+    fn apply_faults(&mut self, faults: &PlantFaults) {
         if let Some(active) = &mut self.effects {
             active.forget_schedule(faults.battery_factor);
         }

@@ -65,7 +65,7 @@ impl Baro {
 pub(super) struct Barometer {
     period: Period,
     delay: u32,
-    part: Baro,
+    spec: Baro,
     home: Home,
     offset_pa: f64,
     /// Pa/K.
@@ -76,19 +76,19 @@ pub(super) struct Barometer {
 }
 
 impl Barometer {
-    pub(super) fn new(part: &Baro, home: &Home, seed: u64) -> Self {
-        let period = Period::of_rate(part.rate_hz);
+    pub(super) fn new(spec: &Baro, home: &Home, seed: u64) -> Self {
+        let period = Period::of_rate(spec.rate_hz);
         let (offset, warmth) = Stream::new(seed, Source::BaroErrors).normal_pair();
         let mut drifts = Stream::new(seed, Source::BaroDrift);
-        let sigma = Vector3::new(part.drift_pa, 0.0, 0.0);
+        let sigma = Vector3::new(spec.drift_pa, 0.0, 0.0);
         Self {
             period,
-            delay: ticks(part.delay_s),
-            part: part.clone(),
+            delay: ticks(spec.delay_s),
+            spec: spec.clone(),
             home: *home,
-            offset_pa: part.offset_pa * offset,
-            warmth: part.offset_pa_k * warmth,
-            drift: GaussMarkov::new(&mut drifts, sigma, part.drift_time_s, period.seconds()),
+            offset_pa: spec.offset_pa * offset,
+            warmth: spec.offset_pa_k * warmth,
+            drift: GaussMarkov::new(&mut drifts, sigma, spec.drift_time_s, period.seconds()),
             drifts,
             noise: Stream::new(seed, Source::BaroNoise),
         }
@@ -107,9 +107,9 @@ impl Model for Barometer {
     }
 
     fn measure(&mut self, truth: &Truth) -> BaroSample {
-        let drift = self.drift.sample(&mut self.drifts).x + self.warmth * self.part.warm_up.at(truth.tick);
-        let noise = self.noise.normal_pair().0 * self.part.noise_pa;
+        let drift = self.drift.sample(&mut self.drifts).x + self.warmth * self.spec.warm_up.at(truth.tick);
+        let noise = self.noise.normal_pair().0 * self.spec.noise_pa;
         let pressure = self.home.pressure(truth.motion.position.z) + self.offset_pa + drift + noise;
-        BaroSample { at: truth.tick, pressure_pa: quantise(pressure, self.part.resolution_pa) as f32 }
+        BaroSample { at: truth.tick, pressure_pa: quantise(pressure, self.spec.resolution_pa) as f32 }
     }
 }

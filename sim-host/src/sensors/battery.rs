@@ -54,16 +54,16 @@ impl Battery {
 pub(super) struct Monitor {
     period: Period,
     delay: u32,
-    part: Battery,
+    spec: Battery,
     noise: Stream,
 }
 
 impl Monitor {
-    pub(super) fn new(part: &Battery, seed: u64) -> Self {
+    pub(super) fn new(spec: &Battery, seed: u64) -> Self {
         Self {
-            period: Period::of_rate(part.rate_hz),
-            delay: ticks(part.delay_s),
-            part: part.clone(),
+            period: Period::of_rate(spec.rate_hz),
+            delay: ticks(spec.delay_s),
+            spec: spec.clone(),
             noise: Stream::new(seed, Source::BatteryNoise),
         }
     }
@@ -82,12 +82,12 @@ impl Model for Monitor {
 
     fn measure(&mut self, truth: &Truth) -> BatterySample {
         let (volts, amperes) = self.noise.normal_pair();
-        let part = &self.part;
-        let voltage = truth.battery.voltage_v + volts * part.voltage_v;
-        let current = truth.battery.current_a + amperes * part.current_a;
+        let spec = &self.spec;
+        let voltage = truth.battery.voltage_v + volts * spec.voltage_v;
+        let current = truth.battery.current_a + amperes * spec.current_a;
         BatterySample {
-            voltage_v: quantise(voltage, part.voltage_resolution_v) as f32,
-            current_a: quantise(current, part.current_resolution_a) as f32,
+            voltage_v: quantise(voltage, spec.voltage_resolution_v) as f32,
+            current_a: quantise(current, spec.current_resolution_a) as f32,
         }
     }
 }

@@ -72,7 +72,7 @@ impl Gnss {
 #[derive(Clone, Debug)]
 pub(super) struct Receiver {
     period: Period,
-    part: Gnss,
+    spec: Gnss,
     frame: LocalFrame,
     place: (Stream, GaussMarkov),
     velocity: (Stream, GaussMarkov),
@@ -81,8 +81,8 @@ pub(super) struct Receiver {
 }
 
 impl Receiver {
-    pub(super) fn new(part: &Gnss, home: &Home, seed: u64) -> Self {
-        let period = Period::of_rate(part.rate_hz);
+    pub(super) fn new(spec: &Gnss, home: &Home, seed: u64) -> Self {
+        let period = Period::of_rate(spec.rate_hz);
         let process = |source, horizontal: f64, vertical: f64, time_s| {
             let mut stream = Stream::new(seed, source);
             let sigma = Vector3::new(horizontal, horizontal, vertical);
@@ -91,10 +91,10 @@ impl Receiver {
         };
         Self {
             period,
-            part: part.clone(),
+            spec: spec.clone(),
             frame: LocalFrame::at(&home.place()),
-            place: process(Source::GnssPlace, part.horizontal_m, part.vertical_m, part.wander_time_s),
-            velocity: process(Source::GnssVelocity, part.speed_m_s, part.climb_m_s, part.speed_time_s),
+            place: process(Source::GnssPlace, spec.horizontal_m, spec.vertical_m, spec.wander_time_s),
+            velocity: process(Source::GnssVelocity, spec.speed_m_s, spec.climb_m_s, spec.speed_time_s),
             noise: Stream::new(seed, Source::GnssNoise),
             jitter: Stream::new(seed, Source::GnssJitter),
         }
@@ -110,13 +110,13 @@ impl Model for Receiver {
 
     /// The latency of the next solution, ticks: drawn anew for each.
     fn delay(&mut self) -> u32 {
-        ticks(self.part.delay_s + self.part.jitter_s * (2.0 * self.jitter.unit() - 1.0))
+        ticks(self.spec.delay_s + self.spec.jitter_s * (2.0 * self.jitter.unit() - 1.0))
     }
 
     /// The velocity is taken in the axes at home: at 1 km from there those of the place differ by 0.16 mrad.
     fn measure(&mut self, truth: &Truth) -> GnssSample {
-        let part = &self.part;
-        let white = Vector3::new(part.horizontal_noise_m, part.horizontal_noise_m, part.vertical_noise_m);
+        let spec = &self.spec;
+        let white = Vector3::new(spec.horizontal_noise_m, spec.horizontal_noise_m, spec.vertical_noise_m);
         let wander = self.place.1.sample(&mut self.place.0);
         let error = wander + self.noise.normal_vector().component_mul(&white);
         let velocity = truth.motion.velocity + self.velocity.1.sample(&mut self.velocity.0);
@@ -125,9 +125,9 @@ impl Model for Receiver {
             has_fix: true,
             place: self.frame.place(&(truth.motion.position + error)).rounded(),
             velocity: velocity.cast(),
-            horizontal_accuracy_m: libm::hypot(part.horizontal_m, part.horizontal_noise_m) as f32,
-            vertical_accuracy_m: libm::hypot(part.vertical_m, part.vertical_noise_m) as f32,
-            speed_accuracy_m_s: part.speed_m_s.max(part.climb_m_s) as f32,
+            horizontal_accuracy_m: libm::hypot(spec.horizontal_m, spec.horizontal_noise_m) as f32,
+            vertical_accuracy_m: libm::hypot(spec.vertical_m, spec.vertical_noise_m) as f32,
+            speed_accuracy_m_s: spec.speed_m_s.max(spec.climb_m_s) as f32,
         }
     }
 }

@@ -185,14 +185,14 @@ pub(super) struct InertialUnit {
 }
 
 impl InertialUnit {
-    pub(super) fn new(part: &Imu, seed: u64) -> Self {
+    pub(super) fn new(spec: &Imu, seed: u64) -> Self {
         let gyro = Sources { errors: Source::GyroErrors, noise: Source::GyroNoise, bias: Source::GyroBias };
         let accel = Sources { errors: Source::AccelErrors, noise: Source::AccelNoise, bias: Source::AccelBias };
         Self {
-            gyro: Axes::new(&part.gyro, &gyro, seed),
-            accel: Axes::new(&part.accel, &accel, seed),
-            warm_up: part.warm_up,
-            shaking: Shaking::new(&part.vibration, seed),
+            gyro: Axes::new(&spec.gyro, &gyro, seed),
+            accel: Axes::new(&spec.accel, &accel, seed),
+            warm_up: spec.warm_up,
+            shaking: Shaking::new(&spec.vibration, seed),
         }
     }
 

@@ -62,7 +62,7 @@ impl Mag {
 pub(super) struct Magnetometer {
     period: Period,
     delay: u32,
-    part: Mag,
+    spec: Mag,
     field: Vector3<f64>,
     pub(super) hard_iron: Vector3<f64>,
     iron: Matrix3<f64>,
@@ -72,15 +72,15 @@ pub(super) struct Magnetometer {
 }
 
 impl Magnetometer {
-    pub(super) fn new(part: &Mag, home: &Home, seed: u64) -> Self {
+    pub(super) fn new(spec: &Mag, home: &Home, seed: u64) -> Self {
         let mut errors = Stream::new(seed, Source::MagErrors);
-        let hard_iron = errors.normal_vector() * part.hard_iron_ut;
-        let wires = errors.normal_vector() * part.current_ut_a;
-        let columns: [Vector3<f64>; 3] = core::array::from_fn(|_| errors.normal_vector() * part.soft_iron);
+        let hard_iron = errors.normal_vector() * spec.hard_iron_ut;
+        let wires = errors.normal_vector() * spec.current_ut_a;
+        let columns: [Vector3<f64>; 3] = core::array::from_fn(|_| errors.normal_vector() * spec.soft_iron);
         Self {
-            period: Period::of_rate(part.rate_hz),
-            delay: ticks(part.delay_s),
-            part: part.clone(),
+            period: Period::of_rate(spec.rate_hz),
+            delay: ticks(spec.delay_s),
+            spec: spec.clone(),
             field: home.field_nwu(),
             hard_iron,
             iron: Matrix3::identity() + Matrix3::from_columns(&columns),
@@ -103,10 +103,10 @@ impl Model for Magnetometer {
 
     fn measure(&mut self, truth: &Truth) -> MagSample {
         let field = truth.attitude().inverse() * self.field;
-        let noise = self.noise.normal_vector() * self.part.noise_ut;
+        let noise = self.noise.normal_vector() * self.spec.noise_ut;
         let sensed = self.iron * field + self.hard_iron + self.wires * truth.battery.current_a + noise;
-        let range = self.part.range_ut;
-        let read = |value: f64| quantise(value.clamp(-range, range), self.part.resolution_ut) as f32;
+        let range = self.spec.range_ut;
+        let read = |value: f64| quantise(value.clamp(-range, range), self.spec.resolution_ut) as f32;
         MagSample { at: truth.tick, field_ut: sensed.map(read) }
     }
 }

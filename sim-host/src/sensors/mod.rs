@@ -12,6 +12,7 @@ pub mod baro;
 pub mod battery;
 mod channel;
 pub(crate) mod check;
+mod estimator_settings;
 pub mod faults;
 pub mod gnss;
 pub mod home;
@@ -20,7 +21,6 @@ pub mod mag;
 pub mod pose;
 mod process;
 pub mod suite;
-mod told;
 pub mod vibration;
 
 use anyhow::{Result, ensure};
@@ -126,22 +126,22 @@ pub struct Suite {
     /// Whether faults were started or ended while flying: then rotors and battery go by them, and by no schedule.
     commanded: bool,
     /// What the plant was told last.
-    told: Option<PlantFaults>,
+    applied: Option<PlantFaults>,
 }
 
 impl Suite {
     /// Valid parts at home, under a schedule of faults and a seed.
-    pub fn new(parts: &SuiteFile, home: &Home, faults: &[Fault], seed: u64) -> Self {
+    pub fn new(suite: &SuiteFile, home: &Home, faults: &[Fault], seed: u64) -> Self {
         Self {
-            imu: Fitted::new(InertialUnit::new(&parts.imu, seed)),
-            mag: parts.mag.as_ref().map(|part| Fitted::new(Magnetometer::new(part, home, seed))),
-            baro: parts.baro.as_ref().map(|part| Fitted::new(Barometer::new(part, home, seed))),
-            gnss: parts.gnss.as_ref().map(|part| Fitted::new(Receiver::new(part, home, seed))),
-            pose: parts.pose.as_ref().map(|part| Fitted::new(MotionCapture::new(part, seed))),
-            battery: parts.battery.as_ref().map(|part| Fitted::new(Monitor::new(part, seed))),
+            imu: Fitted::new(InertialUnit::new(&suite.imu, seed)),
+            mag: suite.mag.as_ref().map(|spec| Fitted::new(Magnetometer::new(spec, home, seed))),
+            baro: suite.baro.as_ref().map(|spec| Fitted::new(Barometer::new(spec, home, seed))),
+            gnss: suite.gnss.as_ref().map(|spec| Fitted::new(Receiver::new(spec, home, seed))),
+            pose: suite.pose.as_ref().map(|spec| Fitted::new(MotionCapture::new(spec, seed))),
+            battery: suite.battery.as_ref().map(|spec| Fitted::new(Monitor::new(spec, seed))),
             faults: Faults::new(faults, seed),
             commanded: false,
-            told: None,
+            applied: None,
         }
     }
 
@@ -219,7 +219,7 @@ impl Suite {
             return None;
         }
         let now = self.faults.of_plant(tick);
-        (self.told.replace(now) != Some(now)).then_some(now)
+        (self.applied.replace(now) != Some(now)).then_some(now)
     }
 }
 

@@ -48,12 +48,12 @@ pub(super) struct MotionCapture {
 }
 
 impl MotionCapture {
-    pub(super) fn new(part: &Pose, seed: u64) -> Self {
+    pub(super) fn new(spec: &Pose, seed: u64) -> Self {
         Self {
-            period: Period::of_rate(part.rate_hz),
-            delay: ticks(part.delay_s),
-            position_m: part.position_m,
-            attitude_rad: part.attitude_deg.to_radians(),
+            period: Period::of_rate(spec.rate_hz),
+            delay: ticks(spec.delay_s),
+            position_m: spec.position_m,
+            attitude_rad: spec.attitude_deg.to_radians(),
             noise: Stream::new(seed, Source::PoseNoise),
         }
     }

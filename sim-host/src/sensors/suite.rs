@@ -143,8 +143,8 @@ fn named(name: &str) -> Result<Table> {
 fn with_part(sensor: &str, table: Table) -> Result<Table> {
     let name = table.get("part").and_then(Value::as_str);
     let name = name.with_context(|| format!("`sensors.{sensor}.part` must be a part's name"))?;
-    let part = parse(&source(name, "part", &PARTS)?).with_context(|| format!("part `{name}`"))?;
-    Ok(merged(part, table))
+    let base = parse(&source(name, "part", &PARTS)?).with_context(|| format!("part `{name}`"))?;
+    Ok(merged(base, table))
 }
 
 /// `over` on top of `base`, table by table.
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn every_part_fits_its_sensor() {
-        for (sensor, part) in [
+        for (sensor, name) in [
             ("imu", "icm-42688-p"),
             ("imu", "bmi088"),
             ("mag", "ist8310"),
@@ -194,8 +194,8 @@ mod tests {
             ("pose", "mocap"),
             ("battery", "power-module"),
         ] {
-            let table = format!("suite = \"mocap\"\n{sensor}.part = \"{part}\"");
-            SuiteFile::from_table(table.parse().expect("TOML")).expect(part);
+            let table = format!("suite = \"mocap\"\n{sensor}.part = \"{name}\"");
+            SuiteFile::from_table(table.parse().expect("TOML")).expect(name);
         }
     }
 

@@ -79,12 +79,12 @@ fn solutions_arrive_in_order_100_to_200_ms_late_with_jitter() {
 fn places_have_the_stated_errors_over_the_seeds() {
     let home = Home::default();
     let frame = LocalFrame::at(&home.place());
-    let part = SuiteFile::load("gnss").expect("loads").gnss.expect("there");
+    let spec = SuiteFile::load("gnss").expect("loads").gnss.expect("there");
     let (mut horizontal, mut vertical, mut speed) = (Vec::new(), Vec::new(), Vec::new());
     let position = Vector3::new(300.0, -200.0, 50.0);
     let motion = Motion { velocity: Vector3::new(3.0, -4.0, 1.0), ..Motion::at_rest(position) };
     for seed in 0..4000 {
-        let sample = Receiver::new(&part, &home, seed).measure(&truth(0, &motion));
+        let sample = Receiver::new(&spec, &home, seed).measure(&truth(0, &motion));
         let error = frame.position(&Place::of(&sample.place)) - position;
         horizontal.extend([error.x, error.y]);
         vertical.push(error.z);
@@ -103,11 +103,11 @@ fn places_have_the_stated_errors_over_the_seeds() {
 fn the_error_of_a_place_wanders_slowly() {
     let home = Home::default();
     let frame = LocalFrame::at(&home.place());
-    let part = SuiteFile::load("gnss").expect("loads").gnss.expect("there");
+    let spec = SuiteFile::load("gnss").expect("loads").gnss.expect("there");
     let motion = at_rest();
     let (mut steps, mut strides) = (Vec::new(), Vec::new());
     for seed in 0..300 {
-        let mut receiver = Receiver::new(&part, &home, seed);
+        let mut receiver = Receiver::new(&spec, &home, seed);
         let north: Vec<f64> =
             (0..900).map(|k| frame.position(&Place::of(&receiver.measure(&truth(200 * k, &motion)).place)).x).collect();
         steps.push(north[1] - north[0]);
@@ -123,27 +123,27 @@ fn the_error_of_a_place_wanders_slowly() {
 fn a_magnetometer_sees_the_field_from_the_body() {
     let ideal = "suite = \"gnss\"\nmag = { noise_ut = 0.0, resolution_ut = 0.0, hard_iron_ut = 0.0, soft_iron = 0.0, \
                  current_ut_a = 0.0 }";
-    let part = parts(ideal).mag.expect("there");
+    let spec = parts(ideal).mag.expect("there");
     let home = Home::default();
     let attitude = UnitQuaternion::from_euler_angles(0.3, -0.2, 1.9);
     let motion = Motion { attitude: attitude.into_inner(), ..at_rest() };
-    let sample = Magnetometer::new(&part, &home, 1).measure(&truth(0, &motion));
+    let sample = Magnetometer::new(&spec, &home, 1).measure(&truth(0, &motion));
     assert!((attitude * sample.field_ut.cast::<f64>() - home.field_nwu()).amax() < 1e-5);
     // Heading west, the field, which points north, comes from the right.
     let west = UnitQuaternion::from_euler_angles(0.0, 0.0, core::f64::consts::FRAC_PI_2);
     let motion = Motion { attitude: west.into_inner(), ..at_rest() };
-    let sample = Magnetometer::new(&part, &home, 1).measure(&truth(0, &motion));
+    let sample = Magnetometer::new(&spec, &home, 1).measure(&truth(0, &motion));
     assert!(sample.field_ut.y < -21.0 && sample.field_ut.x < 0.0, "{}", sample.field_ut);
 }
 
 #[test]
 fn what_disturbs_a_magnetometer_is_as_strong_as_stated() {
-    let part = parts("suite = \"gnss\"\nmag = { resolution_ut = 0.0, soft_iron = 0.0, current_ut_a = 0.0 }");
-    let part = part.mag.expect("there");
+    let spec = parts("suite = \"gnss\"\nmag = { resolution_ut = 0.0, soft_iron = 0.0, current_ut_a = 0.0 }");
+    let spec = spec.mag.expect("there");
     let (home, motion) = (Home::default(), at_rest());
     let (mut iron, mut noise) = (Vec::new(), Vec::new());
     for seed in 0..2000 {
-        let mut sensor = Magnetometer::new(&part, &home, seed);
+        let mut sensor = Magnetometer::new(&spec, &home, seed);
         iron.extend_from_slice(sensor.hard_iron.as_slice());
         let error = sensor.measure(&truth(0, &motion)).field_ut.cast::<f64>() - home.field_nwu() - sensor.hard_iron;
         noise.extend_from_slice(error.as_slice());
@@ -154,17 +154,17 @@ fn what_disturbs_a_magnetometer_is_as_strong_as_stated() {
 
 #[test]
 fn a_barometer_reads_the_air_at_its_height_with_noise_of_8_cm() {
-    let part = SuiteFile::load("gnss").expect("loads").baro.expect("there");
+    let spec = SuiteFile::load("gnss").expect("loads").baro.expect("there");
     let home = Home::default();
     let motion = Motion::at_rest(Vector3::new(0.0, 0.0, 100.0));
     let mut all = Vec::new();
     for seed in 0..4000 {
-        let pressure = f64::from(Barometer::new(&part, &home, seed).measure(&truth(0, &motion)).pressure_pa);
+        let pressure = f64::from(Barometer::new(&spec, &home, seed).measure(&truth(0, &motion)).pressure_pa);
         all.push(pressure - home.pressure(100.0));
     }
     // Offset, drift and noise; an f32 resolves 8 mPa here.
     assert_deviation(&all, (20.0_f64.powi(2) + 3.5 * 3.5 + 0.93 * 0.93).sqrt());
-    let mut barometer = Barometer::new(&part, &home, 1);
+    let mut barometer = Barometer::new(&spec, &home, 1);
     let readings: Vec<f64> =
         (0..4000).map(|k| f64::from(barometer.measure(&truth(20 * k, &motion)).pressure_pa)).collect();
     let halves: Vec<f64> = readings.chunks_exact(2).map(|pair| (pair[1] - pair[0]) / 2.0_f64.sqrt()).collect();
@@ -175,10 +175,10 @@ fn a_barometer_reads_the_air_at_its_height_with_noise_of_8_cm() {
 
 #[test]
 fn motion_capture_is_as_good_as_stated() {
-    let part = SuiteFile::load("mocap").expect("loads").pose.expect("there");
+    let spec = SuiteFile::load("mocap").expect("loads").pose.expect("there");
     let attitude = UnitQuaternion::from_euler_angles(0.3, -0.2, 1.9);
     let motion = Motion { attitude: attitude.into_inner(), ..Motion::at_rest(Vector3::new(1.0, 2.0, 3.0)) };
-    let mut system = MotionCapture::new(&part, 1);
+    let mut system = MotionCapture::new(&spec, 1);
     let (mut places, mut turns) = (Vec::new(), Vec::new());
     for tick in 0..4000 {
         let sample = system.measure(&truth(tick, &motion));
@@ -223,7 +223,7 @@ fn fingerprint(sum: u64, m: &Measurements) -> u64 {
     sum = m.battery.iter().flat_map(|battery| [battery.voltage_v, battery.current_a]).fold(sum, add);
     m.gnss.iter().fold(sum, |sum, gnss| {
         let place = [gnss.place.latitude_e7, gnss.place.longitude_e7, gnss.place.height_mm];
-        let sum = place.into_iter().fold(sum, |sum, part| sum.rotate_left(5) ^ u64::from(part.cast_unsigned()));
+        let sum = place.into_iter().fold(sum, |sum, value| sum.rotate_left(5) ^ u64::from(value.cast_unsigned()));
         gnss.velocity.iter().copied().fold(sum, add)
     })
 }

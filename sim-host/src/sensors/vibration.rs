@@ -67,9 +67,9 @@ pub(super) struct Shaking {
 impl Shaking {
     pub(super) fn new(vibration: &Vibration, seed: u64) -> Self {
         let mut stream = Stream::new(seed, Source::Vibration);
-        let mut shake = |part: f64| Shake {
-            rates: stream.direction() * (part * vibration.gyro_rad_s),
-            force: stream.direction() * (part * vibration.accel_m_s2),
+        let mut shake = |fraction: f64| Shake {
+            rates: stream.direction() * (fraction * vibration.gyro_rad_s),
+            force: stream.direction() * (fraction * vibration.accel_m_s2),
             lead: core::f64::consts::TAU * stream.unit(),
         };
         let shakes = core::array::from_fn(|_| [shake(1.0), shake(vibration.second_harmonic)]);
@@ -118,12 +118,12 @@ mod tests {
         let (rates, force): (Vec<_>, Vec<_>) = (0..20_000).map(|_| shaking.sample(&omega)).unzip();
         for speed in omega {
             let strength = (speed / 757.0) * (speed / 757.0);
-            for (harmonic, part) in [(1.0, 1.0), (2.0, 0.3)] {
+            for (harmonic, fraction) in [(1.0, 1.0), (2.0, 0.3)] {
                 // Another line, 43 rad/s away, leaks 2/(43 rad/s · 20 s) of its amplitude, and there are seven.
                 let near =
                     |ours: f64, exact: f64| assert!((ours / exact - 1.0).abs() < 0.03, "{speed}: {ours} {exact}");
-                near(amplitude(&force, harmonic * speed), part * strength);
-                near(amplitude(&rates, harmonic * speed), 0.05 * part * strength);
+                near(amplitude(&force, harmonic * speed), fraction * strength);
+                near(amplitude(&rates, harmonic * speed), 0.05 * fraction * strength);
             }
         }
         assert!(amplitude(&force, 500.0) < 0.03);

@@ -69,13 +69,14 @@ impl Navigation {
     #[inline(never)]
     pub(crate) fn step(&mut self, measured: &Measurements, omega_rad_s: &[f32; ROTORS]) {
         let (predictor, imu) = black_box((&mut self.predictor, measured.imu.as_ref()));
-        let (instructions, _) = self.counter.count(counter::mark_begin_prediction, || black_box(predictor.step(imu)));
+        let (instructions, _) =
+            self.counter.count(counter::mark_begin_prediction, || black_box(predictor.predict(imu)));
         self.counts.prediction.add(instructions);
 
         let raw = self.predictor.rates() + self.predictor.state().gyro_bias;
         let (gyro, raw, omega) = black_box((&mut self.gyro, &raw, omega_rad_s));
         let (instructions, _) =
-            self.counter.count(counter::mark_begin_gyro_filter, || black_box(gyro.step(raw, omega)));
+            self.counter.count(counter::mark_begin_gyro_filter, || black_box(gyro.filter(raw, omega)));
         self.counts.gyro_filter.add(instructions);
 
         let readings = &mut self.readings;

@@ -89,12 +89,12 @@ fn h(row: &Row) -> SMatrix<f64, 1, STATES> {
     h
 }
 
-fn assert_near(is: &Dense, ought: &Dense, part: f64) {
+fn assert_near(is: &Dense, ought: &Dense, tolerance: f64) {
     for i in 0..STATES {
         for j in 0..STATES {
             let scale = (ought[(i, i)] * ought[(j, j)]).sqrt();
             let error = (is[(i, j)] - ought[(i, j)]).abs();
-            assert!(error < part * scale, "({i}, {j}): {} {}", is[(i, j)], ought[(i, j)]);
+            assert!(error < tolerance * scale, "({i}, {j}): {} {}", is[(i, j)], ought[(i, j)]);
         }
     }
 }

@@ -224,20 +224,20 @@ impl Kind {
 
     fn validate(&self) -> Result<()> {
         let magnitude = |key: &str, value: f64| within(&format!("fault.{key}"), value, -1e6, 1e6);
-        let part = |key: &str, value: f64| within(&format!("fault.{key}"), value, 0.0, 1.0);
+        let fraction = |key: &str, value: f64| within(&format!("fault.{key}"), value, 0.0, 1.0);
         match *self {
             Self::Drift { rate, direction } => magnitude("rate", rate).and(pointing(direction)),
             Self::Glitch { size_m, direction } => magnitude("size_m", size_m).and(pointing(direction)),
             Self::Noise { sigma } => within("fault.sigma", sigma, 0.0, 1e6),
-            Self::Spikes { probability, size } => part("probability", probability).and(magnitude("size", size)),
+            Self::Spikes { probability, size } => fraction("probability", probability).and(magnitude("size", size)),
             Self::Delayed { extra_s } => within("fault.extra_s", extra_s, 0.0, EXTRA_MAX_S),
-            Self::Loss { probability } | Self::Duplicate { probability } => part("probability", probability),
+            Self::Loss { probability } | Self::Duplicate { probability } => fraction("probability", probability),
             Self::TimeJump { shift_s } => within("fault.shift_s", shift_s, -TIME_MAX_S, TIME_MAX_S),
             Self::Rotor { index, effectiveness } => {
                 ensure!(index < ROTORS, "`fault.index` must be a rotor, 0 to {}, not {index}", ROTORS - 1);
-                part("effectiveness", effectiveness)
+                fraction("effectiveness", effectiveness)
             }
-            Self::Collapse { factor } => part("factor", factor),
+            Self::Collapse { factor } => fraction("factor", factor),
             Self::Off {} | Self::Stuck {} | Self::Nan {} | Self::NoFix {} | Self::Disorder {} => Ok(()),
         }
     }

@@ -78,11 +78,11 @@ fn the_random_walk_grows_with_the_root_of_time() {
     let mut variance = [0.0; 2];
     for seed in 0..seeds {
         let mut axes = Axes::new(&Triad { bias_walk: walk, ..IDEAL }, &GYRO, seed);
-        for part in &mut variance {
+        for axis in &mut variance {
             for _ in 0..200 {
                 axes.step_bias(0.0);
             }
-            *part += axes.walk.norm_squared() / (3.0 * seeds as f64);
+            *axis += axes.walk.norm_squared() / (3.0 * seeds as f64);
         }
     }
     for (ours, time_s) in variance.into_iter().zip([2.0, 4.0]) {
@@ -93,11 +93,11 @@ fn the_random_walk_grows_with_the_root_of_time() {
 
 #[test]
 fn errors_of_a_part_have_their_deviations_over_the_seeds() {
-    let part = Triad { turn_on_bias: 0.3, scale_error: 0.003, misalignment: 0.002, bias_per_k: 0.005, ..IDEAL };
+    let spec = Triad { turn_on_bias: 0.3, scale_error: 0.003, misalignment: 0.002, bias_per_k: 0.005, ..IDEAL };
     let seeds = 4000_u64;
     let [mut bias, mut scale, mut cross, mut warmth] = [0.0; 4];
     for seed in 0..seeds {
-        let axes = Axes::new(&part, &GYRO, seed);
+        let axes = Axes::new(&spec, &GYRO, seed);
         let off = axes.gain - Matrix3::identity();
         bias += axes.bias.norm_squared();
         warmth += axes.warmth.norm_squared();
@@ -122,8 +122,8 @@ fn a_board_that_warms_up_shifts_the_bias() {
 
 #[test]
 fn what_is_out_of_range_is_clipped() {
-    let part = SuiteFile::load("gnss").expect("loads").imu;
-    let mut imu = InertialUnit::new(&part, 1);
+    let spec = SuiteFile::load("gnss").expect("loads").imu;
+    let mut imu = InertialUnit::new(&spec, 1);
     let rates = Vector3::new(100.0, -100.0, 1.0);
     let motion = Motion { rates, ..Motion::at_rest(Vector3::zeros()) };
     let truth = Truth { specific_force: Vector3::new(-500.0, 500.0, 0.0), ..truth(0, &motion) };
@@ -137,16 +137,16 @@ fn what_is_out_of_range_is_clipped() {
 
 #[test]
 fn readings_are_multiples_of_the_resolution() {
-    let part = SuiteFile::load("gnss").expect("loads").imu;
-    let mut imu = InertialUnit::new(&part, 1);
+    let spec = SuiteFile::load("gnss").expect("loads").imu;
+    let mut imu = InertialUnit::new(&spec, 1);
     let motion = at_rest();
     let mut levels = std::collections::BTreeSet::new();
     for tick in 0..1000 {
         let sample = imu.measure(&truth(tick, &motion));
-        let steps = f64::from(sample.gyro.x).to_degrees() / part.gyro.resolution;
+        let steps = f64::from(sample.gyro.x).to_degrees() / spec.gyro.resolution;
         assert!((steps - steps.round()).abs() < 1e-4, "{steps}");
         levels.insert(steps.round() as i32);
-        let steps = f64::from(sample.accel.z) / part.accel.resolution;
+        let steps = f64::from(sample.accel.z) / spec.accel.resolution;
         assert!((steps - steps.round()).abs() < 1e-3, "{steps}");
     }
     // 63 m°/s of noise are a step of 61 m°/s: some levels, not one and not hundreds.

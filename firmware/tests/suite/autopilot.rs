@@ -93,7 +93,7 @@ fn an_attitude_that_is_no_rotation_is_refused() {
 #[test]
 fn without_samples_a_vehicle_is_not_armable_and_with_them_it_is_again() {
     let mut vehicle = autopilot(&FlightConfig::default());
-    let armable = |vehicle: &Autopilot| vehicle.inner.commander_output().armable;
+    let armable = |vehicle: &Autopilot| vehicle.inner.commander_output().armable.is_ok();
     let good = at([0.0; 3]);
     // A commander's job is released every period; its output takes effect after its offset.
     let settle = COMMANDER.period + COMMANDER.offset + 1;

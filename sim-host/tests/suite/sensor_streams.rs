@@ -1,24 +1,18 @@
 //! What each sensor delivers in flight is its own affair: no other sensor, and no other's fault, changes a number of it.
 //! And who listens to the vehicle changes nothing of its flight.
 
-#[path = "common/fault.rs"]
-mod fault;
-#[path = "common/fingerprint.rs"]
-mod fingerprint;
-#[path = "common/load.rs"]
-mod load;
-
-use fault::fault;
-use fingerprint::Fingerprint;
 use firmware::schedule::GROUND;
 use firmware::sensors::Measurements;
-use load::load;
 use sim_host::flight;
 use sim_host::plant::Plant as _;
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::scenario::Scenario;
 use sim_host::sensors::{BatteryTruth, Fault, Suite, SuiteFile, Truth};
 use sim_host::sil::Flight;
+
+use crate::common::fault::fault;
+use crate::common::fingerprint::Fingerprint;
+use crate::common::load::load;
 
 const SEED: u64 = 3;
 /// In the air after 5 s.

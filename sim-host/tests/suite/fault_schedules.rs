@@ -1,19 +1,15 @@
 //! Whatever fails and whenever: what is commanded can be flown, what is believed is a number, and the same flight is the
 //! same flight. Faults at random, of any size that a scenario may ask for, in wind, from before take-off on.
 
-#[path = "common/fingerprint.rs"]
-mod fingerprint;
-#[path = "common/load.rs"]
-mod load;
-
-use fingerprint::Fingerprint;
-use load::load;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, RngSeed, TestRunner};
 use sim_host::flight;
 use sim_host::scenario::Scenario;
 use sim_host::sensors::Fault;
 use sim_host::sensors::faults::{Kind, Sensor};
+
+use crate::common::fingerprint::Fingerprint;
+use crate::common::load::load;
 
 /// Length of a flight, s: armed after 2.5 s, at 10 m after 14 s.
 const DURATION_S: f64 = 30.0;

@@ -1,8 +1,6 @@
 //! Equivalent control makes ṡ = −K sw(s): the firmware's laws (f32), put into an independently written Eq. 2 (f64),
 //! must give each of the six surfaces exactly its reaching law, whatever the state, the gains and the shape.
 
-#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
-
 use firmware::airframe::Airframe;
 use firmware::control::attitude;
 use firmware::control::euler::EulerReference;

@@ -1,14 +1,9 @@
 //! The images under QEMU against the same code on the desktop. Ignored by default, because they need the images
 //! (`cargo fw && cargo fw-pil`) and `qemu-system-arm`; `tests/run` builds them and asks for these tests.
 
-#![cfg(unix)]
-
-mod common;
-
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use common::image;
 use firmware::autopilot::Autopilot;
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
@@ -19,6 +14,8 @@ use sim_host::pil::{BusyWait, Difference, Fault, Overrun, Pil, PilOptions, Stopp
 use sim_host::plant::Motion;
 use sim_host::scenario::Scenario;
 use sim_host::sensors::{BatteryTruth, Suite, Truth};
+
+use crate::common::image::image;
 
 const TICKS: u32 = 20_000;
 

@@ -1,7 +1,5 @@
 //! What a scenario's world does to a flight, against closed forms: truth, delay, wind, and the motion at the start.
 
-#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
-
 use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
 use nalgebra::{UnitQuaternion, Vector3, Vector4};
@@ -14,14 +12,11 @@ use sim_host::reference;
 use sim_host::scenario::Scenario;
 use sim_host::sil::Flight;
 
+use crate::common::load::load;
+
 type V = Vector3<f64>;
 
 const MS: f64 = 1e-3;
-
-fn load(name: &str, settings: &[&str]) -> Scenario {
-    let settings: Vec<String> = settings.iter().map(|s| (*s).to_owned()).collect();
-    Scenario::load(name, &settings).expect("valid")
-}
 
 fn ready(scenario: &Scenario) -> Flight<RigidBody> {
     flight::lockstep(scenario, 1, flight::rigid_body(scenario, 1)).expect("can be flown")

@@ -1,19 +1,15 @@
 //! A day of hover on GNSS: what the filter believes of the IMU's biases stays as good as it says, its covariance stays one,
 //! and the log of the day is the same twice. Ten minutes of it always; the whole day takes `--ignored`.
 
-#[path = "common/fingerprint.rs"]
-mod fingerprint;
-#[path = "common/load.rs"]
-mod load;
-
-use fingerprint::Fingerprint;
 use firmware::estimator::covariance::{Covariance, STATES, index};
-use load::load;
 use nalgebra::{SMatrix, UnitQuaternion, Vector3};
 use sim_host::flight;
 use sim_host::plant::Plant;
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::sil::Flight;
+
+use crate::common::fingerprint::Fingerprint;
+use crate::common::load::load;
 
 const SEED: u64 = 1;
 /// In hover from here on, ticks.

@@ -1,17 +1,10 @@
 //! What the project promises of flights on sensors: every scenario that says what is expected of it keeps its word, and
 //! whatever a sensor does wrong is borne as docs/estimator.md has it. Judged by the truth.
 
-#[path = "common/fault.rs"]
-mod fault;
-#[path = "common/load.rs"]
-mod load;
-
 use std::collections::{BTreeMap, BTreeSet};
 
-use fault::fault;
 use firmware::autopilot::Autopilot;
 use firmware::commander::Mode;
-use load::load;
 use nalgebra::{UnitQuaternion, Vector3};
 use sim_host::assess::consistency::kind;
 use sim_host::assess::{Expectation, ensemble};
@@ -19,6 +12,9 @@ use sim_host::flight;
 use sim_host::record::{Navigation, Recorder, Row};
 use sim_host::scenario::{self, Scenario};
 use sim_host::seeds::Seeds;
+
+use crate::common::fault::fault;
+use crate::common::load::load;
 
 /// Higher than this it is in the air, m: the ground pushes on a rotor as no failure does.
 const IN_AIR_M: f64 = 0.3;

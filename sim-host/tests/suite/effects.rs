@@ -1,8 +1,6 @@
 //! What a flight may ask for beyond the plant's constants, against closed forms: specific force, rotors that fail or slow
 //! down at another rate, thin air, the cushion over the ground, the battery, gusts and pushes on a schedule.
 
-#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
-
 use nalgebra::{UnitQuaternion, Vector3, Vector4};
 use sim_host::flight;
 use sim_host::plant::effects::{Effects, RotorFailure};
@@ -11,17 +9,13 @@ use sim_host::plant::paper::{PaperPlant, PaperState};
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::plant::{Constants, Motion, Plant, Push};
 use sim_host::record::Row;
-use sim_host::scenario::Scenario;
+
+use crate::common::load::load;
 
 type V = Vector3<f64>;
 
 const STILL: Push = Push { acceleration: V::new(0.0, 0.0, 0.0), angular_acceleration: V::new(0.0, 0.0, 0.0) };
 const MS: f64 = 1e-3;
-
-fn load(name: &str, settings: &[&str]) -> Scenario {
-    let settings: Vec<String> = settings.iter().map(|s| (*s).to_owned()).collect();
-    Scenario::load(name, &settings).expect("valid")
-}
 
 fn x500() -> Constants {
     load("x500-hover", &[]).constants()

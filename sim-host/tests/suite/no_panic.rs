@@ -1,10 +1,9 @@
 //! No tick of the inner partition can panic: the image that holds nothing else has no function of `core::panicking`.
 //! Ignored by default, because it needs the images (`cargo fw && cargo fw-pil`).
 
-mod common;
-
-use common::image;
 use object::{Object, ObjectSymbol};
+
+use crate::common::image::image;
 
 /// Parts of the names of all functions through which a panic goes; the last one is the way into the handler.
 const PANICS: [&str; 3] = ["panicking", "unwrap_failed", "rust_begin_unwind"];

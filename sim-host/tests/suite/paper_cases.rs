@@ -1,8 +1,6 @@
 //! The paper's cases and the flights on the rigid-body plant, judged by the truth against the paper's own reference.
 //! Figures in `paper-ideal` are those of an independent simulation; the others are what the project promises.
 
-#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
-
 use sim_host::flight;
 use sim_host::record::Row;
 use sim_host::report::Metrics;

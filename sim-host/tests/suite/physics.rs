@@ -1,8 +1,6 @@
 //! The plants against physics that does not depend on them: closed forms, conservation laws, orders of convergence,
 //! and each other where they must agree.
 
-#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
-
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
 use sim_host::plant::ground::Ground;
 use sim_host::plant::paper::{PaperInput, PaperPlant, PaperState};

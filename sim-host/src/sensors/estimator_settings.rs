@@ -12,12 +12,12 @@ const VIBRATION: f64 = 2.4e-3;
 
 impl SuiteFile {
     /// The filter's settings for this suite at home. What a suite does not have keeps its default, and is not asked for.
-    pub fn told(&self, home: &Home) -> EstimatorSettings {
+    pub fn estimator_settings(&self, home: &Home) -> EstimatorSettings {
         let mut settings = EstimatorSettings {
             magnetic_field_ut: home.field_nwu().map(|v| v as f32).into(),
             ..EstimatorSettings::default()
         };
-        self.tell_imu(&mut settings);
+        self.set_imu(&mut settings);
         if let Some(mag) = &self.mag {
             settings.mag_noise_ut = rounded(mag.noise_ut, mag.resolution_ut);
             let horizontal = home.strength_ut * libm::cos(home.inclination_deg.to_radians());
@@ -44,7 +44,7 @@ impl SuiteFile {
         settings
     }
 
-    fn tell_imu(&self, settings: &mut EstimatorSettings) {
+    fn set_imu(&self, settings: &mut EstimatorSettings) {
         let (gyro, accel) = (&self.imu.gyro, &self.imu.accel);
         let warming = |triad: &Triad| triad.bias_per_k * self.imu.warm_up.rise_k / self.imu.warm_up.time_s.sqrt();
         let wander = |triad: &Triad| triad.bias_instability * (2.0 / triad.bias_time_s).sqrt();

@@ -1,8 +1,6 @@
 //! One flight, bit for bit: the same seed gives the same bytes, at any number of threads; and what truth.csv says obeys
 //! the rigid-body equations, integrated again by a model written here.
 
-#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -7,10 +7,7 @@ use sim_host::report::Metrics;
 use sim_host::report::metrics::angle_errors;
 use sim_host::scenario::Scenario;
 
-fn load(name: &str, settings: &[&str]) -> Scenario {
-    let settings: Vec<String> = settings.iter().map(|s| (*s).to_owned()).collect();
-    Scenario::load(name, &settings).expect("valid")
-}
+use crate::common::load::load;
 
 /// The rows of a flight that must survive.
 fn fly(name: &str, settings: &[&str], seed: u64) -> (Metrics, Vec<Row>) {

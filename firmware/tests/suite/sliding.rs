@@ -1,7 +1,5 @@
 //! What each reaching law promises, on the axis that it is made for: `ë = −d − (λ ė + u_r)`, sampled.
 
-#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
-
 use firmware::control::sliding::{AxisGains, ReachingLaw, SlidingAxis, Surface};
 
 const H: f32 = 1e-3;

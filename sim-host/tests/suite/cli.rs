@@ -55,8 +55,8 @@ impl Drop for Folder {
     }
 }
 
-const HELIX: &str = include_str!("../scenarios/helix.toml");
-const AIRFRAME: &str = include_str!("../airframes/paper.toml");
+const HELIX: &str = include_str!("../../scenarios/helix.toml");
+const AIRFRAME: &str = include_str!("../../airframes/paper.toml");
 
 #[test]
 fn unknown_names_are_refused() {

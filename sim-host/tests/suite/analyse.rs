@@ -1,7 +1,5 @@
 //! The linear analysis against closed forms, and against the simulation.
 
-#![allow(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
-
 use sim_host::analyse::{Analysis, Loop, analyse};
 use sim_host::scenario::Scenario;
 

@@ -48,7 +48,7 @@ fn space() -> Space {
         parameter(&["smc.z.gain"], 0.0, 20.0, Scale::Linear),
         parameter(&["smc.roll.reaching.implicit-sgn.horizon_s"], 0.001, 1.0, Scale::Log),
     ];
-    let base = include_str!("../tunings/x500-smc.toml").parse().expect("TOML");
+    let base = include_str!("../../tunings/x500-smc.toml").parse().expect("TOML");
     Space::new("x500-smc", base, parameters).expect("valid")
 }
 
@@ -176,7 +176,7 @@ struct Files(Folder);
 impl Files {
     fn new(name: &str) -> Self {
         let files = Self(Folder::new(name));
-        files.write("base.toml", include_str!("../tunings/x500-smc.toml"));
+        files.write("base.toml", include_str!("../../tunings/x500-smc.toml"));
         files.write(
             "matrix.toml",
             "summary = \"hover\"\ncontrollers = [\"base.toml\"]\nscenarios = [\"x500-hover\"]\nseeds = \"11..12\"\n\

@@ -1,0 +1,9 @@
+//! The integration tests of the firmware, one module per subject, in one executable: it is compiled and linked once.
+
+#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
+
+mod autopilot;
+mod mixer;
+mod modes;
+mod moving_start;
+mod sliding;

@@ -1,0 +1,6 @@
+//! What several of the tests need.
+
+pub(crate) mod fault;
+pub(crate) mod fingerprint;
+pub(crate) mod image;
+pub(crate) mod load;

@@ -1,0 +1,26 @@
+//! The integration tests of the simulator, one module per subject, in one executable: whole flights are compiled and
+//! linked once. Only what needs a process of its own is a test file beside this folder.
+
+#![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")]
+
+mod common;
+
+mod analyse;
+mod cli;
+mod control_laws;
+mod day;
+mod determinism;
+mod effects;
+mod fault_schedules;
+mod flights;
+mod landing;
+mod no_panic;
+mod paper_cases;
+mod physics;
+#[cfg(unix)]
+mod pil;
+mod sensor_flights;
+mod sensor_streams;
+mod trajectories;
+mod tune;
+mod world;
