@@ -9,14 +9,13 @@ use firmware::guidance::Trajectory;
 use serde::Serialize;
 
 use crate::flight;
-use crate::noise::Noise;
 use crate::record::Row;
 use crate::report::estimate::Belief;
 use crate::report::mission::{self, REACHED_BY_GNSS_M, REACHED_M};
 use crate::report::summary::Told;
 use crate::report::timeline::{Course, Event, EventKind};
 use crate::report::{
-    Disturbance, Figures, Flight, Metrics, OutFolder, Progress, SensedRecorder, Summary, Timeline, TimelineRecorder,
+    Figures, Flight, Metrics, OutFolder, Progress, SensedRecorder, Summary, Timeline, TimelineRecorder,
     TruthWriter,
 };
 use crate::scenario::Scenario;
@@ -168,31 +167,7 @@ fn provenance(folder: &OutFolder, scenario: &Scenario, settings: &[String], seed
 fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, taken: &Taken) -> Result<()> {
     let Taken { rows, beliefs, timeline, .. } = taken;
     if !rows.is_empty() {
-        let samples = disturbance_samples(scenario, seed);
-        let disturbance = scenario.file.disturbance.map(|d| {
-            let (linear_unit, angular_unit) = if d.is_on_accelerations() { ("m/s²", "rad/s²") } else { ("m", "rad") };
-            Disturbance { samples: &samples, linear_unit, angular_unit, acting: (d.from_s, d.to_s) }
-        });
-        folder.figures(&Figures { rows, disturbance, timeline })?;
-    }
-    if !beliefs.is_empty() {
-        folder.beliefs(beliefs, timeline)?;
+        folder.figures(&Figures::new(scenario, seed, rows, beliefs, timeline))?;
     }
     Ok(())
-}
-
-/// The disturbances of a scenario as they were applied, a sample a tick: on the accelerations, or, where there are
-/// none, on the outputs.
-fn disturbance_samples(scenario: &Scenario, seed: u64) -> Vec<(f64, [f64; 6])> {
-    let mut noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
-    let sample = |tick: u32| {
-        let now = noise.at(tick);
-        let (a, b) = if scenario.file.disturbance.is_some_and(|d| d.is_on_accelerations()) {
-            (now.push.acceleration, now.push.angular_acceleration)
-        } else {
-            (now.position, now.angles)
-        };
-        (f64::from(tick) * 1e-3, [a.x, a.y, a.z, b.x, b.y, b.z])
-    };
-    if scenario.file.disturbance.is_some() { (0..scenario.ticks()).map(sample).collect() } else { Vec::new() }
 }

@@ -45,7 +45,7 @@ pub mod truth;
 pub use metrics::{Metrics, Settling};
 pub use out::{OutFolder, Staged};
 pub use paint::Paint;
-pub use plots::{Disturbance, Figures};
+pub use plots::Figures;
 pub use progress::Progress;
 pub use sensed::{Sensed, SensedRecorder};
 pub use summary::{Flight, Summary};

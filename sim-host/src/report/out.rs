@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 
-use super::estimate::{Belief, EstimateWriter};
-use super::{Figures, Summary, Timeline, TruthWriter, comparison, plots};
+use super::estimate::EstimateWriter;
+use super::{Figures, Summary, TruthWriter, comparison, plots};
 use crate::compare::Comparison;
 
 /// Files by which a folder is known to be ours: one of them is written by every command with `--out`.
@@ -221,14 +221,6 @@ impl OutFolder {
     pub fn figures(&self, figures: &Figures) -> Result<Vec<PathBuf>> {
         figures.draw(&self.0)
     }
-
-    /// Draws what a vehicle believed beside what was true.
-    ///
-    /// # Errors
-    /// When a file cannot be written; the message names it.
-    pub fn beliefs(&self, beliefs: &[Belief], timeline: &Timeline) -> Result<Vec<PathBuf>> {
-        plots::estimate::draw(&self.0, beliefs, timeline)
-    }
 }
 
 #[cfg(test)]
@@ -241,7 +233,7 @@ mod tests {
     fn a_flight_leaves_its_files() {
         let path = std::env::temp_dir().join(format!("glissade-{}-out/deep", std::process::id()));
         let folder = OutFolder::create(&path).expect("the temporary folder can be written");
-        let rows = plots::tests::flight(1.0);
+        let rows = plots::tests::made_up(1.0);
         let mut recorder = (Metrics::new(), folder.truth().expect("a file"));
         for row in &rows {
             recorder.record(row);
