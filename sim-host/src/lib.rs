@@ -20,6 +20,7 @@ pub mod geodesy;
 pub mod link;
 pub mod matrix;
 pub mod noise;
+pub mod paper;
 pub mod pil;
 pub mod pilot;
 pub mod plan;

@@ -6,26 +6,7 @@ use super::metrics::{AxisFigures, Recovery};
 use super::sensed::{Knowledge, Sensed};
 use super::summary::Summary;
 use super::touchdown::Contact;
-
-/// A time the paper claims, s, and where it does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PaperClaim {
-    /// The time claimed, s.
-    pub time_s: f64,
-    /// Section and figure.
-    pub source: &'static str,
-}
-
-/// x follows 4 sin t from the start.
-pub const X_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.0, source: "Section 4.1, Figure 3" };
-/// y follows 5 cos t.
-pub const Y_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.4, source: "Section 4.1, Figure 3" };
-/// z follows 2 + t.
-pub const Z_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.35, source: "Section 4.1, Figure 2" };
-/// A Gaussian disturbance is removed in less than this.
-pub const DISTURBANCE_REMOVED: PaperClaim = PaperClaim { time_s: 0.2, source: "Section 4.2, Figure 6" };
-/// The whole system follows, on average, within this.
-pub const AVERAGE_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.5, source: "Section 5.1" };
+use crate::paper::claims::{AVERAGE_FOLLOWS, DISTURBANCE_REMOVED, PaperClaim, X_FOLLOWS, Y_FOLLOWS, Z_FOLLOWS};
 
 /// Renders one flight, several lines with a newline at the end.
 pub fn render(summary: &Summary) -> String {

@@ -1,0 +1,3 @@
+//! The paper's simulations, flown and held against what the paper says of them.
+
+pub mod claims;
