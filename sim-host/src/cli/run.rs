@@ -9,10 +9,9 @@ use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
 use super::RunArgs;
 use crate::flight;
-use crate::noise::Noise;
 use crate::record::{Recorder, Row};
 use crate::report::estimate::Belief;
-use crate::report::{Disturbance, Figures, Flight, Metrics, OutFolder, Progress, Summary, TruthWriter};
+use crate::report::{Figures, Flight, Metrics, OutFolder, Progress, Summary, TruthWriter};
 use crate::report::{Sensed, SensedRecorder, progress, summary, table};
 use crate::scenario::Scenario;
 use crate::sil::Outcome;
@@ -82,9 +81,8 @@ pub(super) fn fly(scenario: &Scenario, seed: u64, out: Option<&Path>, visible: b
     let (sensed, beliefs) = finish(sensed)?;
     let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics).with_sensed(sensed);
     folder.summary(&summary)?;
-    draw(scenario, seed, &folder, &rows.kept)?;
-    if !beliefs.is_empty() {
-        folder.beliefs(&beliefs)?;
+    if !rows.kept.is_empty() {
+        folder.figures(&Figures::new(scenario, seed, &rows.kept, &beliefs))?;
     }
     Ok(summary)
 }
@@ -145,35 +143,6 @@ pub(super) fn summarise(
         survived: outcome.survived,
     };
     Summary::new(flight, metrics)
-}
-
-fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, rows: &[Row]) -> Result<()> {
-    if rows.is_empty() {
-        return Ok(());
-    }
-    let samples = disturbance_samples(scenario, seed);
-    let disturbance = scenario.file.disturbance.map(|d| {
-        let (linear_unit, angular_unit) = if d.is_on_accelerations() { ("m/s²", "rad/s²") } else { ("m", "rad") };
-        Disturbance { samples: &samples, linear_unit, angular_unit, acting: (d.from_s, d.to_s) }
-    });
-    folder.figures(&Figures { rows, disturbance })?;
-    Ok(())
-}
-
-/// The disturbances of a scenario as they were applied, a sample a tick: on the accelerations, or, where there are
-/// none, on the outputs.
-fn disturbance_samples(scenario: &Scenario, seed: u64) -> Vec<(f64, [f64; 6])> {
-    let mut noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
-    let sample = |tick: u32| {
-        let now = noise.at(tick);
-        let (a, b) = if scenario.file.disturbance.is_some_and(|d| d.is_on_accelerations()) {
-            (now.push.acceleration, now.push.angular_acceleration)
-        } else {
-            (now.position, now.angles)
-        };
-        (f64::from(tick) * 1e-3, [a.x, a.y, a.z, b.x, b.y, b.z])
-    };
-    if scenario.file.disturbance.is_some() { (0..scenario.ticks()).map(sample).collect() } else { Vec::new() }
 }
 
 /// One line a seed.

@@ -7,7 +7,7 @@
 //!                 └─► Vec<Row> ─► Figures ─► *.svg       └──────┤ Flight: what the loop knows besides
 //!                                                               │ Sensed: of flights on sensors
 //! loop ─► Navigation ─► SensedRecorder ─► estimate.csv ─────────┘
-//!                            └─► Vec<Belief> ─► EstimateFigures ─► *.svg
+//!                            └─► Vec<Belief> ─► Figures
 //! ```
 //!
 //! Everything takes rows through [`Recorder`](crate::record::Recorder), in simulated time, and none of it can change a
@@ -45,9 +45,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 
 use crate::compare::Comparison;
-use estimate::{Belief, EstimateWriter};
+use estimate::EstimateWriter;
 pub use metrics::{Metrics, Settling};
-pub use plots::{Disturbance, Figures};
+pub use plots::Figures;
 pub use progress::Progress;
 pub use sensed::{Sensed, SensedRecorder};
 pub use summary::{Flight, Summary};
@@ -110,14 +110,6 @@ impl OutFolder {
     pub fn figures(&self, figures: &Figures) -> Result<Vec<PathBuf>> {
         figures.draw(&self.0)
     }
-
-    /// Draws what a vehicle believed beside what was true.
-    ///
-    /// # Errors
-    /// When a file cannot be written; the message names it.
-    pub fn beliefs(&self, beliefs: &[Belief]) -> Result<Vec<PathBuf>> {
-        plots::estimate::draw(&self.0, beliefs)
-    }
 }
 
 #[cfg(test)]
@@ -129,7 +121,7 @@ mod tests {
     fn a_flight_leaves_its_files() {
         let path = std::env::temp_dir().join(format!("glissade-{}-out/deep", std::process::id()));
         let folder = OutFolder::create(&path).expect("the temporary folder can be written");
-        let rows = plots::tests::flight(1.0);
+        let rows = plots::tests::made_up(1.0);
         let mut recorder = (Metrics::new(), folder.truth().expect("a file"));
         for row in &rows {
             recorder.record(row);
