@@ -30,6 +30,7 @@ pub mod comparison;
 pub mod estimate;
 pub mod measures;
 pub mod metrics;
+pub mod paper;
 pub mod plots;
 pub mod progress;
 pub mod sensed;
@@ -45,6 +46,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 
 use crate::compare::Comparison;
+use crate::paper::Study;
+use crate::paper::flights::Flights;
 use estimate::EstimateWriter;
 pub use metrics::{Metrics, Settling};
 pub use plots::Figures;
@@ -101,6 +104,15 @@ impl OutFolder {
     pub fn comparison(&self, comparison: &Comparison) -> Result<()> {
         comparison::write(comparison, &self.0)?;
         plots::comparison::draw(comparison, &self.0)
+    }
+
+    /// Writes paper.json, paper.md and Figures 2 to 7 of the paper's study. Returns the figures.
+    ///
+    /// # Errors
+    /// When a file cannot be written; the message names it.
+    pub fn paper(&self, study: &Study, flights: &Flights) -> Result<Vec<PathBuf>> {
+        paper::write(study, &self.0)?;
+        plots::paper::draw(flights, &self.0)
     }
 
     /// Draws every figure that applies.

@@ -1,0 +1,21 @@
+//! `paper`: the paper's simulations, its figures, and its claims beside what was flown.
+
+use std::path::Path;
+
+use anyhow::Result;
+
+use crate::paper::flights::Flights;
+use crate::paper::{Study, Sweeps};
+use crate::report::{OutFolder, paper};
+
+pub(super) fn run(out: &Path, as_json: bool) -> Result<()> {
+    // Before the flights: a folder that cannot be written is better known now.
+    let folder = OutFolder::create(out)?;
+    let flights = Flights::fly()?;
+    let study = Study::new(&flights, &Sweeps::fly(&flights)?)?;
+    let figures = folder.paper(&study, &flights)?;
+    if as_json {
+        return super::say(&serde_json::to_string(&study)?);
+    }
+    super::say(&format!("{}\n{}", paper::render(&study), paper::files(out, &figures)))
+}
