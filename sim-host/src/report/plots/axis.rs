@@ -102,6 +102,18 @@ impl Quantity {
         (format!("{}, {prefix}{}", self.name, unit.name()), factor)
     }
 
+    /// The step from one tick to the next in what is shown, for at most `most` steps in `size`. Angles go by eighths of
+    /// a turn.
+    pub(super) fn step(&self, size: f64, most: f64) -> f64 {
+        let round = step(size, most);
+        match (self.unit, round as u32) {
+            (Some(Unit::Degree), 50) => 45.0,
+            (Some(Unit::Degree), 100) => 90.0,
+            (Some(Unit::Degree), 200) => 180.0,
+            _ => round,
+        }
+    }
+
     /// A range that shows all values with a margin (a fraction of its size), and no less than is worth it.
     pub(super) fn range(&self, values: Option<(f64, f64)>, margin: f64) -> (f64, f64) {
         let (low, high) = values.unwrap_or((0.0, 0.0));
@@ -137,9 +149,8 @@ pub(super) fn step(size: f64, most: f64) -> f64 {
     power * round
 }
 
-/// Round numbers within a range, about one a `1/most` of it.
-pub(super) fn ticks((low, high): (f64, f64), most: f64) -> Vec<f64> {
-    let step = step(high - low, most);
+/// The multiples of a step within a range.
+pub(super) fn ticks((low, high): (f64, f64), step: f64) -> Vec<f64> {
     let hair = 1e-6 * step;
     let (first, last) = (((low - hair) / step).ceil(), ((high + hair) / step).floor());
     let count = (last - first).clamp(0.0, 100.0) as u32;
@@ -159,7 +170,7 @@ pub(super) fn decade(logarithm: f64) -> String {
     format!("{:.1$}", libm::pow(10.0, whole), (-whole).max(0.0) as usize)
 }
 
-/// The whole decades within a range of logarithms; halves of them (1 and 3) where there are few.
+/// The whole decades within a range of logarithms.
 pub(super) fn decades((low, high): (f64, f64)) -> Vec<f64> {
     let (first, last) = ((low - 1e-6).ceil() as i32, (high + 1e-6).floor() as i32);
     (first..=last).map(f64::from).collect()
@@ -177,10 +188,12 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_inside() {
-        assert_eq!(ticks((-0.3, 4.2), 5.0), [0.0, 1.0, 2.0, 3.0, 4.0]);
-        assert_eq!(ticks((0.0, 90.0), 5.0), [0.0, 20.0, 40.0, 60.0, 80.0]);
+        assert_eq!(ticks((-0.3, 4.2), 1.0), [0.0, 1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(ticks((0.0, 90.0), step(90.0, 5.0)), [0.0, 20.0, 40.0, 60.0, 80.0]);
+        let yaw = Quantity::new("yaw", Unit::Degree);
+        assert_eq!(ticks((-190.0, 190.0), yaw.step(380.0, 5.0)), [-180.0, -90.0, 0.0, 90.0, 180.0]);
         for (low, high) in [(0.0, 1e-3), (-7.3, 1e6), (99.9999, 100.0001)] {
-            let ticks = ticks((low, high), 6.0);
+            let ticks = ticks((low, high), step(high - low, 6.0));
             assert!((2..=7).contains(&ticks.len()), "{ticks:?}");
         }
     }

@@ -1,6 +1,6 @@
 //! What a flight was doing behind what is drawn of it: phases, faults, events.
 
-use super::style::{Color, INK, Key, palette};
+use super::style::{Color, INK, Key, Role, palette};
 use super::svg::{Anchor, Area, Font, Stroke, text_width};
 
 /// Height of the strip of one kind's names.
@@ -20,6 +20,13 @@ pub(super) struct Span {
     pub(super) color: Color,
 }
 
+impl Span {
+    /// Its name without a number: `go-to 2` is a `go-to`.
+    fn kind(&self) -> &str {
+        self.name.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ')
+    }
+}
+
 /// Phases, faults and events of a flight, drawn behind a panel over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Backdrop {
@@ -27,6 +34,8 @@ pub(super) struct Backdrop {
     pub(super) faults: Vec<Span>,
     /// Events with their times, s.
     pub(super) events: Vec<(f64, String)>,
+    /// When it has landed, s; before all times, if it never flew.
+    pub(super) landed: Option<f64>,
     /// Whether names stand above the panel, or the shades alone are drawn.
     pub(super) named: bool,
 }
@@ -37,20 +46,38 @@ impl Backdrop {
         Self { named: true, ..self.clone() }
     }
 
-    /// The legend's entries of the phases, each once.
+    /// The legend's entries of phases, each once, and of faults.
     pub(super) fn keys(&self) -> Vec<Key<'_>> {
+        let faults = (!self.faults.is_empty()).then_some(Key::Line("fault", Role::Fault));
+        self.phases_once().map(|(name, color)| Key::Series(name, color.tint(STRIP_TINT))).chain(faults).collect()
+    }
+
+    /// The legend's entries of legs in the colours of phases.
+    pub(super) fn leg_keys(&self) -> Vec<Key<'_>> {
+        self.phases_once().map(|(name, color)| Key::Line(name, Role::Leg(color))).collect()
+    }
+
+    fn phases_once(&self) -> impl Iterator<Item = (&str, Color)> {
         let mut seen: Vec<&Span> = Vec::new();
         for span in &self.phases {
-            if seen.iter().all(|known| known.name != span.name) {
+            if seen.iter().all(|known| known.kind() != span.kind()) {
                 seen.push(span);
             }
         }
-        seen.into_iter().map(|span| Key::Series(&span.name, span.color.tint(STRIP_TINT))).collect()
+        seen.into_iter().map(|span| (span.kind(), span.color))
     }
 
-    /// Whether the vehicle flies at `t`, s: always, where nothing is known of phases.
+    /// When all is over, s: it was disarmed for the last time. Infinite, if it was not.
+    pub(super) fn end(&self) -> f64 {
+        self.events.iter().filter(|(_, name)| name == "disarmed").map(|(t, _)| *t).next_back().unwrap_or(f64::INFINITY)
+    }
+
+    /// Whether the vehicle flies at `t`, s: always, where nothing is known of phases. What it is to do before and after
+    /// is no reference to compare with.
     pub(super) fn flies(&self, t: f64) -> bool {
-        self.phases.is_empty() || self.phases.iter().any(|span| (span.from..span.to).contains(&t))
+        let landed = self.landed.is_some_and(|landed| t >= landed);
+        let flies = || self.phases.is_empty() || self.phases.iter().any(|span| (span.from..span.to).contains(&t));
+        !landed && flies()
     }
 
     /// Rows of names, from the bottom: phases, faults, events.
@@ -88,7 +115,7 @@ impl Backdrop {
         }
         let edge = Stroke { color: span.color, width: 1.2, dashed: true };
         chart.line([(left, chart.height), (left, 0.0)], edge);
-        chart.line([(left, 1.5), (right, 1.5)], Stroke { width: 3.0, dashed: false, ..edge });
+        chart.line([(left, -2.5), (right, -2.5)], Role::Fault.stroke());
         if span.to < range.1 {
             chart.line([(right, 0.0), (right, chart.height)], edge);
         }

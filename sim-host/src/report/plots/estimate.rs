@@ -95,7 +95,7 @@ fn innovations(folder: &Path, figures: &Figures) -> Result<PathBuf> {
     let panels: Vec<_> = panels.map(|panel| placed(figures, panel)).collect();
     let path = folder.join("innovations.svg");
     let legend =
-        legend(figures, &[Key::Series("reading", palette::FLOWN), Key::Line("95 % line", Role::Limit)]);
+        legend(figures, &[Key::Dots("reading", palette::FLOWN), Key::Line("95 % line", Role::Limit)]);
     let heading = figures.heading("Normalised innovations squared (NIS)");
     let rows = panels.len().div_ceil(2).max(1);
     save(&path, size_of(rows, PANEL), &heading, &legend, |area| grid(area, 2, &panels))?;

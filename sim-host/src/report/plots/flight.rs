@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use firmware::config::Start;
+use firmware::guidance::Trajectory;
 
 use super::backdrop::Backdrop;
 use super::{disturbance, estimate, path, phases, rotors, tracking};
@@ -10,7 +12,7 @@ use crate::noise::Noise;
 use crate::pilot::Order;
 use crate::record::Row;
 use crate::report::estimate::Belief;
-use crate::scenario::{PlantKind, Scenario};
+use crate::scenario::Scenario;
 
 /// How a vehicle flew, hence what is worth drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +35,9 @@ pub struct Disturbance {
     /// From when to when it acts, s.
     pub acting: (f64, f64),
 }
+
+/// What is shown of a vehicle that stands still after a flight, s.
+const AFTERWARDS_S: f64 = 5.0;
 
 /// Everything that a flight's figures need.
 #[derive(Clone, Debug)]
@@ -58,22 +63,24 @@ impl<'a> Figures<'a> {
     pub fn new(scenario: &Scenario, seed: u64, rows: &'a [Row], beliefs: &'a [Belief]) -> Self {
         let file = &scenario.file;
         let kind = match () {
-            () if !file.command.is_empty() => Kind::Piloted,
-            () if file.plant == PlantKind::PaperDecoupled && file.attitude.is_some() => Kind::Attitude,
+            () if !file.command.is_empty() || file.start == Start::OnGround => Kind::Piloted,
+            () if file.attitude.is_some() && matches!(file.trajectory, Trajectory::Hold { .. }) => Kind::Attitude,
             () => Kind::Tracking,
         };
         let place = |order: &Order| match order {
             Order::GoTo { position_m, .. } => Some(position_m.map(f64::from)),
             _ => None,
         };
+        let backdrop = phases::backdrop(scenario, rows, beliefs);
+        let end = backdrop.end() + AFTERWARDS_S;
         Self {
             of: format!("{}, seed {seed}", scenario.name),
             kind,
-            rows,
-            beliefs,
+            rows: &rows[..rows.partition_point(|row| row.t <= end)],
+            beliefs: &beliefs[..beliefs.partition_point(|belief| belief.t <= end)],
             disturbance: applied(scenario, seed),
             places: file.command.iter().filter_map(|command| place(&command.order)).collect(),
-            backdrop: phases::backdrop(scenario, beliefs),
+            backdrop,
         }
     }
 
@@ -91,7 +98,7 @@ impl<'a> Figures<'a> {
         }
         files.push(tracking::attitude(folder, self)?);
         files.push(rotors::rotors(folder, self)?);
-        if self.kind == Kind::Tracking && path::moves(self.rows) {
+        if self.kind == Kind::Tracking && tracking::errs(self.rows).next().is_some() {
             files.push(tracking::portraits(folder, self)?);
         }
         if path::moves(self.rows) {

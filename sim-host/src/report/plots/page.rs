@@ -6,11 +6,13 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use super::panel::Panel;
-use super::style::{INK, Key, Role, palette};
+use super::style::{Key, Role, palette};
 use super::svg::{Anchor, Area, Font, Page, Stroke, text_width};
 
 /// Height of a figure's heading.
 pub(super) const HEADING: u32 = 44;
+/// Height of a legend below it.
+const LEGEND: u32 = 24;
 /// Width of a figure.
 pub(super) const WIDTH: u32 = 1100;
 /// Sizes of its texts.
@@ -35,8 +37,13 @@ pub(super) fn save(
     draw: impl FnOnce(&Area) -> Result<()>,
 ) -> Result<()> {
     let page = Page::default();
-    let (top, rest) = page.area(size).split_below(f64::from(HEADING));
-    draw_heading(&top, heading, legend);
+    let beside = text_width(heading, TITLE_SIZE) + legend_width(legend) + 60.0 < f64::from(size.0);
+    // A legend that does not fit beside the heading stands below it.
+    let second = if beside { 0 } else { LEGEND };
+    let size = (size.0, size.1 + second);
+    let (top, rest) = page.area(size).split_below(f64::from(HEADING + second));
+    draw_heading(&top.inner(0.0, 0.0, top.width, f64::from(HEADING)), heading);
+    draw_legend(&top, legend, f64::from(HEADING) * 0.5 + f64::from(second));
     draw(&rest)?;
     fs::write(path, page.finish(size))
         .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))
@@ -56,14 +63,23 @@ pub(super) fn grid(area: &Area, columns: usize, panels: &[Panel]) -> Result<()> 
     Ok(())
 }
 
-fn draw_heading(area: &Area, heading: &str, legend: &[Key]) {
+fn draw_heading(area: &Area, heading: &str) {
     let (title, rest) = heading.split_once('\n').unwrap_or((heading, ""));
     let middle = 0.5 * area.height;
     area.text((14.0, middle), title, Font::new(TITLE_SIZE, Anchor::Start).bold());
-    let grey = Font { color: palette::GREY, ..Font::new(KEY_SIZE, Anchor::Start) };
     if !rest.is_empty() {
-        area.text((14.0 + text_width(title, TITLE_SIZE) * 1.06 + 12.0, middle), rest, Font { color: INK, ..grey });
+        // Bold letters are a little wider.
+        let left = 14.0 + 1.04 * text_width(title, TITLE_SIZE) + 8.0;
+        area.text((left, middle + 1.0), rest, Font::new(KEY_SIZE, Anchor::Start));
     }
+}
+
+fn legend_width(legend: &[Key]) -> f64 {
+    legend.iter().map(|key| text_width(key.name(), KEY_SIZE) + SAMPLE + GAP + NEXT).sum()
+}
+
+/// From the right to the left, at a height.
+fn draw_legend(area: &Area, legend: &[Key], middle: f64) {
     let mut x = area.width - 20.0;
     for key in legend.iter().rev() {
         x -= text_width(key.name(), KEY_SIZE);
@@ -84,5 +100,6 @@ fn draw_sample(area: &Area, key: Key, (x, y): (f64, f64)) {
         Key::Disturbed => filled(palette::DISTURBED),
         Key::Line(_, role) => line(role.stroke()),
         Key::Series(_, color) => filled(color),
+        Key::Dots(_, color) => area.dots([4.0, 12.0, 20.0].map(|dx| (x + dx, y)), 1.5, color),
     }
 }

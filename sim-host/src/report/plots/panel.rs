@@ -4,7 +4,7 @@ use super::axis::{self, Quantity};
 use super::backdrop::Backdrop;
 use super::series::{Points, extent};
 use super::style::{INK, Role, palette};
-use super::svg::{Anchor, Area, Font, Stroke};
+use super::svg::{Anchor, Area, Font, Stroke, text_width};
 
 /// Room for the tick labels and the axis' name, in pixels.
 pub(super) const LEFT: f64 = 68.0;
@@ -50,6 +50,8 @@ pub(super) struct Panel {
     pub(super) decades_up: Option<(f64, f64)>,
     /// From where to where the horizontal axis goes, if not over what is drawn.
     pub(super) span: Option<(f64, f64)>,
+    /// What its own lines are, beside the title.
+    pub(super) keys: Vec<(&'static str, Role)>,
     /// Phases, faults and events behind the lines; they do not widen the axes.
     pub(super) backdrop: Backdrop,
 }
@@ -87,6 +89,7 @@ impl Panel {
             band: None,
             decades_up: None,
             span: None,
+            keys: Vec::new(),
             backdrop: Backdrop::default(),
         }
     }
@@ -109,12 +112,31 @@ impl Panel {
         let chart = area.inner(LEFT, above, area.width - LEFT - RIGHT, area.height - above - below);
         let scales = self.scales((chart.width, chart.height));
         area.text((LEFT, 0.5 * ABOVE), &self.title, Font::new(13.0, Anchor::Start).bold());
+        self.draw_keys(area);
         self.draw_behind(&chart, &scales);
         self.draw_axes(&chart, &scales);
         for (role, points) in &self.lines {
             chart.line(points.iter().map(|p| scales.place(*p)), role.stroke());
         }
         self.draw_marks(&chart, &scales);
+        if self.is_empty() {
+            let middle = (0.5 * chart.width, 0.5 * chart.height);
+            chart.text(middle, "nothing flown", Font { color: palette::GREY, ..Font::new(12.0, Anchor::Middle) });
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.dots.is_empty() && self.band.is_none() && self.lines.iter().all(|(_, points)| points.is_empty())
+    }
+
+    fn draw_keys(&self, area: &Area) {
+        let (middle, mut x) = (0.5 * ABOVE, area.width - RIGHT);
+        for (name, role) in self.keys.iter().rev() {
+            x -= text_width(name, 12.0);
+            area.text((x, middle), name, Font::new(12.0, Anchor::Start));
+            area.line([(x - 26.0, middle), (x - 6.0, middle)], role.stroke());
+            x -= 42.0;
+        }
     }
 
     /// What is shown across and up, before scales are made equal.
@@ -155,7 +177,9 @@ impl Panel {
         let grid = Stroke { color: palette::GRID, width: 0.6, dashed: false };
         let ink = Stroke { color: INK, width: 1.0, dashed: false };
         let (across, right) = ticks(&self.across, scales.across, chart.width / TICK_ACROSS, self.decades);
-        let (up, rising) = ticks(&self.up, scales.up, chart.height / TICK_UP, self.decades_up.is_some());
+        // At equal scales, with equal steps.
+        let tick_up = if self.equal_scales { TICK_ACROSS } else { TICK_UP };
+        let (up, rising) = ticks(&self.up, scales.up, chart.height / tick_up, self.decades_up.is_some());
         for (value, label) in right {
             let (x, bottom) = scales.place((value, scales.up.0));
             chart.line([(x, 0.0), (x, bottom)], grid);
@@ -198,7 +222,7 @@ pub(super) fn place_names(chart: &Area, places: &[((f64, f64), &str)]) {
         let beside = [y - 10.0, y + 12.0, y - 24.0, y + 26.0].into_iter().find(|y| free(*y));
         if let Some(beside) = beside {
             // Names go to the left where they would leave the diagram.
-            let wide = super::svg::text_width(name, 12.0);
+            let wide = text_width(name, 12.0);
             let (dx, anchor) = if x + wide + 8.0 > chart.width { (-7.0, Anchor::End) } else { (7.0, Anchor::Start) };
             chart.text((x + dx, beside), name, Font::new(12.0, anchor));
             taken.push((*x, beside));
@@ -213,8 +237,8 @@ fn ticks(quantity: &Quantity, range: (f64, f64), most: f64, logarithm: bool) -> 
         return (name, axis::decades(range).into_iter().map(|v| (v, axis::decade(v))).collect());
     }
     let shown = (factor * range.0, factor * range.1);
-    let step = axis::step(shown.1 - shown.0, most);
-    (name, axis::ticks(shown, most).into_iter().map(|v| (v / factor, axis::label(v, step))).collect())
+    let step = quantity.step(shown.1 - shown.0, most);
+    (name, axis::ticks(shown, step).into_iter().map(|v| (v / factor, axis::label(v, step))).collect())
 }
 
 /// Widens one of two ranges so that `size` pixels show both at the same scale.

@@ -8,7 +8,8 @@ use super::axis::Quantity;
 use super::flight::Figures;
 use super::page::{HEADING, WIDTH, save};
 use super::panel::{ABOVE, BELOW, LEFT, Panel, RIGHT};
-use super::series::{extent, over_time, thin_path};
+use super::phases;
+use super::series::{extent, thin_path};
 use super::space::{self, Frame, Leg};
 use super::style::{Key, Role};
 use super::svg::Area;
@@ -20,7 +21,7 @@ const MOVES_M: f64 = 0.5;
 const SPACE: f64 = 560.0;
 /// The lowest and the highest that a view may be, and what height over time needs below the view from above.
 const LOWEST: f64 = 330.0;
-const HIGHEST: f64 = 780.0;
+const HIGHEST: f64 = 740.0;
 const FILLER: f64 = 190.0;
 
 /// Whether vehicle or reference moved far enough for a path to be seen.
@@ -48,34 +49,43 @@ pub(super) fn draw(path: &Path, heading: &str, figures: &Figures) -> Result<()> 
     let frame = Frame::around(rows);
     let above = from_above(figures);
     let plan = height_from_above(&above).min(HIGHEST);
-    let height = frame.height(SPACE).clamp(LOWEST, HIGHEST).max(plan);
-    let legend: Vec<Key> =
-        figures.backdrop.keys().into_iter().chain([Key::Reference, Key::Flown, Key::Start]).collect();
+    let space = frame.height(SPACE).clamp(LOWEST, HIGHEST);
+    let height = space.max(plan);
+    let phases = figures.backdrop.leg_keys();
+    let lines = if phases.is_empty() { vec![Key::Reference, Key::Flown] } else { vec![Key::Line("reference", Role::Guide)] };
+    let legend: Vec<Key> = phases.into_iter().chain(lines).chain([Key::Start]).collect();
     save(path, (WIDTH, HEADING + height as u32), heading, &legend, |area| {
         let (left, right) = area.split_right(SPACE);
         let reference = Leg {
-            points: rows.iter().map(|row| [row.reference[0], row.reference[1], row.reference[2]]).collect(),
-            role: Role::Reference,
+            points: flown(figures).map(|row| [row.reference[0], row.reference[1], row.reference[2]]).collect(),
+            role: reference_role(figures),
         };
-        space::draw(&left, &frame, &reference, &legs(figures), &places(figures));
-        draw_right(&right, &above, plan, rows);
+        let in_space = stacked(&left, space, figures);
+        space::draw(&in_space, &frame, &reference, &legs(figures), &places(figures));
+        above.draw(&stacked(&right, plan, figures));
         Ok(())
     })
 }
 
-/// The view from above, and height over time where it leaves room.
-fn draw_right(area: &Area, above: &Panel, plan: f64, rows: &[Row]) {
-    let rest = area.height - plan;
+/// The upper `height` of an area, with height over time below it where that leaves room; else its middle.
+fn stacked<'a>(area: &Area<'a>, height: f64, figures: &Figures) -> Area<'a> {
+    let rest = area.height - height;
     if rest < FILLER {
-        above.draw(&area.inner(0.0, 0.5 * rest, area.width, plan));
-        return;
+        return area.inner(0.0, 0.5 * rest, area.width, height);
     }
-    above.draw(&area.inner(0.0, 0.0, area.width, plan));
-    let lines = vec![
-        (Role::Reference, over_time(rows, |row| row.reference[2])),
-        (Role::Flown, over_time(rows, |row| row.position[2])),
-    ];
-    Panel::over_time("height", Quantity::place("z (up)"), lines).draw(&area.inner(0.0, plan, area.width, rest));
+    let (above, below) = area.split_below(height);
+    Panel { span: figures.span(), backdrop: figures.backdrop.clone(), ..phases::height(figures) }.draw(&below);
+    above
+}
+
+/// How the reference is drawn below what was flown: light, where phases have colours.
+fn reference_role(figures: &Figures) -> Role {
+    if figures.backdrop.phases.is_empty() { Role::Reference } else { Role::Guide }
+}
+
+/// The rows while it flies.
+fn flown<'a>(figures: &'a Figures) -> impl Iterator<Item = &'a Row> {
+    figures.rows.iter().filter(|row| figures.backdrop.flies(row.t))
 }
 
 /// What was flown, in phases where there are any.
@@ -108,9 +118,9 @@ fn places(figures: &Figures) -> Vec<([f64; 3], String)> {
 
 fn from_above(figures: &Figures) -> Panel {
     let plane = |points: &[[f64; 3]]| thin_path(points.iter().map(|[x, y, _]| (*x, *y)).collect());
-    let reference = thin_path(figures.rows.iter().map(|row| (row.reference[0], row.reference[1])).collect());
+    let reference = thin_path(flown(figures).map(|row| (row.reference[0], row.reference[1])).collect());
     let flown = legs(figures).into_iter().map(|leg| (leg.role, plane(&leg.points)));
-    let lines: Vec<_> = std::iter::once((Role::Reference, reference)).chain(flown).collect();
+    let lines: Vec<_> = std::iter::once((reference_role(figures), reference)).chain(flown).collect();
     let places = places(figures).into_iter().map(|([x, y, _], name)| ((x, y), name)).collect();
     let start = figures.rows.first().map(|row| (row.position[0], row.position[1]));
     let panel = Panel::path("from above", Quantity::place("x (north)"), Quantity::place("y (west)"), vec![]);

@@ -9,9 +9,10 @@ use super::flight::Figures;
 use super::page::{grid, save, size_of};
 use super::panel::{ANGLES, Panel};
 use super::series::over_time;
-use super::style::{Key, Role, palette};
+use super::style::{Role, palette};
 use crate::record::Row;
 
+const NAMES: [&str; 4] = ["1", "2", "3", "4"];
 /// The first and the second of two rotors that share a panel.
 const PAIR: [Role; 2] = [Role::Series(palette::ORANGE), Role::Flown];
 
@@ -26,22 +27,25 @@ pub(super) fn rotors(folder: &Path, figures: &Figures) -> Result<PathBuf> {
         let unit = Quantity::new(format!("U{}", axis + 2), Unit::NewtonMetre);
         demand(rows, axis + 1, &format!("{} torque demanded", ANGLES[axis]), unit)
     };
-    let panels = [thrust, pair(rows, 0), torque(0), pair(rows, 2), torque(1), torque(2)].map(|panel| Panel {
+    // Of the paper's decoupled equations, there are no rotors.
+    let turn = rows.iter().any(|row| row.omega.iter().any(|omega| *omega != 0.0));
+    let panels = if turn {
+        vec![thrust, pair(rows, 0), torque(0), pair(rows, 2), torque(1), torque(2)]
+    } else {
+        vec![thrust, torque(0), torque(1), torque(2)]
+    };
+    let place = |panel: Panel| Panel {
         span: figures.span(),
         shaded: figures.disturbance.as_ref().map(|disturbance| disturbance.acting),
         backdrop: figures.backdrop.clone(),
         ..panel
-    });
+    };
+    let panels: Vec<_> = panels.into_iter().map(place).collect();
     let path = folder.join("rotors.svg");
-    let [first, second] = PAIR;
-    let legend: Vec<Key> = figures
-        .backdrop
-        .keys()
-        .into_iter()
-        .chain([Key::Line("rotor 1, 3", first), Key::Line("rotor 2, 4", second)])
-        .collect();
-    let heading = figures.heading("Thrust and torques demanded, rotor speeds");
-    save(&path, size_of(3, 235), &heading, &legend, |area| grid(area, 2, &panels))?;
+    let legend = figures.backdrop.keys();
+    let title = if turn { "Thrust and torques demanded, rotor speeds" } else { "Thrust and torques demanded" };
+    let heading = figures.heading(title);
+    save(&path, size_of(panels.len().div_ceil(2), 235), &heading, &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
 }
 
@@ -54,5 +58,7 @@ fn pair(rows: &[Row], first: usize) -> Panel {
     let speed = |rotor: usize| over_time(rows, |row| row.omega[rotor]);
     let lines = vec![(PAIR[0], speed(first)), (PAIR[1], speed(first + 1))];
     let title = format!("rotors {} and {}", first + 1, first + 2);
-    Panel::over_time(&title, Quantity::new("speed", Unit::RadianPerSecond), lines)
+    let keys = vec![(NAMES[first], PAIR[0]), (NAMES[first + 1], PAIR[1])];
+    let panel = Panel::over_time(&title, Quantity::new("speed", Unit::RadianPerSecond), lines);
+    Panel { keys, ..panel }
 }

@@ -21,6 +21,9 @@ const BUCKETS: usize = 500;
 /// accelerated so.
 const JUMP_M_S: f64 = 1.0;
 
+/// An angle that changes by more from one row to the next has passed ±180°.
+const HALF_A_TURN_DEG: f64 = 180.0;
+
 /// A quantity of a row over time.
 pub(super) fn over_time(rows: &[Row], value: impl Fn(&Row) -> f64) -> Points {
     thin_series(rows.iter().map(|row| (row.t, value(row))).collect())
@@ -31,7 +34,7 @@ pub(super) fn angle_over_time(rows: &[Row], value: impl Fn(&Row) -> f64) -> Poin
     let mut points = Points::with_capacity(rows.len());
     for row in rows {
         let now = (row.t, value(row));
-        if points.last().is_some_and(|before| (now.1 - before.1).abs() > 180.0) {
+        if points.last().is_some_and(|before: &(f64, f64)| (now.1 - before.1).abs() > HALF_A_TURN_DEG) {
             points.push(BREAK);
         }
         points.push(now);
@@ -157,7 +160,7 @@ pub(super) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{approach, flight};
+    use super::super::tests::{approach, made_up};
     use super::*;
 
     #[test]
@@ -189,7 +192,7 @@ mod tests {
 
     #[test]
     fn phase_is_the_derivative_of_the_error() {
-        let rows = flight(1.9);
+        let rows = made_up(1.9);
         let e0 = 5.0;
         // y's error is e0 (1 + t/τ) exp(−t/τ); its rate −e0 t/τ² exp(−t/τ). Central differences err by h²/6·e‴ < 1e-4.
         for (k, (error, rate)) in phase(&rows, 1).into_iter().enumerate().skip(1).take(1898) {

@@ -66,6 +66,10 @@ pub(super) enum Role {
     Series(Color),
     /// A path's leg, by its colour.
     Leg(Color),
+    /// The reference below legs in colours.
+    Guide,
+    /// While something fails.
+    Fault,
 }
 
 impl Role {
@@ -77,6 +81,8 @@ impl Role {
             Self::Limit => (palette::START, 2.0),
             Self::Series(color) => (color, 1.3),
             Self::Leg(color) => (color, 2.0),
+            Self::Guide => (palette::GRID, 7.0),
+            Self::Fault => (INK, 3.0),
         };
         Stroke { color, width, dashed: false }
     }
@@ -95,6 +101,8 @@ pub(super) enum Key<'a> {
     Line(&'a str, Role),
     /// One of several, by name and colour.
     Series(&'a str, Color),
+    /// Dots, by name and colour.
+    Dots(&'a str, Color),
 }
 
 impl<'a> Key<'a> {
@@ -106,7 +114,7 @@ impl<'a> Key<'a> {
             Self::Disturbed => "disturbance acts",
             Self::Linear => "linear",
             Self::Simulated => "in the simulation",
-            Self::Line(name, _) | Self::Series(name, _) => name,
+            Self::Line(name, _) | Self::Series(name, _) | Self::Dots(name, _) => name,
         }
     }
 }

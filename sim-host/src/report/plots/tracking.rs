@@ -17,6 +17,8 @@ use crate::report::metrics::{TRACKING_FROM_S, angle_errors, errors};
 const PANEL: u32 = 235;
 /// An error that shrinks by this much after the approach is shown once more from then on.
 const SHRINKS: f64 = 8.0;
+/// A position error that never exceeds this is noise, and its portrait a dot, m.
+const PORTRAIT_FROM_M: f64 = 1e-3;
 /// A pilot's flight has a new reference as often, ticks (from tick 2 on): between, the reference stands still.
 const NEW_REFERENCE: (u64, u64) = (4, 2);
 
@@ -32,7 +34,7 @@ pub(super) fn position(folder: &Path, figures: &Figures) -> Result<PathBuf> {
     let absolute = |axis: usize| {
         let name = format!("{} ({})", POSITIONS[axis], DIRECTIONS[axis]);
         let lines = vec![
-            (Role::Reference, over_time(&rows, |row| row.reference[axis])),
+            (Role::Reference, while_flying(figures, &rows, |row| row.reference[axis])),
             (Role::Flown, over_time(&rows, |row| row.position[axis])),
         ];
         Panel::over_time(&name, Quantity::place(POSITIONS[axis]), lines)
@@ -50,8 +52,11 @@ pub(super) fn position(folder: &Path, figures: &Figures) -> Result<PathBuf> {
 pub(super) fn attitude(folder: &Path, figures: &Figures) -> Result<PathBuf> {
     let rows = figures.rows;
     let absolute = |axis: usize| {
+        let desired = |row: &Row| {
+            if figures.backdrop.flies(row.t) { row.desired_attitude[axis].to_degrees() } else { f64::NAN }
+        };
         let lines = vec![
-            (Role::Reference, angle_over_time(rows, |row| row.desired_attitude[axis].to_degrees())),
+            (Role::Reference, angle_over_time(rows, desired)),
             (Role::Flown, angle_over_time(rows, |row| angles_deg(row)[axis])),
         ];
         Panel::over_time(ANGLES[axis], Quantity::new(ANGLES[axis], Unit::Degree).at_least(2.0), lines)
@@ -67,11 +72,17 @@ pub(super) fn attitude(folder: &Path, figures: &Figures) -> Result<PathBuf> {
 /// # Errors
 /// As [`position`].
 pub(super) fn portraits(folder: &Path, figures: &Figures) -> Result<PathBuf> {
-    let panels = [0, 1, 2].map(|axis| phase_panel(figures.rows, axis));
+    let panels: Vec<_> = errs(figures.rows).map(|axis| phase_panel(figures.rows, axis)).collect();
+    let columns = panels.len().max(1);
     let path = folder.join("phase.svg");
     let heading = figures.heading("Phase portraits of the position error");
-    save(&path, size_of(1, 400), &heading, &[Key::Flown, Key::Start], |area| grid(area, 3, &panels))?;
+    save(&path, size_of(1, 400), &heading, &[Key::Flown, Key::Start], |area| grid(area, columns, &panels))?;
     Ok(path)
+}
+
+/// The axes whose error is ever worth a portrait.
+pub(super) fn errs(rows: &[Row]) -> impl Iterator<Item = usize> + '_ {
+    (0..3).filter(|axis| rows.iter().any(|row| errors(row)[*axis].abs() > PORTRAIT_FROM_M))
 }
 
 /// The phase portrait of one axis' error.
@@ -95,7 +106,9 @@ fn save_pairs(
     let tracked = &rows[rows.partition_point(|row| row.t < TRACKING_FROM_S)..];
     let approaches = figures.kind != Kind::Piloted && (0..3).any(|axis| shrinks(rows, tracked, |row| error(row, axis)));
     let panel = |rows: &[Row], axis: usize, title: &str| {
-        let line = vec![(Role::Flown, error_over_time(figures, rows, |row| error(row, axis)))];
+        let error = |row: &Row| if figures.backdrop.flies(row.t) { error(row, axis) } else { f64::NAN };
+        let error = if unit == Unit::Degree { angle_over_time(rows, error) } else { over_time(rows, error) };
+        let line = vec![(Role::Flown, error)];
         Panel::over_time(title, Quantity::new(format!("{} error", names[axis]), unit), line)
     };
     let of_axis = |axis: usize| {
@@ -128,9 +141,9 @@ fn shrinks(rows: &[Row], tracked: &[Row], error: impl Fn(&Row) -> f64) -> bool {
     tracked.len() > 1 && most(rows) > SHRINKS * most(tracked)
 }
 
-/// An error while the vehicle flies, interrupted where it does not.
-pub(super) fn error_over_time(figures: &Figures, rows: &[Row], error: impl Fn(&Row) -> f64) -> Points {
-    let point = |row: &Row| if figures.backdrop.flies(row.t) { (row.t, error(row)) } else { BREAK };
+/// A reference or an error while the vehicle flies, interrupted where it does not.
+pub(super) fn while_flying(figures: &Figures, rows: &[Row], value: impl Fn(&Row) -> f64) -> Points {
+    let point = |row: &Row| if figures.backdrop.flies(row.t) { (row.t, value(row)) } else { BREAK };
     thin_series(rows.iter().map(point).collect())
 }
 
