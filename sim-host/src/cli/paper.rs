@@ -6,13 +6,16 @@ use anyhow::Result;
 
 use crate::paper::flights::Flights;
 use crate::paper::{Study, Sweeps};
-use crate::report::{OutFolder, paper};
+use crate::report::{OutFolder, paper, progress};
 
 pub(super) fn run(out: &Path, as_json: bool) -> Result<()> {
     // Before the flights: a folder that cannot be written is better known now.
     let folder = OutFolder::create(out)?;
-    let flights = Flights::fly()?;
-    let study = Study::new(&flights, &Sweeps::fly(&flights)?)?;
+    let bar = progress::of_flights(Flights::COUNT as u64 + 2, !as_json);
+    let flights = Flights::fly(|| bar.inc(1))?;
+    let sweeps = Sweeps::fly(&flights, || bar.inc(1))?;
+    bar.finish_and_clear();
+    let study = Study::new(&flights, &sweeps)?;
     let figures = folder.paper(&study, &flights)?;
     if as_json {
         return super::say(&serde_json::to_string(&study)?);

@@ -23,7 +23,7 @@ fn removed(flown: &Flown, what: &str, why: String) -> Line {
     let times = flown.metrics.recovery(onset).as_array();
     let here = times.into_iter().try_fold(0.0_f64, |most, time| Some(most.max(time?)));
     let measure = "from its onset until within 5 cm, 2° for good";
-    let claim = format!("{} ({what})", DISTURBANCE_REMOVED.what);
+    let claim = format!("{}, {what}", DISTURBANCE_REMOVED.what);
     Line::new(&claim, DISTURBANCE_REMOVED.source, flown, measure, "s").with(
         Some(DISTURBANCE_REMOVED.time_s),
         here,
@@ -50,7 +50,7 @@ fn accelerations(flown: &Flown) -> Line {
         control.yaw.gain,
         greatest(flown),
     );
-    removed(flown, "on the accelerations", why)
+    removed(flown, "accelerations", why)
 }
 
 fn outputs(flown: &Flown) -> Line {
@@ -65,7 +65,7 @@ fn outputs(flown: &Flown) -> Line {
         f64::from(flown.control().y.gain) * d.hold_s.max(STEP_S),
         greatest(flown),
     );
-    removed(flown, "on the outputs", why)
+    removed(flown, "outputs", why)
 }
 
 /// The strongest disturbance that was held, and the weakest that was not.
@@ -98,7 +98,7 @@ fn most_acceleration(flown: &Flown, sweep: &[Strength]) -> Line {
         )
     });
     let here = held.map(|held| held.angular_acceleration_rad_s2);
-    robust(flown, "greatest σ of angular acceleration that is removed so", "rad/s²").with(None, here, why)
+    robust(flown, "accelerations", "greatest σ of angular acceleration that is removed so", "rad/s²").with(None, here, why)
 }
 
 fn most_output(flown: &Flown, sweep: &[Strength]) -> Line {
@@ -112,9 +112,9 @@ fn most_output(flown: &Flown, sweep: &[Strength]) -> Line {
         )
     });
     let here = held.map(|held| held.position_output_m);
-    robust(flown, "greatest σ of position output that is removed so", "m").with(None, here, why)
+    robust(flown, "outputs", "greatest σ of a measured position that is removed so", "m").with(None, here, why)
 }
 
-fn robust(flown: &Flown, measure: &str, unit: &'static str) -> Line {
-    Line::new("the controller is robust against it", "Section 4.2, 5.1", flown, measure, unit)
+fn robust(flown: &Flown, on: &str, measure: &str, unit: &'static str) -> Line {
+    Line::new(&format!("it is robust against disturbance, {on}"), "Section 4.2, 5.1", flown, measure, unit)
 }

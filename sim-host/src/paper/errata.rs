@@ -34,7 +34,7 @@ pub const ERRATA: [Erratum; 7] = [
         place: "Eq. 11, θd",
         printed: "Ux cψ − Uy sψ",
         flown: "Ux cψ + Uy sψ",
-        effect: "none at heading 0; at any other the thrust points elsewhere",
+        effect: "the thrust points elsewhere, but for a heading of 0",
     },
     Erratum {
         place: "Eq. 25, first line",
@@ -46,7 +46,7 @@ pub const ERRATA: [Erratum; 7] = [
         place: "Eq. 2, 25, 26",
         printed: "Ωr is not defined",
         flown: "−ω1 + ω2 − ω3 + ω4 with rotors; 0 in the decoupled model",
-        effect: "the other sign would not conserve angular momentum",
+        effect: "one of two signs, of which the other does not conserve angular momentum",
     },
     Erratum {
         place: "Table 2",

@@ -18,23 +18,31 @@ use crate::sil::Outcome;
 /// Seed of every flight.
 pub const SEED: u64 = 1;
 
-/// Position gains that are slow beside the attitude loop, those of the scenario `helix`.
-const SLOW: [&str; 3] = [
-    "control.x={lambda=4.0,gain=20.0,reaching={implicit-sgn={horizon_s=0.1}}}",
-    "control.y={lambda=4.0,gain=20.0,reaching={implicit-sgn={horizon_s=0.1}}}",
-    "control.z={lambda=4.0,gain=20.0,reaching={implicit-sgn={horizon_s=0.1}}}",
+/// Slow position gains, those of the scenario `helix`, in the layer of Table 1.
+const THIN: [&str; 3] = [
+    "control.x={lambda=4.0,gain=20.0,reaching={sat={rho=0.00099}}}",
+    "control.y={lambda=4.0,gain=20.0,reaching={sat={rho=0.00099}}}",
+    "control.z={lambda=4.0,gain=20.0,reaching={sat={rho=0.00099}}}",
 ];
 
-/// Scenarios with what is set in them, in the order of [`Flights`].
-const FLOWN: [(&str, &[&str]); 8] = [
-    ("paper-ideal", &[]),
-    ("paper-attitude", &[]),
-    ("paper-disturbed", &[]),
-    ("paper-disturbed-output", &[]),
-    ("paper-literal", &[]),
-    ("paper-literal", &["thrust_to_weight=25"]),
-    ("paper-literal", &SLOW),
-    ("helix", &[]),
+/// The same in a layer as wide as K times 0.1 s.
+const SLOW: [&str; 3] = [
+    "control.x={lambda=4.0,gain=20.0,reaching={sat={rho=2.0}}}",
+    "control.y={lambda=4.0,gain=20.0,reaching={sat={rho=2.0}}}",
+    "control.z={lambda=4.0,gain=20.0,reaching={sat={rho=2.0}}}",
+];
+
+/// Scenarios with what is set in them and what that is called, in the order of [`Flights`].
+const FLOWN: [(&str, &[&str], &str); 9] = [
+    ("paper-ideal", &[], ""),
+    ("paper-attitude", &[], ""),
+    ("paper-disturbed", &[], ""),
+    ("paper-disturbed-output", &[], ""),
+    ("paper-literal", &[], ""),
+    ("paper-literal", &["thrust_to_weight=25"], ", thrust-to-weight 25"),
+    ("paper-literal", &THIN, ", slow gains"),
+    ("paper-literal", &SLOW, ", slow gains, wide layer"),
+    ("helix", &[], ""),
 ];
 
 /// A flight with all its rows.
@@ -42,6 +50,8 @@ const FLOWN: [(&str, &[&str]); 8] = [
 pub struct Flown {
     /// Scenario, and what was set in it.
     pub name: String,
+    /// The same as `run` takes it with `--set`.
+    pub settings: Vec<String>,
     /// What was flown.
     pub scenario: Scenario,
     /// How it ended.
@@ -70,21 +80,25 @@ pub struct Flights {
     /// The same with the thrust that the ideal case takes.
     pub literal_strong: Flown,
     /// The same as `literal` with slow position gains.
+    pub literal_thin: Flown,
+    /// The same in a wide layer.
     pub literal_slow: Flown,
     /// The helix on the rigid body, by gains of our own.
     pub helix: Flown,
 }
 
 impl Flights {
-    /// Flies all, several at once.
+    /// Flies all, several at once; `done` is called after each.
     ///
     /// # Errors
     /// None with the built-in scenarios.
-    pub fn fly() -> Result<Self> {
-        let flown: Vec<Flown> =
-            FLOWN.par_iter().map(|(name, settings)| Flown::new(name, settings)).collect::<Result<_>>()?;
-        let [ideal, attitude, disturbed, disturbed_output, literal, literal_strong, literal_slow, helix] =
-            <[Flown; FLOWN.len()]>::try_from(flown).expect("as many as were asked to fly");
+    pub fn fly(done: impl Fn() + Sync) -> Result<Self> {
+        let fly = |(name, settings, what): &(&str, &[&str], &str)| {
+            Flown::new(name, settings, what).inspect(|_| done())
+        };
+        let flown: Vec<Flown> = FLOWN.par_iter().map(fly).collect::<Result<_>>()?;
+        let [ideal, attitude, disturbed, disturbed_output, literal, literal_strong, literal_thin, literal_slow, helix] =
+            <[Flown; FLOWN.len()]>::try_from(flown).expect("as many as were to be flown");
         Ok(Self {
             ideal,
             attitude,
@@ -92,31 +106,40 @@ impl Flights {
             disturbed_output,
             literal,
             literal_strong,
+            literal_thin,
             literal_slow,
             helix,
         })
     }
 
-    /// Each of them.
-    pub fn all(&self) -> [&Flown; 8] {
-        let Self { ideal, attitude, disturbed, disturbed_output, literal, literal_strong, literal_slow, helix } = self;
-        [ideal, attitude, disturbed, disturbed_output, literal, literal_strong, literal_slow, helix]
+    /// How many there are.
+    pub const COUNT: usize = FLOWN.len();
+
+    /// Each of them, in the order of the fields.
+    pub fn all(&self) -> [&Flown; FLOWN.len()] {
+        [
+            &self.ideal,
+            &self.attitude,
+            &self.disturbed,
+            &self.disturbed_output,
+            &self.literal,
+            &self.literal_strong,
+            &self.literal_thin,
+            &self.literal_slow,
+            &self.helix,
+        ]
     }
 }
 
 impl Flown {
-    fn new(name: &str, settings: &[&str]) -> Result<Self> {
+    fn new(name: &str, settings: &[&str], what: &str) -> Result<Self> {
         let settings: Vec<String> = settings.iter().map(|setting| (*setting).to_owned()).collect();
         let scenario = Scenario::load(name, &settings)?;
         let mut recorder = ((Vec::new(), Metrics::new()), TruthWriter::hash_only());
         let outcome = flight::fly(&scenario, SEED, &mut recorder)?;
         let ((rows, metrics), truth) = recorder;
-        let name = match settings.first() {
-            Some(first) if settings.len() == 1 => format!("{name} --set {first}"),
-            Some(_) => format!("{name} with slower position gains"),
-            None => name.to_owned(),
-        };
-        Ok(Self { name, scenario, outcome, rows, metrics, truth_sha256: truth.finish()? })
+        let (name, truth_sha256) = (format!("{name}{what}"), truth.finish()?);
+        Ok(Self { name, settings, scenario, outcome, rows, metrics, truth_sha256 })
     }
 
     /// The gains in use.

@@ -96,6 +96,8 @@ impl TableOne {
 pub struct Fingerprint {
     /// Scenario, and what was set in it.
     pub flight: String,
+    /// What `run` takes with `--set` for the same flight.
+    pub settings: Vec<String>,
     /// SHA-256 of its truth.csv, as `run` has it.
     pub truth_sha256: String,
 }
@@ -129,12 +131,12 @@ pub struct Sweeps {
 }
 
 impl Sweeps {
-    /// Flies both.
+    /// Flies both, at once; `done` is called after each.
     ///
     /// # Errors
     /// None with the built-in scenarios.
-    pub fn fly(flights: &Flights) -> Result<Self> {
-        let of = |flown: &Flown| sweep(&flown.scenario, SEED, REFINEMENTS);
+    pub fn fly(flights: &Flights, done: impl Fn() + Sync) -> Result<Self> {
+        let of = |flown: &Flown| sweep(&flown.scenario, SEED, REFINEMENTS).inspect(|_| done());
         let (accelerations, outputs) = rayon::join(|| of(&flights.disturbed), || of(&flights.disturbed_output));
         Ok(Self { accelerations: accelerations?, outputs: outputs? })
     }
@@ -158,8 +160,11 @@ impl Study {
             ("y", &control.y),
             ("z", &control.z),
         ];
-        let fingerprint =
-            |flown: &Flown| Fingerprint { flight: flown.name.clone(), truth_sha256: flown.truth_sha256.clone() };
+        let fingerprint = |flown: &Flown| Fingerprint {
+            flight: flown.name.clone(),
+            settings: flown.settings.clone(),
+            truth_sha256: flown.truth_sha256.clone(),
+        };
         Ok(Self {
             title: TITLE,
             claims,

@@ -75,7 +75,7 @@ fn altitude_error(ideal: &Flown, z: &Approach) -> Line {
         1e3 * z.error_at(t),
     );
     let here = ideal.at(t).map(|row| errors(row)[2].abs());
-    Line::new(ALTITUDE_ERROR.what, ALTITUDE_ERROR.source, ideal, "error of z at 0.45 s", "m").with(
+    Line::new("that error at 0.45 s", ALTITUDE_ERROR.source, ideal, "error of z at 0.45 s", "m").with(
         Some(ALTITUDE_ERROR_M),
         here,
         why,
@@ -105,7 +105,7 @@ fn thrust_demanded(ideal: &Flown, first: f64) -> Line {
          than a step can resolve, U1 jumps between m (g ± K).",
         first / weight
     );
-    Line::new("control input of the altitude", "Section 4.1, Figure 2 d", ideal, "greatest U1", "N").with(None, here, why)
+    Line::new("control input of the altitude, U1", "Section 4.1, Figure 2 d", ideal, "greatest U1", "N").with(None, here, why)
 }
 
 fn x_follows(ideal: &Flown, x: &Approach) -> Line {
@@ -153,7 +153,7 @@ fn helix(ideal: &Flown) -> Line {
         1e3 * swing,
         1e3 * 0.5 * swing / f64::from(gains.lambda),
     );
-    let what = "the helix is tracked from (0, 0, 0)";
+    let what = "the 3-D helix is tracked from (0, 0, 0)";
     Line::new(what, "Section 4.3, Figure 7", ideal, "greatest error after 4 s", "m").with(
         None,
         ideal.greatest_error(),

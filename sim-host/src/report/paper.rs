@@ -29,17 +29,30 @@ pub fn write(study: &Study, folder: &Path) -> Result<()> {
 
 /// The study for the terminal, with a newline at the end.
 pub fn render(study: &Study) -> String {
-    let mut text = wrapped("The paper: ", study.title);
-    text.push_str("\nClaims, beside what was flown here\n\n");
-    for line in &study.claims {
-        text.push_str(&claim(line));
+    let mut text = wrapped("The paper: ", study.title) + "\n" + &table(study) + "\nWhat is compared, and why it differs\n\n";
+    for (i, line) in study.claims.iter().enumerate() {
+        let measured = format!("{}, {}: {}. Why: {}", line.place, line.flight, line.measure, line.why);
+        text.push_str(&wrapped(&format!("{:>2}  ", i + 1), &measured));
     }
-    text.push_str("\nErrata: printed, and what is flown\n\n");
+    text.push_str("\nErrata that change a flight: printed, flown instead, and what the printed form would do\n\n");
     for erratum in &study.errata {
-        let text_of = format!("{}; {}: {}", erratum.printed, erratum.flown, erratum.effect);
-        text.push_str(&wrapped(&format!("{}: ", erratum.place), &text_of));
+        let all = format!("{}. Flown: {}. As printed: {}", erratum.printed, erratum.flown, erratum.effect);
+        text.push_str(&wrapped(INDENT, &format!("{}: {all}", erratum.place)));
     }
     text + "\n" + &gains(study) + &vehicle(study)
+}
+
+/// The claims with their numbers.
+fn table(study: &Study) -> String {
+    let row = |number: &str, [claim, paper, here, difference]: [&str; 4]| {
+        format!("{number:>2}  {claim:<62}  {paper:>9}  {here:>9}  {difference:>10}\n")
+    };
+    let mut text = row("", ["claim", "paper", "here", "difference"]);
+    for (i, line) in study.claims.iter().enumerate() {
+        let here = number(line.here, line.unit);
+        text.push_str(&row(&(i + 1).to_string(), [&line.claim, &stated(line), &here, &difference(line)]));
+    }
+    text
 }
 
 /// Where the files are.
@@ -47,21 +60,6 @@ pub fn files(folder: &Path, figures: &[PathBuf]) -> String {
     let names: Vec<_> = figures.iter().filter_map(|file| file.file_name()?.to_str()).collect();
     let list = wrapped("figures: ", &names.join(", "));
     format!("{list}All of this is in {}, the table in paper.md and paper.json.", folder.display())
-}
-
-/// One claim: its numbers, what they are, and why they differ.
-fn claim(line: &Line) -> String {
-    let Line { claim, place, flight, measure, why, .. } = line;
-    let numbers = format!(
-        "paper {}, here {}, difference {}",
-        stated(line),
-        number(line.here, line.unit),
-        difference(line)
-    );
-    let mut text = wrapped("", &format!("{claim} ({place})"));
-    let _ = writeln!(text, "{INDENT}{numbers}");
-    text.push_str(&wrapped(INDENT, &format!("{measure}, `{flight}`")));
-    text + &wrapped(INDENT, &format!("why: {why}")) + "\n"
 }
 
 /// The claims as a table for a document.
@@ -82,7 +80,7 @@ fn stated(line: &Line) -> String {
 fn difference(line: &Line) -> String {
     match (line.paper, line.here, line.difference) {
         (None, _, _) => "–".into(),
-        (Some(_), None, _) => "does not follow".into(),
+        (Some(_), None, _) => "never".into(),
         (_, _, value) => value.map_or_else(
             || "–".into(),
             |value| {

@@ -16,6 +16,7 @@ mod flights;
 mod landing;
 mod no_panic;
 mod paper_cases;
+mod paper_command;
 mod physics;
 #[cfg(unix)]
 mod pil;
