@@ -26,7 +26,7 @@ pub(super) fn lines(flights: &Flights) -> Result<Vec<Line>> {
         altitude_settles(ideal, &z),
         altitude_error(ideal, &z),
         altitude_rate(ideal, &z),
-        thrust_demanded(ideal, thrust),
+        thrust_demanded(ideal, thrust, &z),
         x_follows(ideal, &x),
         y_follows(ideal, &y),
         attitude(&flights.attitude, uy),
@@ -96,14 +96,16 @@ fn altitude_rate(ideal: &Flown, z: &Approach) -> Line {
     line(&ALTITUDE_AT_REST, ideal, "rate below 2 % of its peak from").with(Some(t), settling.since(), why)
 }
 
-fn thrust_demanded(ideal: &Flown, first: f64) -> Line {
+fn thrust_demanded(ideal: &Flown, first: f64, z: &Approach) -> Line {
     let constants = ideal.scenario.constants();
     let weight = constants.mass * constants.gravity;
     let here = ideal.rows.iter().map(|row| row.u[0]).reduce(f64::max);
     let why = format!(
-        "Eq. 28 has no limit: m (g + λ ėz + K) is {first:.0} N at the start, {:.0} times the weight. In the layer, thinner \
-         than a step can resolve, U1 jumps between m (g ± K).",
-        first / weight
+        "Eq. 28 has no limit: m (g + λ ėz + K) is {first:.0} N at the start, {:.0} times the weight. On the surface it switches by \
+         ± m K = {:.0} N around a mean that begins at m (g + λ ėz) = {:.0} N: rotors do not pull down.",
+        first / weight,
+        constants.mass * z.gain,
+        weight + constants.mass * z.lambda * z.rate_at(z.reached_s()),
     );
     Line::new("control input of the altitude, U1", "Section 4.1, Figure 2 d", ideal, "greatest U1", "N").with(None, here, why)
 }
