@@ -22,7 +22,7 @@ use crate::sil::{End, Outcome};
 /// Plant steps a second.
 const STEPS_A_SECOND: f64 = 1e5;
 /// Plant step, s.
-const STEP_S: f64 = 1.0 / STEPS_A_SECOND;
+pub(crate) const STEP_S: f64 = 1.0 / STEPS_A_SECOND;
 /// Plant steps in a row of the record.
 const STEPS_A_ROW: u32 = 100;
 

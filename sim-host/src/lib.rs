@@ -21,6 +21,7 @@ pub mod interrupt;
 pub mod link;
 pub mod matrix;
 pub mod noise;
+pub mod paper;
 pub mod pil;
 pub mod pilot;
 pub mod plan;

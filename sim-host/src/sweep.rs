@@ -4,10 +4,10 @@ use anyhow::{Context, Result};
 use serde::Serialize;
 
 use crate::flight;
+use crate::paper::claims::DISTURBANCE_REMOVED;
 use crate::record::{Recorder, Row};
 use crate::report::Metrics;
 use crate::report::metrics::{Recovery, angle_errors, errors};
-use crate::report::table::DISTURBANCE_REMOVED;
 use crate::scenario::{Disturbance, Scenario};
 
 /// A flight at one strength of the disturbance.

@@ -10,6 +10,7 @@ mod bench;
 mod compare;
 mod demo;
 mod fly;
+mod paper;
 mod pil;
 mod plan;
 mod run;
@@ -102,6 +103,15 @@ enum Command {
     },
     /// Fly every controller in every scenario under every disturbance of a matrix, and compare them.
     Compare(CompareArgs),
+    /// Fly the paper's simulations, make its Figures 2 to 7, and hold its claims against what was flown.
+    Paper {
+        /// Write the figures, paper.md and paper.json there.
+        #[arg(long, value_name = "DIR", default_value = "runs/paper")]
+        out: PathBuf,
+        /// Print a JSON object.
+        #[arg(long)]
+        json: bool,
+    },
     /// Plan the path that joins a scenario's trajectory, and print it as that scenario's `[join]` table.
     Plan {
         #[command(flatten)]
@@ -338,6 +348,7 @@ pub fn main() -> ExitCode {
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
         Some(Command::Sweep { which, seed, json }) => sweep::run(&which, seed, json),
         Some(Command::Compare(args)) => compare::run(&args),
+        Some(Command::Paper { out, json }) => paper::run(&out, json),
         Some(Command::Plan { which, seed, flights }) => plan::run(&which, seed, flights),
         Some(Command::Tune(args)) => tune::run(&args),
     };

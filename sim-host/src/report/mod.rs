@@ -33,6 +33,7 @@ pub mod metrics;
 pub mod mission;
 pub mod out;
 pub mod paint;
+pub mod paper;
 pub mod plots;
 pub mod progress;
 pub mod sensed;

@@ -8,14 +8,24 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 
 use super::estimate::EstimateWriter;
-use super::{Figures, Summary, TruthWriter, comparison, plots};
+use super::{Figures, Summary, TruthWriter, comparison, paper, plots};
 use crate::compare::Comparison;
+use crate::paper::Study;
+use crate::paper::flights::Flights;
 
 /// Files by which a folder is known to be ours: one of them is written by every command with `--out`.
-const MARKS: [&str; 4] = ["provenance.toml", "summary.json", "compare.json", "analyse.json"];
+const MARKS: [&str; 5] = ["provenance.toml", "summary.json", "compare.json", "analyse.json", "paper.json"];
 /// What else such a folder may hold, besides figures and a folder per seed.
-const OURS: [&str; 7] =
-    ["truth.csv", "estimate.csv", "scenario.toml", "airframe.toml", "tuning.toml", "compare.csv", "compare.md"];
+const OURS: [&str; 8] = [
+    "truth.csv",
+    "estimate.csv",
+    "scenario.toml",
+    "airframe.toml",
+    "tuning.toml",
+    "compare.csv",
+    "compare.md",
+    "paper.md",
+];
 
 /// A folder that is being written.
 #[derive(Clone, Debug)]
@@ -212,6 +222,15 @@ impl OutFolder {
     pub fn comparison(&self, comparison: &Comparison) -> Result<()> {
         comparison::write(comparison, &self.0)?;
         plots::comparison::draw(comparison, &self.0)
+    }
+
+    /// Writes paper.json, paper.md and Figures 2 to 7 of the paper's study. Returns the figures.
+    ///
+    /// # Errors
+    /// When a file cannot be written; the message names it.
+    pub fn paper(&self, study: &Study, flights: &Flights) -> Result<Vec<PathBuf>> {
+        paper::write(study, &self.0)?;
+        plots::paper::draw(flights, &self.0)
     }
 
     /// Draws every figure that applies.

@@ -8,27 +8,8 @@ use super::metrics::{AxisFigures, Recovery};
 use super::mission::{Mission, end_text};
 use super::paint::Paint;
 use super::summary::{Row, Summary};
+use crate::paper::claims::{AVERAGE_FOLLOWS, DISTURBANCE_REMOVED, PaperClaim, X_FOLLOWS, Y_FOLLOWS, Z_FOLLOWS};
 use crate::sil::End;
-
-/// A time the paper claims, s, and where it does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PaperClaim {
-    /// The time claimed, s.
-    pub time_s: f64,
-    /// Section and figure.
-    pub source: &'static str,
-}
-
-/// x follows 4 sin t from the start.
-pub const X_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.0, source: "Section 4.1, Figure 3" };
-/// y follows 5 cos t.
-pub const Y_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.4, source: "Section 4.1, Figure 3" };
-/// z follows 2 + t.
-pub const Z_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.35, source: "Section 4.1, Figure 2" };
-/// A Gaussian disturbance is removed in less than this.
-pub const DISTURBANCE_REMOVED: PaperClaim = PaperClaim { time_s: 0.2, source: "Section 4.2, Figure 6" };
-/// The whole system follows, on average, within this.
-pub const AVERAGE_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.5, source: "Section 5.1" };
 
 /// Renders one flight, several lines with a newline at the end.
 pub fn render(summary: &Summary, paint: Paint) -> String {

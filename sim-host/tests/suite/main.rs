@@ -17,6 +17,7 @@ mod landing;
 mod messages;
 mod no_panic;
 mod paper_cases;
+mod paper_command;
 mod physics;
 #[cfg(unix)]
 mod pil;

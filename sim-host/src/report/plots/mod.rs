@@ -26,6 +26,7 @@ mod estimate;
 mod flight;
 mod page;
 mod panel;
+pub mod paper;
 mod path;
 mod phases;
 mod rotors;
