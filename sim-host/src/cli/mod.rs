@@ -9,6 +9,7 @@ mod assess;
 mod bench;
 mod compare;
 mod demo;
+mod interrupt;
 mod pil;
 mod plan;
 mod run;
@@ -213,7 +214,7 @@ struct ServeArgs {
     /// Address to send to. Repeatable.
     #[arg(long = "peer", default_values = crate::link::DEFAULT_PEERS)]
     peers: Vec<SocketAddr>,
-    /// Simulated seconds a second.
+    /// Simulated seconds per second, 0.01 to 1000.
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     speed: f64,
     /// Seed of the random numbers.
@@ -299,6 +300,7 @@ pub fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.is::<interrupt::Interrupted>() => ExitCode::from(interrupt::EXIT_CODE),
         Err(error) => {
             eprintln!("sim-host: {}", one_line(&error));
             ExitCode::from(if pil::is_finding(&error) || error.is::<assess::Unmet>() { 1 } else { 2 })
