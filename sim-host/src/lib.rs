@@ -18,6 +18,7 @@ pub mod failures;
 mod files;
 pub mod flight;
 pub mod geodesy;
+pub mod interrupt;
 pub mod link;
 pub mod matrix;
 pub mod noise;

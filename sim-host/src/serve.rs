@@ -5,7 +5,6 @@
 //! missed beyond that is left out rather than flown in a rush. Typed lines are carried out
 //! between ticks.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -88,7 +87,7 @@ const NAP: Duration = Duration::from_millis(1);
 /// Wall time that is caught up at most, s.
 const CATCH_UP_S: f64 = 0.1;
 
-/// Flies until `stop` is set, or a line asks for the end.
+/// Flies until `stop` says so, or a line asks for the end.
 ///
 /// # Errors
 /// A speed outside of [`SPEEDS`].
@@ -97,14 +96,14 @@ pub fn serve(
     link: &mut UdpLink,
     terminal: &mut impl Terminal,
     pacing: Pacing,
-    stop: &AtomicBool,
+    stop: impl Fn() -> bool,
 ) -> anyhow::Result<Flown> {
     let (low, high) = (SPEEDS.start(), SPEEDS.end());
     ensure!(SPEEDS.contains(&pacing.speed), "--speed must be between {low} and {high}, not {}", pacing.speed);
     let (start, mut ticks) = (Instant::now(), 0);
     let mut pacer = Pacer::starting(start, pacing.speed);
     let mut inbox = Vec::new();
-    while !stop.load(Ordering::Relaxed) {
+    while !stop() {
         if inbox.len() < INBOX_MAX {
             link.receive(&mut inbox);
         }
@@ -170,6 +169,7 @@ impl Pacer {
 #[cfg(test)]
 mod tests {
     use std::collections::VecDeque;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     use super::*;
     use crate::console::Tone;
@@ -200,7 +200,7 @@ mod tests {
                 "end" => self.end = self.ticks + 1,
                 "quit" => return Some(Control::Quit),
                 "faster" => return Some(Control::Speed(100.0)),
-                _ => self.said.push(Line { t_s: self.ticks as f64, tone: Tone::Refused, text: line.to_owned() }),
+                _ => self.said.push(Line { t_s: None, tone: Tone::Refused, text: line.to_owned() }),
             }
             None
         }
@@ -251,7 +251,8 @@ mod tests {
         let station = std::net::UdpSocket::bind(local).expect("a free port");
         station.send_to(sent, link.local_address().expect("bound")).expect("sent");
         let start = Instant::now();
-        serve(&mut vehicle, &mut link, &mut Script::default(), Pacing { speed }, &stop).expect("flies");
+        serve(&mut vehicle, &mut link, &mut Script::default(), Pacing { speed }, || stop.load(Ordering::Relaxed))
+            .expect("flies");
         (start.elapsed(), vehicle.ticks, vehicle.received, vehicle.largest)
     }
 
@@ -275,7 +276,9 @@ mod tests {
         let stop = AtomicBool::new(false);
         let mut vehicle = counter(u64::MAX, &stop);
         let mut script = Script::typing(&["", "nonsense", "faster", "end"]);
-        let flown = serve(&mut vehicle, &mut unheard(), &mut script, Pacing { speed: 10.0 }, &stop).expect("it ends");
+        let flown =
+            serve(&mut vehicle, &mut unheard(), &mut script, Pacing { speed: 10.0 }, || stop.load(Ordering::Relaxed))
+                .expect("it ends");
         assert_eq!(flown.simulated_s, vehicle.ticks as f64 * TICK_S_EXACT);
         let printed: Vec<&str> = script.printed.iter().map(|line| line.text.as_str()).collect();
         assert_eq!(printed, ["", "nonsense"]);
@@ -286,7 +289,8 @@ mod tests {
         let stop = AtomicBool::new(false);
         let mut vehicle = counter(u64::MAX, &stop);
         let mut script = Script::typing(&["nonsense", "quit", "more"]);
-        serve(&mut vehicle, &mut unheard(), &mut script, Pacing { speed: 1.0 }, &stop).expect("it ends");
+        serve(&mut vehicle, &mut unheard(), &mut script, Pacing { speed: 1.0 }, || stop.load(Ordering::Relaxed))
+            .expect("it ends");
         assert_eq!((script.typed.len(), script.printed.len()), (1, 1));
     }
 
@@ -309,7 +313,9 @@ mod tests {
         let stop = AtomicBool::new(true);
         for speed in [0.0, -1.0, 1e4, f64::NAN, f64::INFINITY] {
             let mut script = Script::default();
-            let flown = serve(&mut counter(1, &stop), &mut unheard(), &mut script, Pacing { speed }, &stop);
+            let flown = serve(&mut counter(1, &stop), &mut unheard(), &mut script, Pacing { speed }, || {
+                stop.load(Ordering::Relaxed)
+            });
             let refusal = flown.expect_err("refused").to_string();
             assert!(refusal.contains("between 0.01 and 1000"), "{refusal}");
         }

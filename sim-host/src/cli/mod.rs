@@ -9,7 +9,6 @@ mod assess;
 mod bench;
 mod compare;
 mod demo;
-mod interrupt;
 mod pil;
 mod plan;
 mod run;
@@ -26,6 +25,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 use clap::{Args, Parser, Subcommand};
 
+use crate::interrupt::{self, Interrupted};
 use crate::scenario::Scenario;
 use crate::seeds::Seeds;
 use crate::tune::Method;
@@ -300,7 +300,8 @@ pub fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) if error.is::<interrupt::Interrupted>() => ExitCode::from(interrupt::EXIT_CODE),
+        // What was flown has been reported.
+        Err(error) if error.is::<Interrupted>() => ExitCode::from(interrupt::EXIT_CODE),
         Err(error) => {
             eprintln!("sim-host: {}", one_line(&error));
             ExitCode::from(if pil::is_finding(&error) || error.is::<assess::Unmet>() { 1 } else { 2 })

@@ -1,14 +1,14 @@
 //! `serve`: flies in real time, with a console and for ground stations.
 
 use std::net::SocketAddr;
-use std::sync::atomic::Ordering;
 
 use anyhow::{Result, ensure};
 
-use super::{ServeArgs, interrupt};
+use super::ServeArgs;
 use crate::console::Session;
 use crate::console::terminal::Stdio;
 use crate::flight;
+use crate::interrupt::{self, Interrupted};
 use crate::link::UdpLink;
 use crate::scenario::Scenario;
 use crate::serve::{Flown, Pacing, SPEEDS, serve};
@@ -22,12 +22,12 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let mut session = Session::new(flight);
     let mut link = UdpLink::bind(args.listen, &args.peers)?;
     eprint!("{}", greeting(&scenario, link.local_address()?, &args.peers));
-    let stop = interrupt::watch()?;
+    interrupt::listen()?;
     let mut terminal = Stdio::new();
-    let flown = serve(&mut session, &mut link, &mut terminal, Pacing { speed: args.speed }, stop)?;
+    let flown = serve(&mut session, &mut link, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
     drop(terminal);
     eprintln!("{}", farewell(&flown));
-    if stop.load(Ordering::Relaxed) { Err(interrupt::Interrupted.into()) } else { Ok(()) }
+    if interrupt::requested() { Err(Interrupted.into()) } else { Ok(()) }
 }
 
 /// What flies, and how to talk to it.

@@ -15,11 +15,11 @@ pub enum Tone {
     Alarm,
 }
 
-/// A line, stamped with simulated time.
+/// A line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// s.
-    pub t_s: f64,
+    /// Simulated time, s; none for a line of a list.
+    pub t_s: Option<f64>,
     /// What it is about.
     pub tone: Tone,
     /// One line of text, without its end.
@@ -28,6 +28,9 @@ pub struct Line {
 
 impl fmt::Display for Line {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "[{:8.2} s] {}", self.t_s, self.text)
+        match self.t_s {
+            Some(t_s) => write!(f, "[{t_s:8.2} s] {}", self.text),
+            None => write!(f, "  {}", self.text),
+        }
     }
 }

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 
 use super::events::{self, Watch};
 use super::line::{Line, Tone};
-use super::parse::{self, COMMANDS, Command, Entry};
+use super::parse::{self, COMMANDS, Command};
 use crate::failures;
 use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
@@ -78,7 +78,11 @@ impl Session {
     }
 
     fn say(&mut self, tone: Tone, text: String) {
-        self.said.push(Line { t_s: self.time_s(), tone, text });
+        self.said.push(Line { t_s: Some(self.time_s()), tone, text });
+    }
+
+    fn list(&mut self, text: String) {
+        self.said.push(Line { t_s: None, tone: Tone::Plain, text });
     }
 
     /// One tick of everything. `received` has come from ground stations since the last tick; what is returned goes to
@@ -110,7 +114,7 @@ impl Session {
 
     /// What the commander has decided, and what has changed.
     fn look(&mut self) {
-        let t_s = self.time_s();
+        let t_s = Some(self.time_s());
         for reply in self.flight.autopilot.inner.commander_output().replies.clone() {
             self.hear(&reply);
         }
@@ -221,7 +225,7 @@ impl Session {
     fn list_commands(&mut self) {
         let width = COMMANDS.iter().map(|entry| entry.usage().len()).max().unwrap_or(0);
         for entry in COMMANDS {
-            self.say(Tone::Plain, format!("{:width$}  {}", entry.usage(), Entry::summary(entry)));
+            self.list(format!("{:width$}  {}", entry.usage(), entry.summary()));
         }
     }
 
@@ -266,7 +270,7 @@ impl Session {
         if lines.is_empty() {
             self.say(Tone::Plain, "no faults".to_owned());
         }
-        lines.into_iter().for_each(|line| self.say(Tone::Plain, line));
+        lines.into_iter().for_each(|line| self.list(line));
     }
 
     /// The faults that act, and those to come.
