@@ -267,6 +267,22 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         Ok(())
     }
 
+    /// The steady part of the wind, in the world, m/s.
+    pub fn steady_wind(&self) -> Vector3<f64> {
+        self.weather.as_ref().map_or_else(Vector3::zeros, |weather| weather.steady_wind())
+    }
+
+    /// Sets the steady part of the wind from now on (m/s, in the world). Changes no random number of the flight.
+    ///
+    /// # Errors
+    /// A plant on which no wind acts.
+    pub fn set_steady_wind(&mut self, mean: Vector3<f64>) -> Result<()> {
+        let drag = self.plant.drag().filter(|drag| drag.iter().any(|k| *k > 0.0));
+        let drag = drag.context("no wind acts on this vehicle: its airframe has no drag")?;
+        self.weather.get_or_insert_with(|| Box::new(Weather::calm(drag))).set_steady_wind(mean);
+        Ok(())
+    }
+
     fn suite(&mut self) -> Result<&mut Suite> {
         self.sensors.as_deref_mut().context("nothing fails on ideal state: fly a scenario with `sensors`")
     }

@@ -268,7 +268,7 @@ struct ServeArgs {
     /// Address to send to: `HOST:PORT`, or `HOST` for port 14550. Repeatable.
     #[arg(long = "peer", value_name = "ADDRESS", default_values = link::DEFAULT_PEERS, value_parser = peer_address)]
     peers: Vec<SocketAddr>,
-    /// Simulated seconds a second.
+    /// Simulated seconds per second, 0.01 to 1000.
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     speed: f64,
     /// Seed of the random numbers.

@@ -7,6 +7,7 @@ mod common;
 
 mod analyse;
 mod cli;
+mod console;
 mod control_laws;
 mod day;
 mod determinism;
