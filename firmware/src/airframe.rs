@@ -1,14 +1,28 @@
 //! The vehicle's physical constants and its rotor geometry.
 //!
-//! Owns: Table 2's quantities (b, d, m, I, Jr, k1..k6), ωmax, and the matrix from squared rotor speeds to
-//! U = (U1, U2, U3, U4), Eq. 4. The values of a particular airframe come from its file on the desktop.
+//! Owns the quantities of Table 2 (b, d, m, I, Jr, k1..k6), ωmax, and the matrix B from squared rotor speeds to U =
+//! (U1, U2, U3, U4), Eq. 4. The values of a particular airframe come from its file on the desktop.
+//!
+//! ```
+//! use firmware::airframe::{Airframe, ROTORS};
+//!
+//! // The paper's quadrotor, with twice as much thrust as weight.
+//! let airframe = Airframe::paper(2.0);
+//! assert!((airframe.thrust_max_n() - 2.0 * airframe.weight_n()).abs() < 1e-3);
+//!
+//! // At hover speed the rotors' torques cancel, and rotors 2 and 4 turning faster yaw to the right.
+//! let hover = airframe.omega_for_thrust_to_weight(1.0);
+//! assert!(airframe.geometry.torque(&[hover; ROTORS]).norm() < 1e-6);
+//! let [slow, fast] = [0.9 * hover, 1.1 * hover];
+//! assert!(airframe.geometry.torque(&[slow, fast, slow, fast]).z < 0.0);
+//! ```
 
 use nalgebra::Vector3;
 
 use crate::math;
 use crate::validate::ConfigError;
 
-/// Rotors of the vehicles this build flies. The mixer itself takes four to eight.
+/// Number of rotors in this build. The mixer itself supports four to eight.
 pub const ROTORS: usize = 4;
 
 /// Physical constants of an airframe. Frames are NWU/FLU.
@@ -29,11 +43,11 @@ pub struct Airframe {
     pub gravity_m_s2: f32,
     /// Greatest rotor speed ωmax, rad/s.
     pub omega_max_rad_s: f32,
-    /// Time constant of a rotor's speed, s; 0 for a rotor that follows at once.
+    /// Time constant of a rotor's speed, s; 0 for a rotor without lag.
     pub rotor_lag_s: f32,
-    /// Whether spinning a rotor up turns the body the other way, −Jr Ω̇r.
+    /// Whether the reaction torque of spinning up, −Jr Ω̇r, is modelled.
     pub spin_up_reaction: bool,
-    /// What each rotor contributes to U1..U4 for each unit of ω² (see [`RotorGeometry`]).
+    /// Contribution of each rotor to U1..U4 per unit of ω² (see [`RotorGeometry`]).
     pub geometry: RotorGeometry,
 }
 
@@ -41,19 +55,19 @@ pub struct Airframe {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct RotorGeometry {
-    /// Thrust a rotor, U1.
+    /// Thrust per rotor, U1.
     pub thrust: [f32; ROTORS],
-    /// Roll torque a rotor, U2.
+    /// Roll torque per rotor, U2.
     pub roll: [f32; ROTORS],
-    /// Pitch torque a rotor, U3.
+    /// Pitch torque per rotor, U3.
     pub pitch: [f32; ROTORS],
-    /// Yaw torque a rotor, U4.
+    /// Yaw torque per rotor, U4.
     pub yaw: [f32; ROTORS],
 }
 
 impl RotorGeometry {
-    /// The paper's plus layout (Eq. 4) from lift `b` (N s²), drag `d` (N m s²) and arm `l` (m):
-    /// rotor 1 front, 2 right, 3 rear, 4 left; 1 and 3 push towards +ψ.
+    /// The paper's plus layout (Eq. 4) from lift `b` (N s²), drag `d` (N m s²) and arm `l` (m): rotor 1 front, 2 right,
+    /// 3 rear, 4 left; 1 and 3 yaw the body towards +ψ.
     pub const fn plus(b: f32, d: f32, l: f32) -> Self {
         Self {
             thrust: [b, b, b, b],
@@ -76,13 +90,13 @@ impl RotorGeometry {
     }
 }
 
-/// The sum of one number a rotor times another.
+/// Dot product over the rotors.
 #[inline]
 fn product(one: &[f32; ROTORS], other: &[f32; ROTORS]) -> f32 {
     one.iter().zip(other).map(|(a, b)| a * b).reduce(|a, b| a + b).unwrap_or(0.0)
 }
 
-/// Ωr (rad/s) of rotors that spin in these senses at these speeds.
+/// Ωr (rad/s) of rotors with these senses of rotation and speeds.
 #[inline]
 pub fn spin_rad_s(senses: &[f32; ROTORS], omega_rad_s: &[f32; ROTORS]) -> f32 {
     product(senses, omega_rad_s)
@@ -118,9 +132,8 @@ impl Airframe {
         math::sqrt(ratio * self.weight_n() / lift)
     }
 
-    /// How far the reaction to spinning the rotors up is ahead of the yaw torque for which they are spun up, s: around
-    /// hover, the two together are U4 + T U̇4 with T = Jr/(2 d ω). 0 where there is no such reaction: rotors that
-    /// follow at once are taken to have none.
+    /// Lead time T of the spin-up reaction over the yaw torque, s: around hover the total torque is U4 + T U̇4 with T =
+    /// Jr/(2 d ω). 0 without the reaction, and for rotors without lag.
     pub fn spin_up_lead_s(&self) -> f32 {
         let yaw: f32 = self.geometry.yaw.iter().map(|d| math::abs(*d)).sum::<f32>() / ROTORS as f32;
         let per_speed = 2.0 * yaw * self.omega_for_thrust_to_weight(1.0);
@@ -128,7 +141,7 @@ impl Airframe {
         if reacts && per_speed > 0.0 { self.rotor_inertia_kg_m2 / per_speed } else { 0.0 }
     }
 
-    /// Distance of the farthest rotor from the roll axis or the pitch axis, m.
+    /// Greatest distance of a rotor from the roll axis or the pitch axis, m.
     pub fn arm_m(&self) -> f32 {
         let g = &self.geometry;
         let arms = |row: &[f32; ROTORS]| {
@@ -149,15 +162,15 @@ impl Airframe {
         spin_rad_s(&self.rotor_senses(), omega_rad_s)
     }
 
-    /// The sense, ±1, in which each rotor spins about +z: one that pushes the body towards +ψ spins the other way.
+    /// Sense of rotation of each rotor about +z, ±1: a rotor that yaws the body towards +ψ spins the other way.
     pub fn rotor_senses(&self) -> [f32; ROTORS] {
         self.geometry.yaw.map(|yaw| if yaw > 0.0 { -1.0 } else { 1.0 })
     }
 
-    /// Refuses values no vehicle can have.
+    /// Checks that the values are physically possible.
     ///
     /// # Errors
-    /// The first field that is not finite, not positive, or negative where only ≥ 0 makes sense.
+    /// The first field that is not finite, not positive, or negative where it must be ≥ 0.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let [ix, iy, iz] = self.inertia_kg_m2;
         for (name, value) in [

@@ -1,10 +1,9 @@
-//! The partitions put together: what runs when, and what they tell each other.
+//! The partitions put together: scheduling and data flow between them.
 //!
-//! [`InnerTask`] is what the tick's interrupt runs. The partitions below it each `take` their snapshot from their
-//! mailbox, `step`, and `finish` with their output: on a board in RTIC tasks of their own priority, on the desktop
-//! one after the other in [`Autopilot::tick`]. At each tick, in this order (see `schedule`): due outputs are
-//! published, partitions are released with a snapshot of their inputs, the inner loop runs, then the released
-//! partitions.
+//! [`InnerTask`] is run by the tick's interrupt. Each partition below it `take`s its snapshot from its mailbox,
+//! `step`s, and `finish`es with its output: on a board in an RTIC task of its own priority, on the desktop one after
+//! the other in [`Autopilot::tick`]. Each tick, in this order (see `schedule`): due outputs are published, partitions
+//! are released with a snapshot of their inputs, the inner loop runs, then the released partitions.
 
 use crate::commander::{
     Command, Commander, CommanderInput, CommanderOutput, Commands, Events, Origin, Replies, Request,
@@ -24,7 +23,7 @@ use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
 use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
 use crate::validate::ConfigError;
 
-/// All that the partitions share.
+/// The mailboxes between the partitions: all the data that they share.
 #[derive(Clone, Debug)]
 pub struct Mailboxes {
     /// Inner ⇄ outer.
@@ -38,12 +37,12 @@ pub struct Mailboxes {
 }
 
 impl Mailboxes {
-    /// All empty.
+    /// Empty mailboxes.
     pub const fn new() -> Self {
         Self { outer: Mailbox::new(), filter: Mailbox::new(), commander: Mailbox::new(), ground: Mailbox::new() }
     }
 
-    /// Overruns since boot of outer with the filter, commander and ground.
+    /// Overruns since boot of the outer partition (with the filter), the commander and the ground partition.
     pub fn overruns(&self) -> [u32; 3] {
         let outer = self.outer.overruns().saturating_add(self.filter.overruns());
         [outer, self.commander.overruns(), self.ground.overruns()]
@@ -56,7 +55,7 @@ impl Default for Mailboxes {
     }
 }
 
-/// Which partitions a tick has released.
+/// The partitions that a tick has released.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "a set of partitions, each of them in it or not")]
 pub struct Released {
@@ -64,7 +63,7 @@ pub struct Released {
     pub filter: bool,
     /// Guidance and position control.
     pub outer: bool,
-    /// Arming, modes, failures.
+    /// Arming, modes, failsafes.
     pub commander: bool,
     /// MAVLink.
     pub ground: bool,
@@ -77,36 +76,37 @@ pub struct InnerTask<A = SlidingAttitude> {
     inner: Inner<A>,
     outer: OuterOutput,
     filter: FilterOutput,
-    /// When that came into effect.
+    /// When that output took effect.
     filtered_at: Option<Tick>,
-    /// What has become of each kind of reading, for telemetry.
+    /// Record of each kind of measurement, for telemetry.
     fusion: Fusion,
     commander: CommanderOutput,
     /// Commands for the commander's next job, and its replies for the ground's.
     commands: Commands,
     replies: Replies,
-    /// What the pilot is to be told by the ground's next job.
+    /// Failsafe events for the ground's next job.
     events: Events,
     received: RxBytes,
     transmit: TxBytes,
     dropped_bytes: u32,
     timing: Option<LoopTiming>,
-    /// What the board can make fail on request, and what it is to make fail now.
+    /// Failures that the board can inject, and those it is to inject now.
     injectable: Injectable,
     failures: Failures,
-    /// Set by a forced disarm the moment it is published; the rotors stay stopped until the commander has
-    /// disarmed, and is cleared then.
+    /// Kill latch: set by a forced disarm as soon as that is published. Keeps the rotors stopped until the commander
+    /// has disarmed, and is cleared then.
     kill: bool,
 }
 
 impl<A: AttitudeLaw> InnerTask<A> {
-    /// The outer loop has run once for the first tick, hovering at the start, as if it had always been there.
+    /// Ready for the first tick. The outer loop is run once before, at hover, so that its output is in effect from tick
+    /// 0.
     fn new(config: &FlightConfig, inner: Inner<A>, outer: &mut Outer<impl PositionLaw>, commander: &Commander) -> Self {
         let commander = commander.initial_output();
         let before =
             OuterInput { nav: *inner.nav(), thrust_n: config.airframe.weight_n(), directive: commander.directive };
         let first = outer.step(0_u32.wrapping_sub(OUTER.offset), &before);
-        // That job was none: nothing is to remain of it in the law.
+        // That job was a dry run: it must leave no state in the law.
         outer.reset();
         Self {
             tick: 0,
@@ -129,7 +129,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         }
     }
 
-    /// One tick: publish, release, control. Must be called once a tick, with `None` for a missing sample.
+    /// One tick: publish, release, control. Must be called once per tick, with `None` for a missing sample.
     #[inline]
     pub fn tick(&mut self, mail: &mut Mailboxes, sample: Option<&SensorFrame>) -> Released {
         let tick = self.tick;
@@ -165,11 +165,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
         if let Some(output) = mail.commander.publish(tick) {
             self.kill &= output.armed;
             for reply in &output.replies {
-                // What does not fit is lost; the sender asks again.
+                // With a full queue the reply is lost; the sender repeats its request.
                 let _ = self.replies.push(*reply);
             }
             if let Some(event) = output.event {
-                // Failures come one a job at most, and are told twice as often.
+                // Never full: a commander job reports one event at most, and the ground partition runs twice as often.
                 let _ = self.events.push(event);
             }
             self.commander = output;
@@ -253,19 +253,19 @@ impl<A: AttitudeLaw> InnerTask<A> {
         }
     }
 
-    /// What the estimator says of itself; none on ideal state.
+    /// The estimator's report; `None` on ideal state.
     pub fn estimator_status(&self) -> Option<Status> {
         let battery = self.inner.navigator()?.battery_with_age();
         Some(self.fusion.status(self.tick, &self.filter, self.nav_health(), battery))
     }
 
-    /// Says what this board can make fail on request. It then has to [take](Self::take_failures) what was accepted after
-    /// each tick, and do it.
+    /// Declares the failures that this board can inject. The board must then [take](Self::take_failures) the accepted
+    /// ones after each tick, and inject them.
     pub fn allow_failures(&mut self, injectable: Injectable) {
         self.injectable = injectable;
     }
 
-    /// Failures that the ground station has been told are done: to be done now.
+    /// Accepted failure injections, already acknowledged to the ground station: inject them now.
     pub fn take_failures(&mut self) -> Failures {
         core::mem::take(&mut self.failures)
     }
@@ -284,7 +284,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
         self.commands.push(command).map_err(|command| command.request)
     }
 
-    /// Bytes from the ground station, for the ground partition's next job. What does not fit is counted.
+    /// Bytes from the ground station, for the ground partition's next job. Bytes that do not fit are dropped and
+    /// counted.
     pub fn receive(&mut self, bytes: &[u8]) {
         for byte in bytes {
             if self.received.push(*byte).is_err() {
@@ -293,29 +294,29 @@ impl<A: AttitudeLaw> InnerTask<A> {
         }
     }
 
-    /// Bytes for the ground station that have come into effect since the last call.
+    /// Bytes for the ground station that were published since the last call.
     pub fn take_transmit(&mut self) -> TxBytes {
         core::mem::take(&mut self.transmit)
     }
 
-    /// True if [`take_transmit`](Self::take_transmit) has something to give.
+    /// True if [`take_transmit`](Self::take_transmit) would return bytes.
     #[inline]
     pub fn has_transmit(&self) -> bool {
         !self.transmit.is_empty()
     }
 
-    /// What a board has measured of its loops, for telemetry.
+    /// Loop rates measured by the board, for telemetry.
     pub fn report_timing(&mut self, timing: LoopTiming) {
         self.timing = Some(timing);
     }
 
-    /// The motion that the inner loop controlled in the last tick: as sensed, or as estimated.
+    /// The motion that the inner loop used in the last tick: as sensed, or as estimated.
     #[inline]
     pub fn nav(&self) -> &NavState {
         self.inner.nav()
     }
 
-    /// What the inner loop did in the last tick.
+    /// The inner loop's output of the last tick.
     #[inline]
     pub fn inner_output(&self) -> &InnerOutput {
         self.inner.output()
@@ -327,22 +328,22 @@ impl<A: AttitudeLaw> InnerTask<A> {
         &self.outer
     }
 
-    /// Navigation on sensors; none on ideal state.
+    /// Navigation on sensors; `None` on ideal state.
     pub fn navigator(&self) -> Option<&Navigator> {
         self.inner.navigator()
     }
 
-    /// When the filter's output came into effect.
+    /// When the filter's last output took effect.
     pub fn filtered_at(&self) -> Option<Tick> {
         self.filtered_at
     }
 
-    /// What the filter has found last.
+    /// The filter's last output.
     pub fn filter_output(&self) -> &FilterOutput {
         &self.filter
     }
 
-    /// What of the motion may be trusted.
+    /// Which components of the motion may be trusted.
     pub fn nav_health(&self) -> NavHealth {
         match (self.inner.is_nav_fresh(), self.inner.navigator()) {
             (false, _) => NavHealth::NONE,
@@ -362,8 +363,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
     }
 }
 
-/// Everything that flies, for one configuration: the top of the schedule, the partitions below it, and the
-/// mailboxes between them. A board takes it apart and gives each part to its task.
+/// Everything that flies, for one configuration: the inner task, the partitions below it, and the mailboxes between
+/// them. A board takes it apart and gives each field to its task; the desktop calls [`tick`](Autopilot::tick).
 #[derive(Clone, Debug)]
 pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
     /// Runs every tick.
@@ -372,11 +373,11 @@ pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
     pub filter: Filter,
     /// Guidance and position control.
     pub outer: Outer<P>,
-    /// Arming, modes, failures.
+    /// Arming, modes, failsafes.
     pub commander: Commander,
     /// MAVLink.
     pub ground: Ground,
-    /// Between them.
+    /// The mailboxes between them.
     pub mail: Mailboxes,
 }
 
@@ -384,7 +385,7 @@ impl Autopilot {
     /// Ready for the first tick, with the sliding mode laws.
     ///
     /// # Errors
-    /// The first field of the configuration that is out of its range.
+    /// The first field of the configuration that is out of range.
     pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
         config.validate()?;
         let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
@@ -394,10 +395,10 @@ impl Autopilot {
 }
 
 impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
-    /// Ready for the first tick, with other laws; what the configuration says of the sliding mode laws is not used.
+    /// Ready for the first tick, with other control laws; the configuration's sliding mode gains are not used.
     ///
     /// # Errors
-    /// The first field of the configuration that is out of its range.
+    /// The first field of the configuration that is out of range.
     pub fn with_laws(config: &FlightConfig, attitude: A, position: P) -> Result<Self, ConfigError> {
         config.validate()?;
         let commander = Commander::new(config);
@@ -413,7 +414,7 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
         })
     }
 
-    /// One tick of everything, in the order of the schedule: the desktop's executor.
+    /// One tick of all partitions, in the order of the schedule: the desktop's executor.
     #[inline]
     pub fn tick(&mut self, sample: Option<&SensorFrame>) -> &InnerOutput {
         let released = self.inner.tick(&mut self.mail, sample);
@@ -441,7 +442,7 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
     }
 }
 
-/// The filter of a configuration; one that will not be asked, for a flight on ideal state.
+/// The filter of a configuration; unused on ideal state.
 fn filter(config: &FlightConfig) -> Filter {
     let airframe = &config.airframe;
     let [k, _, _] = airframe.drag_n_s_m;

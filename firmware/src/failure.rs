@@ -1,11 +1,12 @@
-//! Failures that a ground station asks for, to see what the vehicle makes of them (`MAV_CMD_INJECT_FAILURE`).
+//! Failure injection by a ground station (`MAV_CMD_INJECT_FAILURE`).
 //!
-//! The firmware itself has nothing to make fail. A board that has says so with
-//! [`InnerTask::allow_failures`](crate::autopilot::InnerTask::allow_failures); the ground partition accepts these failures
-//! and refuses all others, and what it has accepted the board takes each tick
-//! ([`take_failures`](crate::autopilot::InnerTask::take_failures)) and must do: the sender has been told that it is done.
+//! The firmware itself injects nothing. A board or simulator that can declares its failures with
+//! [`InnerTask::allow_failures`](crate::autopilot::InnerTask::allow_failures). The ground partition accepts these and
+//! refuses all others. The board takes the accepted ones each tick with
+//! [`take_failures`](crate::autopilot::InnerTask::take_failures) and must inject them: they have already been
+//! acknowledged.
 
-/// What is to fail.
+/// Unit that fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// Gyroscope.
@@ -25,64 +26,64 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// All of them.
+    /// All units.
     pub const ALL: [Self; 7] = [Self::Gyro, Self::Accel, Self::Mag, Self::Baro, Self::Gnss, Self::Battery, Self::Motor];
 }
 
-/// How it is to fail.
+/// Manner of a failure, in the order of MAVLink's `FAILURE_TYPE`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Manner {
-    /// Not at all: what has failed on request is well again.
+    /// No failure: ends an injected one.
     Well,
-    /// It stops.
+    /// Off: no output.
     Off,
-    /// It stays at what it was.
+    /// The output is stuck at its last value.
     Stuck,
-    /// What comes is random.
+    /// The output is noise.
     Garbage,
-    /// What comes is wrong.
+    /// The output is wrong.
     Wrong,
-    /// It works, but slowly.
+    /// Works, but slowly.
     Slow,
-    /// What comes, comes late.
+    /// The output is delayed.
     Delayed,
-    /// Some of what should come does not.
+    /// Some of the output is missing.
     Intermittent,
 }
 
 impl Manner {
-    /// All of them.
+    /// All manners.
     pub const ALL: [Self; 8] =
         [Self::Well, Self::Off, Self::Stuck, Self::Garbage, Self::Wrong, Self::Slow, Self::Delayed, Self::Intermittent];
 }
 
-/// A failure that was accepted.
+/// An accepted failure injection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Failure {
-    /// What.
+    /// The unit that fails.
     pub unit: Unit,
-    /// How.
+    /// The manner in which it fails.
     pub manner: Manner,
-    /// Which of several, from 0; `None` for all of them.
+    /// Instance of the unit, from 0; `None` for all instances.
     pub instance: Option<u8>,
 }
 
 /// Failures between two ticks.
 pub type Failures = heapless::Vec<Failure, 4>;
 
-/// The failures that a board can inject: for each unit the manners, and how many there are of it.
+/// The failures that a board can inject: manners and number of instances per unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Injectable {
-    /// By unit, a bit a manner.
+    /// One bit per manner, for each unit.
     manners: [u8; Unit::ALL.len()],
     count: [u8; Unit::ALL.len()],
 }
 
 impl Injectable {
-    /// Nothing: a board that cannot.
+    /// None.
     pub const NONE: Self = Self { manners: [0; Unit::ALL.len()], count: [0; Unit::ALL.len()] };
 
-    /// The same, and so many units of a kind in these manners. Whatever can fail can be made well.
+    /// Adds `count` instances of a unit with these manners. [`Manner::Well`] is always included.
     #[must_use]
     pub fn with(mut self, unit: Unit, count: u8, manners: &[Manner]) -> Self {
         let bits = manners.iter().fold(1 << Manner::Well as u8, |bits, manner| bits | 1 << *manner as u8);
@@ -92,7 +93,7 @@ impl Injectable {
         self
     }
 
-    /// Whether there is nothing that the board can make fail.
+    /// Whether the board can inject no failure.
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
@@ -102,7 +103,7 @@ impl Injectable {
         self.manners.get(unit as usize).is_some_and(|bits| bits & 1 << manner as u8 != 0)
     }
 
-    /// How many there are of a unit.
+    /// Number of instances of a unit.
     pub fn count(&self, unit: Unit) -> u8 {
         self.count.get(unit as usize).copied().unwrap_or(0)
     }
@@ -113,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_board_allows_what_it_has_said_and_nothing_else() {
+    fn only_declared_failures_are_allowed() {
         let injectable = Injectable::NONE.with(Unit::Gnss, 1, &[Manner::Off]).with(Unit::Motor, 4, &[Manner::Slow]);
         assert!(!injectable.is_none() && Injectable::default().is_none());
         for unit in Unit::ALL {

@@ -1,7 +1,7 @@
-//! The only place that knows two frames: NWU/FLU inside, NED/FRD at the MAVLink edge, WGS-84 from satellites.
+//! Frame conversions: NWU/FLU inside, NED/FRD at the MAVLink interface, WGS-84 from GNSS.
 //!
-//! Both frames turn by 180° about x: `(x, y, z) → (x, −y, −z)`, `(φ, θ, ψ) → (φ, −θ, −ψ)`, for vectors, rates
-//! and attitudes alike. Each conversion is its own inverse.
+//! NWU to NED and FLU to FRD are rotations by 180° about x: `(x, y, z) → (x, −y, −z)`, `(φ, θ, ψ) → (φ, −θ, −ψ)`, for
+//! vectors, rates and attitudes alike. Each conversion is its own inverse.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -21,14 +21,14 @@ pub fn flip_attitude(attitude: &UnitQuaternion<f32>) -> UnitQuaternion<f32> {
     UnitQuaternion::new_unchecked(Quaternion::new(q.w, q.i, -q.j, -q.k))
 }
 
-/// The plane that touches the ellipsoid at a place: local north, west and up for places around it.
+/// Local tangent frame at a place on the ellipsoid: north, west, up.
 ///
-/// To second order of the distance d, so exact to d³/R²: 0.1 mm at 1 km, 0.2 m at 20 km, beside the 1 cm to which
-/// degrees are counted.
+/// To second order in the distance d, so with an error of d³/R²: 0.1 mm at 1 km, 0.2 m at 20 km. The resolution of the
+/// coordinates is 1 cm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalFrame {
     origin: Geodetic,
-    /// Metres for 1e-7° of latitude and of longitude.
+    /// Metres per 1e-7° of latitude and of longitude.
     north_m: f32,
     east_m: f32,
     /// tan φ/2R, 1/m: how far a parallel bends north.
@@ -38,12 +38,12 @@ pub struct LocalFrame {
 }
 
 impl LocalFrame {
-    /// About a place on WGS-84.
+    /// With its origin at a place on WGS-84.
     pub fn new(origin: Geodetic) -> Self {
         const SEMI_MAJOR_M: f32 = 6_378_137.0;
         const ECCENTRICITY_SQ: f32 = 6.694_38e-3;
         const UNIT_RAD: f32 = 1.745_329_3e-9;
-        // Near a pole there is no west; a frame that far north is as wrong as any.
+        // At a pole there is no west: bounded, so that nothing is divided by zero.
         let (sin, cos) = math::sin_cos(origin.latitude_e7 as f32 * UNIT_RAD);
         let cos = math::max(cos, 1e-3);
         let root = math::sqrt(1.0 - ECCENTRICITY_SQ * sin * sin);
@@ -59,12 +59,12 @@ impl LocalFrame {
         }
     }
 
-    /// Where a place is, m: north, west, up.
+    /// A place in this frame, m: north, west, up.
     pub fn to_local(&self, place: &Geodetic) -> Vector3<f32> {
-        // Integers' differences: an f32 holds no latitude to better than a metre.
+        // Differences of integers, because an f32 resolves a latitude to a metre only.
         let north = self.north_m * place.latitude_e7.wrapping_sub(self.origin.latitude_e7) as f32;
         let east = self.east_m * eastwards(self.origin.longitude_e7, place.longitude_e7) as f32;
-        // Meridians come together towards the pole.
+        // Meridians converge towards the pole.
         let east = east * (1.0 - 2.0 * self.bend * north);
         let up = place.height_mm.wrapping_sub(self.origin.height_mm) as f32 * 1e-3;
         Vector3::new(north + self.bend * east * east, -east, up - self.fall * (north * north + east * east))
@@ -82,7 +82,7 @@ fn eastwards(from: i32, to: i32) -> i32 {
     } else {
         difference
     };
-    // Within half a turn an i32 holds it.
+    // Half a turn fits into an i32.
     short as i32
 }
 
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn the_date_line_is_a_place_like_any_other() {
+    fn positions_are_continuous_across_the_date_line() {
         let frame = LocalFrame::new(Geodetic { latitude_e7: 0, longitude_e7: 1_799_999_000, height_mm: 0 });
         let beyond = frame.to_local(&Geodetic { latitude_e7: 0, longitude_e7: -1_799_999_000, height_mm: 0 });
         assert!((beyond.y + 22.264).abs() < 1e-2, "{beyond}");

@@ -1,7 +1,7 @@
 //! The inner partition, every tick: attitude control and mixer.
 //!
-//! Owns the last good motion and the last motor command. Plain data in, plain data out; what it is told to
-//! follow comes from the outer partition, whether it may turn the rotors from the commander.
+//! Owns the last valid motion and the last motor command. The attitude reference comes from the outer partition, the
+//! permission to turn the rotors from the commander.
 
 use nalgebra::Vector3;
 
@@ -22,19 +22,19 @@ use crate::validate::ConfigError;
 /// After this many ticks without a valid sample the motion is no longer trusted.
 pub const STALE_AFTER: u32 = 50;
 
-/// Torque in a descent, as a part of what turns all thrust to one side.
-const GENTLE_PART: f32 = 0.5;
+/// Greatest torque in a descent, as a fraction of thrust times arm (all thrust on one side).
+const GENTLE_FRACTION: f32 = 0.5;
 
-/// A reference is followed this many ticks beyond the one it holds for: an outer loop that has stopped answering must
-/// not have its last accelerations flown for ever.
+/// Greatest extrapolation of a reference, ticks: if the outer loop stops, its last accelerations must not be integrated
+/// for ever. Five periods of the outer loop.
 const EXTRAPOLATED_AT_MOST: Tick = 20;
 
-/// What the inner partition has done in a tick.
+/// Output of the inner partition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InnerOutput {
     /// Speeds for the rotors.
     pub motors: MotorCommand,
-    /// U1..U4 as demanded of the mixer.
+    /// U1..U4, the demand on the mixer.
     pub demand: ControlInput,
     /// Sliding variables s1, s2, s3, rad/s.
     pub s: Vector3<f32>,
@@ -60,16 +60,16 @@ pub struct Inner<A = SlidingAttitude> {
     mixer: Mixer<ROTORS>,
     rotors: RotorModel,
     believed: RotorTorque,
-    /// What they are believed to do.
+    /// Torque and spin at the estimated rotor speeds.
     effect: RotorEffect,
     yaw: YawInversion,
-    /// None on ideal state.
+    /// `None` on ideal state.
     navigator: Option<Navigator>,
     idle_rad_s: f32,
-    /// Torque for each unit of thrust that is asked for at most in a descent, m.
+    /// Greatest torque per unit of thrust in a descent, m.
     gentle_arm_m: f32,
     monitor: RotorMonitor,
-    /// Once a rotor has failed, in place of the law.
+    /// Replaces the law once a rotor has failed.
     motor_out: Option<MotorOut>,
     /// Whether the vehicle was armed in the tick before.
     was_armed: bool,
@@ -105,7 +105,7 @@ impl<A: AttitudeLaw> Inner<A> {
             yaw: config.yaw_inversion(),
             navigator: Navigator::new(config),
             idle_rad_s: config.modes.idle_part * omega_max,
-            gentle_arm_m: GENTLE_PART * airframe.arm_m(),
+            gentle_arm_m: GENTLE_FRACTION * airframe.arm_m(),
             monitor: RotorMonitor::new(&airframe),
             motor_out: None,
             was_armed: false,
@@ -116,8 +116,8 @@ impl<A: AttitudeLaw> Inner<A> {
         })
     }
 
-    /// Takes in this tick's sample. A missing one, or one that holds a number that is not finite, leaves the
-    /// motion as it was; on sensors, it goes on as it was.
+    /// Takes this tick's sample. If it is missing, or has a NaN or infinite field, the motion stays as it was; on
+    /// sensors the predictor extrapolates it.
     #[inline]
     pub fn sense(&mut self, sample: Option<&SensorFrame>) {
         match sample {
@@ -146,12 +146,13 @@ impl<A: AttitudeLaw> Inner<A> {
     /// A tick without a sample, or with one that was refused.
     fn miss(&mut self, refused: bool) {
         self.stale_ticks = self.stale_ticks.saturating_add(1);
-        // The law is about to see a motion that stands still: what integrates is to hold.
+        // The law is about to see a frozen motion: its integrators should hold.
         self.output.saturated = true;
         self.refused_samples = self.refused_samples.saturating_add(u32::from(refused));
     }
 
-    /// One tick of control towards `reference`, of the motion [sensed](Self::sense) last; rotors stopped unless `armed`.
+    /// One tick of control: tracks `reference` from the motion [sensed](Self::sense) last. Rotors stopped unless
+    /// `armed`.
     #[inline]
     pub fn step(&mut self, tick: Tick, reference: &AttitudeReference, armed: bool) -> &InnerOutput {
         if armed {
@@ -165,16 +166,16 @@ impl<A: AttitudeLaw> Inner<A> {
         &self.output
     }
 
-    /// One tick in place of [`step`](Self::step) of a descent that may meet the ground at any time: torque is asked for in
-    /// proportion to thrust. On its feet and with little thrust a vehicle does not follow its rotors, and a law that
-    /// answers with more of them would shake it until it falls over.
+    /// One tick of a descent that may touch down at any time, in place of [`step`](Self::step): the torque is limited
+    /// in proportion to the thrust. A vehicle that stands on its landing gear with little thrust does not follow its
+    /// rotors, and a law that responds with more torque would tip it over.
     pub fn step_gently(&mut self, tick: Tick, reference: &AttitudeReference) -> &InnerOutput {
         let age = tick.wrapping_sub(reference.valid_at).min(EXTRAPOLATED_AT_MOST);
         self.control::<true>(reference, age as f32 * TICK_S);
         &self.output
     }
 
-    /// One tick in place of [`step`](Self::step) with rotors that idle.
+    /// One tick with idling rotors, in place of [`step`](Self::step).
     pub fn idle(&mut self) -> &InnerOutput {
         self.law.reset();
         let motors = MotorCommand { omega_rad_s: [self.idle_rad_s; ROTORS] };
@@ -183,10 +184,10 @@ impl<A: AttitudeLaw> Inner<A> {
         &self.output
     }
 
-    /// One tick of control, `dt` seconds after the reference holds.
+    /// One tick of control, `dt` seconds after the tick for which the reference is valid.
     #[inline]
     fn control<const GENTLE: bool>(&mut self, reference: &AttitudeReference, dt: f32) {
-        // Each branch's numbers by themselves: one place in memory for both would be written and read every tick.
+        // Each branch returns its own values: sharing one variable would put it into memory every tick.
         let (s, torque) = if self.motor_out.is_none() {
             let wanted = self.law.step(&AttitudeInput {
                 attitude: &self.nav.attitude,
@@ -198,11 +199,11 @@ impl<A: AttitudeLaw> Inner<A> {
             });
             (wanted.s, wanted.torque)
         } else {
-            let wanted = self.wanted_without_rotor(reference, dt);
+            let wanted = self.demand_without_rotor(reference, dt);
             (wanted.s, wanted.torque)
         };
         let mut demand = ControlInput {
-            // Below zero it is for the mixer to limit.
+            // The mixer limits a thrust below zero.
             thrust_n: reference.thrust_n + reference.thrust_rate_n_s * dt,
             roll_n_m: torque.x,
             pitch_n_m: torque.y,
@@ -214,8 +215,8 @@ impl<A: AttitudeLaw> Inner<A> {
             demand.pitch_n_m = math::limit(demand.pitch_n_m, most);
         }
         let Ok(allocation) = self.mixer.allocate(&demand) else {
-            // A sample so wild that a product overflowed. The last command is safer than none; what the law has made
-            // of the sample is not to stay.
+            // A product overflowed on an extreme sample. The last command is safer than none, and the law is reset
+            // because its state may hold the overflow.
             self.law.reset();
             self.follow(&{ self.output.motors });
             self.output.saturated = true;
@@ -230,10 +231,10 @@ impl<A: AttitudeLaw> Inner<A> {
         self.effect = self.believed.after(&self.effect, self.rotors.omega_rad_s());
     }
 
-    /// By the law that flies once a rotor has failed; apart, so that what the sound vehicle's needs stays in registers.
+    /// The demand of the law for a failed rotor; a separate function, so that the usual path stays in registers.
     #[cold]
     #[inline(never)]
-    fn wanted_without_rotor(&mut self, reference: &AttitudeReference, dt: f32) -> AttitudeDemand {
+    fn demand_without_rotor(&mut self, reference: &AttitudeReference, dt: f32) -> AttitudeDemand {
         let Some(law) = &mut self.motor_out else { return AttitudeDemand::default() };
         law.demand(&AttitudeInput {
             attitude: &self.nav.attitude,
@@ -245,14 +246,14 @@ impl<A: AttitudeLaw> Inner<A> {
         })
     }
 
-    /// A tick of looking for a rotor that has failed. Of one that has, nothing is asked any more, and the vehicle is not
-    /// armed again unless that is forced; then all are taken to be sound.
+    /// One tick of rotor failure detection. A failed rotor is commanded to zero, and the vehicle cannot be armed again
+    /// unless that is forced; arming takes all rotors to work again.
     pub fn watch_rotors(&mut self, armed: bool, in_air: bool) {
         let Some(navigator) = &self.navigator else { return };
         if armed && !self.was_armed {
             self.monitor.reset(&self.nav.rates);
             if self.motor_out.take().is_some() {
-                // Parts of 1 are within their range.
+                // Limits of 1 are valid.
                 let _ = self.mixer.set_limits([1.0; ROTORS]);
             }
         }
@@ -264,7 +265,7 @@ impl<A: AttitudeLaw> Inner<A> {
             return;
         }
         if self.stale_ticks > 0 {
-            /// Longer gaps end what has been seen before them.
+            /// A gap of this many ticks restarts the comparison: a quarter of its time constant.
             const LONG: u32 = 5;
             if self.stale_ticks >= LONG {
                 self.monitor.miss(&self.nav.rates);
@@ -285,18 +286,18 @@ impl<A: AttitudeLaw> Inner<A> {
         self.monitor.failed()
     }
 
-    /// A tick passes with a command that no law has given.
+    /// Advances the rotor model by a tick with a command that comes from no law.
     fn follow(&mut self, command: &MotorCommand) {
         self.rotors.follow(&command.omega_rad_s);
         self.effect = self.believed.after(&self.effect, self.rotors.omega_rad_s());
     }
 
-    /// Navigation on sensors; none on ideal state.
+    /// Navigation on sensors; `None` on ideal state.
     pub fn navigator(&self) -> Option<&Navigator> {
         self.navigator.as_ref()
     }
 
-    /// The same, to hand on what the filter has found.
+    /// The same, mutable, to inject the filter's output.
     pub(crate) fn navigator_mut(&mut self) -> Option<&mut Navigator> {
         self.navigator.as_mut()
     }
@@ -306,23 +307,23 @@ impl<A: AttitudeLaw> Inner<A> {
         &self.nav
     }
 
-    /// What the last tick gave.
+    /// The output of the last tick.
     pub fn output(&self) -> &InnerOutput {
         &self.output
     }
 
-    /// Thrust that the rotors are believed to give, N.
+    /// Estimated thrust of the rotors, N.
     pub fn thrust_n(&self) -> f32 {
         let omega = self.rotors.omega_rad_s();
         omega.iter().zip(&self.airframe.geometry.thrust).map(|(omega, lift)| lift * omega * omega).sum()
     }
 
-    /// False once no valid sample has come for [`STALE_AFTER`] ticks.
+    /// False after [`STALE_AFTER`] ticks without a valid sample.
     pub fn is_nav_fresh(&self) -> bool {
         self.stale_ticks < STALE_AFTER
     }
 
-    /// Samples refused since boot because they held a number that is not finite.
+    /// Samples refused since boot: with a NaN or infinite field, implausible, stuck or out of order.
     pub fn refused_samples(&self) -> u32 {
         self.refused_samples
     }

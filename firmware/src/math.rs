@@ -1,17 +1,17 @@
-//! The firmware's only door to `f32` mathematics.
+//! All `f32` mathematics of the firmware.
 //!
-//! Owns: which implementation computes each function, with its error bound. Everything here is written out in
-//! `f32` or comes from `libm`, so desktop and Cortex-M4F give the same bits; `std`'s methods and the target's
-//! own `max`/`min` do not, and `clippy.toml` forbids them elsewhere in this crate.
+//! Owns the implementation of each function, with its error bound. Everything here is written out in `f32` or comes
+//! from `libm`, so desktop and Cortex-M4F give the same bits. `std`'s methods and the target's own `max`/`min` do not,
+//! and `clippy.toml` forbids them elsewhere in this crate.
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
-/// Square root, correctly rounded: by the core's own instruction, as `libm` would need 52 for it.
+/// Square root, correctly rounded, by the core's own instruction; `libm` would need 52 instructions.
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[inline]
 pub fn sqrt(x: f32) -> f32 {
-    /// The argument comes, and the result goes, in s0 (AAPCS, hard float). The assembler is told of the floating-point
-    /// unit, because it does not know the target's where it collects the symbols of a crate to be linked as a whole.
+    /// Argument and result are in s0 (AAPCS, hard float). The `.fpu` directive is needed because the assembler does not
+    /// know the target's floating-point unit while it collects the symbols of a crate for link-time optimisation.
     #[unsafe(naked)]
     extern "C" fn vsqrt(x: f32) -> f32 {
         core::arch::naked_asm!(".fpu fpv4-sp-d16", "vsqrt.f32 s0, s0", "bx lr")
@@ -19,13 +19,13 @@ pub fn sqrt(x: f32) -> f32 {
     vsqrt(x)
 }
 
-/// Square roots, correctly rounded: by one call, which the compiler cannot look into and saves its registers for.
+/// Square roots, correctly rounded, by one call: the compiler saves its registers for each call it cannot see into.
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[inline]
 pub fn sqrt_each([a, b, c, d]: [f32; 4]) -> [f32; 4] {
     #[repr(C)]
     struct Four(f32, f32, f32, f32);
-    /// Four floats alone in a structure come, and go, in s0 to s3 (AAPCS, hard float).
+    /// A structure of four floats is passed and returned in s0 to s3 (AAPCS, hard float).
     #[unsafe(naked)]
     extern "C" fn vsqrt(x: Four) -> Four {
         core::arch::naked_asm!(
@@ -73,7 +73,7 @@ pub fn clamp(x: f32, low: f32, high: f32) -> f32 {
     min(max(x, low), high)
 }
 
-/// `x` limited to ±`most`; `-most` where `x` is NaN. As [`clamp`], at the cost of one comparison where no limit acts.
+/// `x` limited to ±`most`; `-most` where `x` is NaN. Like [`clamp`], but with a single comparison while no limit acts.
 #[inline]
 pub fn limit(x: f32, most: f32) -> f32 {
     if abs(x) <= most {
@@ -85,8 +85,8 @@ pub fn limit(x: f32, most: f32) -> f32 {
     }
 }
 
-/// `x` limited to `0.0 ..= most`; 0 where `x` is NaN. Numbers from 0 up are ordered as their bits are, and those of a
-/// negative number or of none are greater: one comparison tells that neither limit acts.
+/// `x` limited to `0.0 ..= most`; 0 where `x` is NaN. The bit patterns of non-negative floats are ordered like the
+/// floats, and those of negative ones and of NaN are greater: a single comparison shows that neither limit acts.
 #[inline]
 pub fn limit_positive(x: f32, most: f32) -> f32 {
     if x.to_bits() <= most.to_bits() { x } else { clamp(x, 0.0, most) }
@@ -100,11 +100,11 @@ pub fn abs(x: f32) -> f32 {
 
 /// Sine and cosine of an angle (rad), by Cody–Waite reduction and the Cephes `sinf`/`cosf` polynomials.
 ///
-/// Absolute error below 1.0e-7 for |x| ≤ 2π and below 1e-4 up to 1e3; larger angles are to be wrapped before
-/// they come here (see [`Phase`]), and beyond 1e9 the result is not a number.
+/// Absolute error below 1.0e-7 for |x| ≤ 2π and below 1e-4 up to 1e3. Wrap larger angles first (see [`Phase`]); beyond
+/// 1e9 the result is NaN.
 #[inline]
 pub fn sin_cos(x: f32) -> (f32, f32) {
-    // π/2 in three parts, the first two with few enough bits that k·part is exact.
+    // π/2 as a sum of three terms, the first two with few enough bits that their product with k is exact.
     const PART_1: f32 = 1.570_312_5;
     const PART_2: f32 = 4.837_513e-4;
     const PART_3: f32 = 7.549_79e-8;
@@ -125,11 +125,11 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 
 /// Angle of the point (x, y) from the x axis, rad in −π..=π, by the Cephes `atanf` polynomial with one division.
 ///
-/// Absolute error below 4e-7; 0 for the origin, where no angle is defined. Half the cost of `libm`'s, which is
-/// exact to an ulp that nothing here needs.
+/// Absolute error below 4e-7; 0 at the origin, where the angle is undefined. Half the cost of `libm`'s, whose accuracy
+/// of an ulp is not needed here.
 #[inline]
 pub fn atan2(y: f32, x: f32) -> f32 {
-    /// tan(π/8): the polynomial is good up to here.
+    /// tan(π/8): the polynomial is accurate up to here.
     const TAN_PI_8: f32 = 0.414_213_57;
     let (ax, ay) = (abs(x), abs(y));
     let (small, large) = if ay > ax { (ax, ay) } else { (ay, ax) };
@@ -148,19 +148,19 @@ pub fn atan2(y: f32, x: f32) -> f32 {
     if y < 0.0 { -half } else { half }
 }
 
-/// e^x; `libm`'s.
+/// e^x, by `libm`.
 #[inline]
 pub fn exp(x: f32) -> f32 {
     libm::expf(x)
 }
 
-/// `x^exponent` for x > 0; `libm`'s: 219 instructions, for what is seldom asked.
+/// `x^exponent` for x > 0, by `libm`: 219 instructions, so not for the control loops.
 #[inline]
 pub fn powf(x: f32, exponent: f32) -> f32 {
     libm::powf(x, exponent)
 }
 
-/// Hyperbolic tangent; `libm`'s.
+/// Hyperbolic tangent, by `libm`.
 #[inline]
 pub fn tanh(x: f32) -> f32 {
     libm::tanhf(x)
@@ -168,14 +168,14 @@ pub fn tanh(x: f32) -> f32 {
 
 /// `x^exponent` for x ≥ 0 by micromath: relative error below 12 % for 1e-4 ≤ x ≤ 50 and 0 < exponent ≤ 1.
 ///
-/// Only for the shaping of reaching laws, where it scales a gain that has far more slack than that: a reaching
-/// law with a gain 12 % off has the same sliding surface and a reaching time 12 % off. Zero maps to zero.
+/// Only for reaching laws, where it scales a gain: with a gain 12 % off, the sliding surface is the same and the
+/// reaching time is 12 % off. Zero maps to zero.
 #[inline]
 pub fn shape_power(x: f32, exponent: f32) -> f32 {
     if x > 0.0 { micromath::F32(x).powf(micromath::F32(exponent)).0 } else { 0.0 }
 }
 
-/// An angle brought to −π..π, for |angle| up to a few turns.
+/// An angle wrapped to −π..π, for |angle| up to a few turns.
 #[inline]
 pub fn wrap_angle(angle: f32) -> f32 {
     if angle > PI {
@@ -187,7 +187,7 @@ pub fn wrap_angle(angle: f32) -> f32 {
     }
 }
 
-/// A turning angle counted in 2⁻⁶⁴ turns a tick, so that it is as exact after a day as after a second.
+/// A linearly increasing angle, counted in 2⁻⁶⁴ turns per tick, so that it is as exact after a day as after a second.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Phase {
     per_tick: u64,
@@ -211,7 +211,8 @@ impl Phase {
     }
 }
 
-/// True if every number is finite: 0·x is 0 for those alone, and one comparison at the end is cheaper than one each.
+/// True if every value is finite: 0·x is 0 for finite x only, and one comparison at the end is cheaper than one per
+/// value.
 #[inline]
 pub fn all_finite(values: &[f32]) -> bool {
     let mut probe = 0.0;

@@ -1,12 +1,12 @@
-//! Measures the loops' rates with a clock that is independent of the tick.
+//! Measures the rates of the control loops with a clock that is independent of the tick.
 
 use crate::mavlink::LoopTiming;
 
-/// Watches the inner loop's activations and the outer loop's jobs, a second at a time.
+/// Counts the inner loop's activations and the outer loop's jobs over windows of a second.
 #[derive(Clone, Debug)]
 pub struct LoopMeter {
     counts_per_us: u32,
-    /// Clock at the last activation, once there was one.
+    /// Clock at the last activation; `None` before the first.
     last: Option<u32>,
     window: Window,
 }
@@ -25,13 +25,13 @@ impl Window {
 }
 
 impl LoopMeter {
-    /// A meter for a clock of that speed.
+    /// A meter for a clock with this rate.
     pub const fn new(counts_per_us: u32) -> Self {
         Self { counts_per_us, last: None, window: Window::EMPTY }
     }
 
-    /// To be called at each activation of the inner loop, with the free-running clock and the number of outer jobs
-    /// that have finished since the last call. Gives the figures once a second.
+    /// Call at each activation of the inner loop, with the free-running clock and the number of outer jobs finished
+    /// since the last call. Returns the rates once per second.
     #[inline]
     pub fn activation(&mut self, now: u32, outer_jobs: u32) -> Option<LoopTiming> {
         let last = self.last.replace(now)?;

@@ -1,5 +1,5 @@
-//! What the inner partition makes of sensors: the predictor, the filter ahead of the controller, and the readings that
-//! wait for the filter's next job.
+//! Navigation in the inner partition: the estimator's predictor, the gyroscope filter ahead of the controller, and the
+//! readings that wait for the estimator's next filter job.
 
 use nalgebra::Vector3;
 
@@ -16,18 +16,18 @@ use crate::signals::NavState;
 pub struct Navigator {
     predictor: Predictor,
     gyro: GyroFilter,
-    /// Ω through the filter, with its bias, rad/s.
+    /// Filtered Ω including its bias, rad/s.
     filtered: Vector3<f32>,
     readings: Readings,
     battery: Option<BatterySample>,
-    /// Ticks since that was measured, as far as they can be counted.
+    /// Ticks since that sample, saturating.
     battery_age: u16,
-    /// Whether the last job's injection has been taken in.
+    /// Whether the last job's injection has been applied.
     injected: bool,
 }
 
 impl Navigator {
-    /// At rest where the flight begins; none for a flight on ideal state.
+    /// At rest at the start position; `None` for a flight on ideal state.
     pub fn new(config: &FlightConfig) -> Option<Self> {
         config.estimator.as_ref().map(|_: &EstimatorSettings| Self {
             predictor: Predictor::new(config.start_position(), config.airframe.gravity_m_s2),
@@ -40,8 +40,8 @@ impl Navigator {
         })
     }
 
-    /// One tick with what has been measured, if anything has; true if the IMU's sample was taken in. `omega_rad_s` are
-    /// the speeds at which the rotors are believed to turn.
+    /// One tick with its measurements, if any. Returns whether an IMU sample was used. `omega_rad_s` are the estimated
+    /// rotor speeds.
     #[inline]
     pub fn step(&mut self, measured: Option<&Measurements>, omega_rad_s: &[f32; ROTORS]) -> bool {
         let fresh = self.predictor.predict(measured.and_then(|m| m.imu.as_ref()));
@@ -66,7 +66,7 @@ impl Navigator {
         }
     }
 
-    /// The motion now; its rates are the filtered ones.
+    /// The motion now, with filtered rates.
     #[inline]
     pub fn nav(&self) -> NavState {
         let state = self.predictor.state();
@@ -78,30 +78,30 @@ impl Navigator {
         }
     }
 
-    /// What the predictor believes: motion and biases.
+    /// The predictor's nominal state: motion and biases.
     pub fn state(&self) -> &Nominal {
         self.predictor.state()
     }
 
-    /// f without its bias in the body's frame, m/s².
+    /// f without its bias in the body frame, m/s².
     #[inline]
     pub fn specific_force(&self) -> &Vector3<f32> {
         self.predictor.specific_force()
     }
 
-    /// The battery as last measured, unless that is too long ago to say anything.
+    /// The last battery sample, unless it is too old.
     pub fn battery(&self) -> Option<BatterySample> {
-        /// Ticks.
+        /// Greatest age, ticks: ten periods of a 10 Hz monitor.
         const SILENT_AFTER: u16 = 1_000;
         self.battery.filter(|_| self.battery_age < SILENT_AFTER)
     }
 
-    /// The same, and how many ticks ago that was.
+    /// The last battery sample and its age in ticks.
     pub fn battery_with_age(&self) -> Option<(BatterySample, u32)> {
         self.battery.map(|battery| (battery, u32::from(self.battery_age)))
     }
 
-    /// The filter's snapshot, of a vehicle that is on the ground and, disarmed, at rest; or is not.
+    /// The snapshot for a filter job. `landed`: on the ground; `at_rest`: on the ground and disarmed.
     pub fn release(&mut self, landed: bool, at_rest: bool) -> FilterInput {
         FilterInput {
             state: *self.predictor.state(),
@@ -115,7 +115,7 @@ impl Navigator {
         }
     }
 
-    /// Takes in what the filter has found.
+    /// Applies the output of a filter job.
     pub fn inject(&mut self, injection: &Injection) {
         self.injected = true;
         match injection {

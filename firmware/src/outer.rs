@@ -1,10 +1,10 @@
 //! The outer partition, 250 Hz: guidance and position control.
 //!
-//! Flies what the commander's [`Directive`] says: the configured trajectory, or a reference that is made while it flies.
-//! What is not known of the motion is not controlled: it is taken out of motion and reference alike.
+//! Executes the commander's [`Directive`]: follows the configured trajectory, or a setpoint generated online.
+//! Components of the motion that are unknown are not controlled: they are set to zero in motion and reference alike.
 //!
-//! Works on a snapshot of the motion and gives an attitude reference for the tick at which it is published; the
-//! motion is carried forward to that tick by the model, so that errors are taken between like times.
+//! A job works on a snapshot of the motion and returns an attitude reference for the tick at which it is published. The
+//! model predicts the motion to that tick, so that motion and reference are compared at the same time.
 
 use nalgebra::{Vector3, Vector4};
 
@@ -25,48 +25,48 @@ use crate::validate::ConfigError;
 pub struct OuterInput {
     /// The motion at the release.
     pub nav: NavState,
-    /// Thrust that the rotors are believed to give, N.
+    /// Estimated thrust of the rotors, N.
     pub thrust_n: f32,
-    /// What to do.
+    /// The directive of the commander.
     pub directive: Directive,
 }
 
-/// How much of the rotors is to be used.
+/// Control authority that the inner partition may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Authority {
-    /// They idle, on the ground.
+    /// Rotors idle, on the ground.
     Idle,
-    /// Torque in proportion to thrust: in a descent the ground may come at any time.
+    /// Torque limited in proportion to thrust: the vehicle descends and may touch down at any time.
     Gentle,
-    /// All of it.
+    /// Full authority.
     Full,
 }
 
-/// What the outer partition asks for.
+/// Output of the outer partition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OuterOutput {
     /// For the inner partition.
     pub attitude: AttitudeReference,
     /// Sliding variables sx, sy, sz, m/s.
     pub s: Vector3<f32>,
-    /// True if the force that control asks for had to be limited.
+    /// True if the demanded force was limited.
     pub limited: bool,
-    /// How much of the rotors is to be used, while they may turn.
+    /// Control authority while armed.
     pub authority: Authority,
     /// True if the heading is given up.
     pub heading_free: bool,
-    /// Where the vehicle ought to be, m, and its heading, rad.
+    /// Reference position, m, and heading, rad.
     pub wanted: Vector4<f32>,
 }
 
-/// Where the last job's reference has come from.
+/// Source of the last job's reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Source {
-    /// There was none: on the ground.
+    /// None: on the ground.
     Ground,
-    /// The trajectory, and this is it.
+    /// The trajectory, with its last reference.
     Trajectory(FlatReference),
-    /// The generator.
+    /// The setpoint generator.
     Setpoint,
 }
 
@@ -81,18 +81,18 @@ pub struct Outer<P = SlidingPosition> {
     source: Source,
     law: P,
     limited: bool,
-    /// Specific force of a descent without a known height, m/s², and what the model's thrust has to be for it, as a part,
-    /// since that descent has begun.
+    /// Specific force of a blind descent, m/s², and the factor on the model's thrust that gives it, held since that
+    /// descent began.
     blind_force: f32,
     blind_share: Option<f32>,
 }
 
-/// A descending reference is no lower than this below the vehicle, m: on the ground it must not run away.
+/// A descending reference is at most this far below the vehicle, m: on the ground it must not run away.
 const LEAD_DOWN_M: f32 = 0.5;
-/// Nor higher than this above it, m: one that has fallen is to come down from where it is.
+/// And at most this far above it, m: a vehicle that has fallen must not climb back to its reference.
 const LAG_UP_M: f32 = 0.5;
 
-/// Position, velocity, acceleration and thrust axis when the output takes effect.
+/// Position, velocity, acceleration and thrust axis at the tick when the output takes effect.
 struct Predicted {
     position: Vector3<f32>,
     velocity: Vector3<f32>,
@@ -101,7 +101,7 @@ struct Predicted {
 }
 
 impl Predicted {
-    /// As if it were known to stand still over the origin.
+    /// Sets the horizontal components to zero.
     fn forget_horizontal(&mut self) {
         for vector in [&mut self.position, &mut self.velocity, &mut self.acceleration] {
             (vector.x, vector.y) = (0.0, 0.0);
@@ -125,13 +125,13 @@ impl<P: PositionLaw> Outer<P> {
     /// Ready to run with a valid configuration.
     ///
     /// # Errors
-    /// What of the trajectory or the joining path is out of its range.
+    /// The value of the trajectory or of the joining path that is out of range.
     pub fn new(config: &FlightConfig, law: P) -> Result<Self, ConfigError> {
         Ok(Self {
             mass_kg: config.airframe.mass_kg,
             model: Translation::new(&config.airframe),
             limits: ForceLimits::new(&config.airframe, config.tilt_max_rad),
-            guidance: Guidance::new(config.trajectory, config.join.as_ref(), config.start_position())?,
+            guidance: Guidance::new(config.trajectory.clone(), config.join.as_ref(), config.start_position())?,
             setpoint: Setpoint::new(&config.modes),
             source: Source::Ground,
             law,
@@ -141,7 +141,7 @@ impl<P: PositionLaw> Outer<P> {
         })
     }
 
-    /// Forgets what has been made of earlier jobs.
+    /// Clears the state of earlier jobs.
     pub fn reset(&mut self) {
         self.source = Source::Ground;
         self.blind_share = None;
@@ -166,7 +166,7 @@ impl<P: PositionLaw> Outer<P> {
                 let target = velocity(Vector3::new(0.0, 0.0, -rate_m_s), 0.0);
                 let reference = self.steer(input, &target);
                 let output = self.descend(effective, input, reference, known, heading_free);
-                // Without a rotor there is no torque to spare.
+                // With a failed rotor there is no torque to spare.
                 let authority = if heading_free { Authority::Full } else { Authority::Gentle };
                 OuterOutput { authority, heading_free, ..output }
             }
@@ -185,7 +185,7 @@ impl<P: PositionLaw> Outer<P> {
         }
     }
 
-    /// On the ground there is nothing to control.
+    /// Output on the ground, where nothing is controlled.
     fn rest(&mut self, nav: &NavState) -> OuterOutput {
         self.reset();
         let attitude = AttitudeReference::idle(nav.attitude);
@@ -200,7 +200,7 @@ impl<P: PositionLaw> Outer<P> {
         }
     }
 
-    /// The trajectory at a time on the flight's clock, joined from the air if the vehicle was there.
+    /// The trajectory at a time on the flight's clock, joined from the present setpoint if the vehicle is flying.
     fn trajectory(&mut self, ticks: Tick) -> FlatReference {
         match self.source {
             Source::Ground => self.guidance.join_from_start(),
@@ -212,7 +212,7 @@ impl<P: PositionLaw> Outer<P> {
         reference
     }
 
-    /// The generator's reference, from where the last one was, or from where the vehicle stands.
+    /// The generator's reference, continued from the last reference, or from where the vehicle stands.
     fn steer(&mut self, input: &OuterInput, target: &Target) -> FlatReference {
         match self.source {
             Source::Setpoint => {}
@@ -225,7 +225,7 @@ impl<P: PositionLaw> Outer<P> {
         self.setpoint.advance(target)
     }
 
-    /// Down, by what is known of the motion.
+    /// Descends, controlling what is known of the motion.
     fn descend(
         &mut self,
         effective: Tick,
@@ -236,7 +236,7 @@ impl<P: PositionLaw> Outer<P> {
     ) -> OuterOutput {
         let mut now = self.predict(input);
         if known > Known::Position {
-            // The generator goes on from here, once the position is known again.
+            // Once the position is known again, the generator continues from here.
             self.setpoint.put_horizontally(now.position.x, now.position.y);
             (reference.position.x, reference.position.y) = (now.position.x, now.position.y);
         }
@@ -271,10 +271,11 @@ impl<P: PositionLaw> Outer<P> {
         }
     }
 
-    /// Down at the reference's rate, horizontal motion only damped, and gently: an attitude that answers slowly, as with a
-    /// rotor lost, bears no tight loop around it.
+    /// Descends at the reference's rate and only damps horizontal motion, with a low gain: with a failed rotor the
+    /// attitude responds slowly, and a fast position loop around it would be unstable.
     fn damp(&mut self, effective: Tick, now: &Predicted, reference: &FlatReference) -> OuterOutput {
-        /// 1/s, and m/s².
+        /// Gain on the horizontal velocity, 1/s, and limit of the acceleration, m/s². Chosen: a tenth of the attitude
+        /// law's slope with a failed rotor (5/s, see `motor_out`), and a tilt of 9° at most.
         const DAMPING: f32 = 0.7;
         const MOST: f32 = 1.5;
         let mut level = *reference;
@@ -300,16 +301,16 @@ impl<P: PositionLaw> Outer<P> {
         self.output(effective, now, &demand.profile, reference, demand.s)
     }
 
-    /// Level, with a thrust by which the vehicle sinks.
+    /// Level, with a thrust below the weight.
     fn sink(&mut self, effective: Tick, now: &Predicted, reference: &FlatReference) -> OuterOutput {
-        // What the law knows of the thrust holds without a height too; it is forgotten with the rest.
+        // The law's thrust effectiveness is still valid: it is kept before the law is reset.
         let share = *self.blind_share.get_or_insert(1.0 / self.law.thrust_effectiveness());
         self.reset_law();
         let profile = ForceProfile::hover(self.blind_force * share);
         self.output(effective, now, &profile, reference, Vector3::zeros())
     }
 
-    /// Position control towards a reference that holds, as the output will, at the tick `effective`.
+    /// Position control: tracks a reference that is valid, like the output, at the tick `effective`.
     #[inline]
     pub fn follow(&mut self, effective: Tick, input: &OuterInput, reference: &FlatReference) -> OuterOutput {
         let now = self.predict(input);
@@ -326,7 +327,7 @@ impl<P: PositionLaw> Outer<P> {
             limited: self.limited,
         });
         if !profile.is_finite() {
-            // A motion so wild that a product overflowed: what the law has made of it is not to stay.
+            // A product overflowed on an extreme motion: the law is reset because its state may hold the overflow.
             self.law.reset();
             (s, profile) = (Vector3::zeros(), ForceProfile::hover(self.model.gravity));
         }
@@ -334,7 +335,7 @@ impl<P: PositionLaw> Outer<P> {
         self.output(effective, now, &profile, reference, s)
     }
 
-    /// The attitude and thrust by which a force is had.
+    /// The attitude and thrust that give a force.
     #[inline]
     fn output(
         &self,
@@ -362,7 +363,7 @@ impl<P: PositionLaw> Outer<P> {
         }
     }
 
-    /// The motion [`OUTER_AHEAD_S`] after the snapshot, by Eq. 2 with the thrust that the rotors are believed to give.
+    /// Predicts the motion [`OUTER_AHEAD_S`] after the snapshot, by Eq. 2 with the estimated thrust.
     #[inline]
     fn predict(&self, input: &OuterInput) -> Predicted {
         let nav = &input.nav;

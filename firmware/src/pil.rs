@@ -1,14 +1,14 @@
-//! What host and image tell each other when the processor is in the loop: the frames and their bytes.
+//! The wire protocol between host and image for processor in the loop.
 //!
 //! ```text
-//! host ── Hello ──► image      once: what to fly, and what to disturb
+//! host ── Hello ──► image      once: configuration, busy-waits and faults
 //! host ◄─ Answer ── image      once: ready, or why not
-//! host ── Request ► image      a tick: the sample, or the end; before it, what a pilot asks for
-//! host ◄─ Reply ─── image      a tick: what the inner task has done
+//! host ── Request ► image      per tick: the sample, or the end; a pilot's request before it, if any
+//! host ◄─ Reply ─── image      per tick: output of the inner task
 //! ```
 //!
-//! Every frame has a fixed size, so that it crosses in one file call; numbers are little-endian 32-bit words,
-//! and what a frame does not need of its size is zero.
+//! Every frame has a fixed size, so that it is transferred in one file call. Values are little-endian 32-bit words;
+//! unused words at the end are zero.
 
 #[cfg(feature = "pil-wire")]
 mod hello;
@@ -25,53 +25,53 @@ use crate::signals::{NavState, SensorFrame, Tick};
 pub use hello::{Answer, BusyWait, Fault, HELLO_BYTES, Hello, HelloError};
 use words::{Reader, Words, Writer, as_words};
 
-/// Changes with every change of a frame, so that host and image of different versions refuse each other.
-pub const VERSION: u32 = 4;
+/// Protocol version, incremented with every change of a frame: host and image of different versions refuse each other.
+pub const VERSION: u32 = 5;
 
 /// Bytes of a [`Request`].
 pub const REQUEST_BYTES: usize = 4 * Request::WORDS;
 /// Bytes of a [`Reply`].
 pub const REPLY_BYTES: usize = 4 * Reply::WORDS;
 
-/// What the host asks for in a tick.
+/// A frame from the host.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Request {
-    /// Fly a tick with this sample.
+    /// Run a tick with this sample.
     Sample(SensorFrame),
-    /// Fly a tick without a sample.
+    /// Run a tick without a sample.
     Missing,
-    /// Hand this to the commander before the tick, which comes with the next frame; there is no reply.
+    /// Pass this to the commander before the tick, which follows in the next frame. Has no reply.
     Ask(commander::Request),
-    /// End.
+    /// Exit.
     Exit,
 }
 
-/// Whether the image flies on.
+/// State of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// It does.
+    /// Running.
     Flying,
-    /// It has stopped the rotors for good.
+    /// Rotors stopped for good.
     Stopped(Cause),
 }
 
-/// Why an image stops the rotors for good.
+/// Why an image has stopped the rotors for good.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// The program found itself in a state that must not be.
+    /// A panic.
     Panic,
-    /// The core could not go on.
+    /// A hard fault.
     HardFault,
 }
 
-/// What the inner task has done in a tick.
+/// Output of the inner task in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reply {
     /// The tick.
     pub tick: Tick,
-    /// Whether the image flies on.
+    /// State of the image.
     pub state: State,
-    /// The motion that was controlled: as sensed, or as estimated.
+    /// The motion that the inner loop used: as sensed, or as estimated.
     pub nav: NavState,
     /// Output of the inner partition.
     pub inner: InnerOutput,
@@ -82,7 +82,7 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// After [`InnerTask::tick`].
+    /// The reply after [`InnerTask::tick`].
     pub fn of(flight: &InnerTask, overruns: [u32; 3]) -> Self {
         Self {
             tick: flight.next_tick().wrapping_sub(1),
@@ -94,7 +94,7 @@ impl Reply {
         }
     }
 
-    /// The last one of an image that has stopped.
+    /// The last reply of an image that has stopped.
     pub fn stopped(cause: Cause) -> Self {
         Self {
             tick: Tick::MAX,
@@ -111,7 +111,7 @@ impl Reply {
         words::encode(self)
     }
 
-    /// From bytes; none if they are not a reply.
+    /// From bytes; `None` if they are not a reply.
     pub fn decode(bytes: &[u8; REPLY_BYTES]) -> Option<Self> {
         Self::read(&mut Reader::new(bytes))
     }
@@ -123,8 +123,8 @@ impl Request {
         words::encode(self)
     }
 
-    /// From bytes; none if they are not a request. The sample is as the host sent it: the inner partition
-    /// refuses one that is not valid.
+    /// From bytes; `None` if they are not a request. The sample is not checked here: the inner partition refuses an
+    /// invalid one.
     pub fn decode(bytes: &[u8; REQUEST_BYTES]) -> Option<Self> {
         Self::read(&mut Reader::new(bytes))
     }

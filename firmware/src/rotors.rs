@@ -1,4 +1,4 @@
-//! From rotor speeds to the duty cycles of the speed controllers.
+//! Conversion of rotor speeds to duty cycles of the speed controllers.
 
 use embedded_hal::pwm::SetDutyCycle;
 
@@ -6,22 +6,22 @@ use crate::airframe::ROTORS;
 use crate::math;
 use crate::signals::MotorCommand;
 
-/// A PWM output a rotor; the duty cycle is the part ω/ωmax of the output's greatest.
+/// One PWM output per rotor. The duty cycle is ω/ωmax times the output's maximum.
 pub struct PwmRotors<P> {
     outputs: [P; ROTORS],
     omega_max_rad_s: f32,
 }
 
 impl<P: SetDutyCycle> PwmRotors<P> {
-    /// Rotors of a known greatest speed, as they stand: nothing is written yet.
+    /// Rotors with their greatest speed. Nothing is written to the outputs yet.
     pub fn new(outputs: [P; ROTORS], omega_max_rad_s: f32) -> Self {
         Self { outputs, omega_max_rad_s }
     }
 
-    /// Sets every rotor's speed. A speed that is not a number stops its rotor.
+    /// Sets every rotor's speed. NaN stops a rotor.
     ///
     /// # Errors
-    /// The first output's that fails; the others are set all the same.
+    /// The error of the first output that fails; the others are set nevertheless.
     pub fn set(&mut self, command: &MotorCommand) -> Result<(), P::Error> {
         let mut result = Ok(());
         for (output, omega) in self.outputs.iter_mut().zip(command.omega_rad_s) {

@@ -1,9 +1,29 @@
 //! Logical execution time: when a partition's inputs are read and its outputs take effect.
 //!
-//! A partition with period T and output offset D, both in ticks, is released at every multiple of T with a
-//! snapshot of its inputs; what it produces is published D ticks later, whenever it really finished. So the
-//! flight does not depend on how long a job takes, as long as it takes less than D; a job that takes longer is an
-//! overrun: its output is dropped, the old one stays, and it is counted.
+//! A partition with period T and output offset D, both in ticks, is released at every multiple of T with a snapshot of
+//! its inputs. Its output is published D ticks later, no matter when the job actually finished. So the flight does not
+//! depend on the execution time of a job, as long as that is below D. A longer job is an overrun: it is counted, its
+//! output is dropped, and the old one stays in effect.
+//!
+//! ```
+//! use firmware::schedule::Mailbox;
+//!
+//! // Period 4 ticks, output 2 ticks after the release.
+//! let mut mailbox: Mailbox<u32, u32, 4, 2> = Mailbox::new();
+//! assert!(mailbox.is_due(0));
+//! mailbox.release(0, 20);
+//!
+//! // The partition's task: takes the snapshot, and finishes early.
+//! let (released, input) = mailbox.take().expect("released");
+//! mailbox.finish(input + 1);
+//!
+//! // The output takes effect at tick 2, and not before.
+//! assert_eq!((released, mailbox.publish(1), mailbox.publish(2)), (0, None, Some(21)));
+//!
+//! // A job that has not finished in time is an overrun.
+//! mailbox.release(4, 30);
+//! assert_eq!((mailbox.publish(6), mailbox.overruns()), (None, 1));
+//! ```
 
 use crate::signals::{TICK_S, Tick};
 
@@ -22,26 +42,26 @@ pub const OUTER: Timing = Timing { period: 4, offset: 2 };
 pub const OUTER_AHEAD_S: f32 = OUTER.offset as f32 * TICK_S;
 /// The estimator's covariance and late readings, in the outer partition's task: 250 Hz.
 pub const FILTER: Timing = OUTER;
-/// Arming, modes, failures: 50 Hz.
+/// Arming, modes, failsafes: 50 Hz.
 pub const COMMANDER: Timing = Timing { period: 20, offset: 4 };
 /// MAVLink: 100 Hz.
 pub const GROUND: Timing = Timing { period: 10, offset: 10 };
 
-/// Where a partition's current job is.
+/// State of a partition's current job.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Job<O> {
-    /// None under way.
+    /// No job.
     Idle,
-    /// Released at the tick, not yet finished.
+    /// Released at this tick, not finished.
     Running(Tick),
-    /// Finished, to be published.
+    /// Released at this tick and finished; to be published.
     Done(Tick, O),
-    /// Overran: still running, its output will be dropped.
+    /// Overrun: still running; its output will be dropped.
     Late,
 }
 
-/// The mailbox between the inner loop and one partition: one input snapshot in, one output out. Its timing is part of
-/// its type: a division by a constant costs a tick next to nothing.
+/// The mailbox between the inner loop and one partition: one input snapshot in, one output out. Its timing is in its
+/// type, because a division by a constant is cheap.
 #[derive(Clone, Debug)]
 pub struct Mailbox<I, O, const PERIOD: Tick, const OFFSET: Tick> {
     input: Option<(Tick, I)>,
@@ -55,7 +75,7 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick> Mailbox<I, O, PERIOD, OFFSET>
         Self { input: None, job: Job::Idle, overruns: 0 }
     }
 
-    /// Step 1 of a tick: the output that is due now, if its job has finished. Counts an overrun if it has not.
+    /// Step 1 of a tick: returns the output that is due now, or counts an overrun if its job has not finished.
     #[inline]
     pub fn publish(&mut self, tick: Tick) -> Option<O> {
         let (Job::Running(released) | Job::Done(released, _)) = &self.job else { return None };
@@ -71,26 +91,26 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick> Mailbox<I, O, PERIOD, OFFSET>
         None
     }
 
-    /// True if the partition is to be released at `tick`: its period says so, and its last job has ended.
+    /// True if the partition is due for release at `tick`: a multiple of its period, and its last job has ended.
     #[inline]
     pub fn is_due(&self, tick: Tick) -> bool {
         tick.is_multiple_of(PERIOD) && matches!(self.job, Job::Idle)
     }
 
-    /// Step 2 of a tick, if the partition is due: leaves the snapshot for it.
+    /// Step 2 of a tick, if the partition is due: stores the snapshot for it.
     #[inline]
     pub fn release(&mut self, tick: Tick, input: I) {
         self.input = Some((tick, input));
         self.job = Job::Running(tick);
     }
 
-    /// Step 4, in the partition's own task: the snapshot to work on, once a release.
+    /// Step 4, in the partition's own task: takes the snapshot, once per release.
     #[inline]
     pub fn take(&mut self) -> Option<(Tick, I)> {
         self.input.take()
     }
 
-    /// Hands back the job's output, to be published when it is due; dropped if the job overran.
+    /// Returns the job's output, to be published when it is due; dropped if the job has overrun.
     #[inline]
     pub fn finish(&mut self, output: O) {
         self.job = match self.job {
@@ -99,7 +119,7 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick> Mailbox<I, O, PERIOD, OFFSET>
         };
     }
 
-    /// Jobs that had not finished when their output was due.
+    /// Number of jobs that had not finished when their output was due.
     pub fn overruns(&self) -> u32 {
         self.overruns
     }

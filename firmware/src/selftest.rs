@@ -1,15 +1,15 @@
-//! The same bits everywhere: a hash over the mathematics of flight, to be compared between desktop and target.
+//! A hash over the mathematics of flight, to check that desktop and target compute the same bits.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::math;
 
-/// FNV-1a over the bits of numbers.
+/// FNV-1a over the bits of f32 values.
 struct Hash(u64);
 
 impl Hash {
     fn take(&mut self, value: f32) {
-        // The bits of a NaN are not defined; none should come up here, and one must not hide the rest.
+        // The bits of NaN are not defined. None should occur here, but one must not make hashes differ.
         let bits = if value.is_nan() { 0x7fc0_0000 } else { value.to_bits() };
         for byte in bits.to_le_bytes() {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);

@@ -1,7 +1,7 @@
-//! What sensors deliver: samples in SI units, body frame FLU, each with the tick at which it was true.
+//! Sensor samples in SI units, body frame FLU, each with the tick of its measurement.
 //!
-//! A driver stamps a sample with the time of the measurement, not of its arrival: what comes late is fused at its own
-//! time (see `estimator`). Nothing here is trusted: samples may be missing, repeated, out of order, stuck or not finite.
+//! A driver stamps a sample with the time of the measurement, not of its arrival: a late one is fused at its own time
+//! (see `estimator`). No sample is trusted: it may be missing, repeated, out of order, stuck, NaN or infinite.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -51,7 +51,7 @@ pub struct Geodetic {
 /// A solution of a satellite receiver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GnssSample {
-    /// When it was true; it arrives 100–200 ms later.
+    /// When it was measured; it arrives 100–200 ms later.
     pub at: Tick,
     /// Whether the receiver claims a three-dimensional fix.
     pub has_fix: bool,
@@ -59,18 +59,18 @@ pub struct GnssSample {
     pub place: Geodetic,
     /// Velocity in the world (NWU), m/s.
     pub velocity: Vector3<f32>,
-    /// The receiver's own estimate of its standard deviation, m: each horizontal axis.
+    /// The receiver's estimate of its standard deviation per horizontal axis, m.
     pub horizontal_accuracy_m: f32,
-    /// The same of the height, m.
+    /// The same for the height, m.
     pub vertical_accuracy_m: f32,
-    /// The same of each component of the velocity, m/s.
+    /// The same for each component of the velocity, m/s.
     pub speed_accuracy_m_s: f32,
 }
 
 /// Position and attitude by motion capture, in the local frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseSample {
-    /// When it was true.
+    /// When it was measured.
     pub at: Tick,
     /// m.
     pub position: Vector3<f32>,
@@ -87,10 +87,10 @@ pub struct BatterySample {
     pub current_a: f32,
 }
 
-/// What the sensors have delivered in a tick: each its sample, if one has arrived.
+/// Samples that have arrived in a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measurements {
-    /// Every tick, on a sound vehicle.
+    /// IMU: present every tick on a healthy vehicle.
     pub imu: Option<ImuSample>,
     /// Magnetometer.
     pub mag: Option<MagSample>,
@@ -105,35 +105,35 @@ pub struct Measurements {
 }
 
 impl ImuSample {
-    /// True if it can have been measured: no part for vehicles has a range beyond 4000 °/s or 32 g an axis. What is
-    /// integrated is made for turns of a few degrees a tick; a single sample of 1e5 rad/s would leave no attitude.
+    /// True if the values are within the range of any IMU for vehicles: 4000 °/s and 32 g per axis. The integration
+    /// assumes turns of a few degrees per tick; a single sample of 1e5 rad/s would destroy the attitude.
     #[inline]
     pub fn is_plausible(&self) -> bool {
         /// √3 times these ranges, rad/s and m/s².
         const RATE_MAX: f32 = 121.0;
         const FORCE_MAX: f32 = 544.0;
-        // Of what is no number, no comparison holds.
+        // A comparison with NaN is false.
         self.gyro.norm_squared() < RATE_MAX * RATE_MAX && self.accel.norm_squared() < FORCE_MAX * FORCE_MAX
     }
 }
 
 impl GnssSample {
-    /// True for a fix of finite numbers, of which the receiver does not say itself that they are worth nothing.
+    /// True for a finite fix that the receiver itself reports as accurate enough.
     pub fn is_usable(&self) -> bool {
-        /// A position worse than this, m, or a velocity worse than that, m/s, holds no vehicle.
+        /// Worst accepted accuracy of position (m) and velocity (m/s): a vehicle cannot hold its place with worse.
         const ACCURACY: (f32, f32) = (10.0, 1.0);
-        let (metres, metres_a_second) = ACCURACY;
+        let (metres, metres_per_second) = ACCURACY;
         // A comparison with NaN is false.
         self.has_fix
             && math::all_finite(self.velocity.as_slice())
             && self.horizontal_accuracy_m < metres
             && self.vertical_accuracy_m < 2.0 * metres
-            && self.speed_accuracy_m_s < metres_a_second
+            && self.speed_accuracy_m_s < metres_per_second
     }
 }
 
 impl PoseSample {
-    /// True if every number of it is finite and the attitude is of unit size, within 1 %.
+    /// True if every value is finite and the attitude is a unit quaternion within 1 %.
     pub fn is_valid(&self) -> bool {
         let norm = self.attitude.quaternion().norm_squared();
         math::all_finite(self.position.as_slice()) && norm > 0.98 && norm < 1.02
@@ -145,7 +145,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_receiver_that_knows_nothing_is_not_listened_to() {
+    fn an_inaccurate_fix_is_not_used() {
         let good = GnssSample {
             at: 0,
             has_fix: true,

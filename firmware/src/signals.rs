@@ -1,6 +1,6 @@
 //! The plain data that flows between the partitions (see the picture in the crate docs).
 //!
-//! World frame NWU (north, west, up), body frame FLU (forward, left, up), SI units. Only `frames` knows others.
+//! World frame NWU (north, west, up), body frame FLU (forward, left, up), SI units. Only `frames` converts to others.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -8,7 +8,7 @@ use crate::airframe::ROTORS;
 use crate::math;
 use crate::sensors::Measurements;
 
-/// Number of the inner loop's tick, [`TICK_US`] apart, counted from boot.
+/// Time in ticks of the inner loop since boot, [`TICK_US`] each; wraps around.
 pub type Tick = u32;
 
 /// Length of a tick, µs: the inner loop runs at 1 kHz.
@@ -17,10 +17,10 @@ pub const TICK_US: u32 = 1_000;
 /// Length of a tick, s.
 pub const TICK_S: f32 = 1e-3;
 
-/// Length of a tick, s, for what must not drift over hours.
+/// Length of a tick, s, in double precision: for times that must not drift over hours.
 pub const TICK_S_EXACT: f64 = TICK_US as f64 * 1e-6;
 
-/// What is known of the vehicle's motion.
+/// Motion of the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NavState {
     /// Position in the world, m.
@@ -59,7 +59,7 @@ impl NavState {
     }
 }
 
-/// What of the motion may be trusted. Angular rates always come with the attitude.
+/// Which components of the motion may be trusted. Angular rates are valid whenever the attitude is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is lost by itself")]
 pub struct NavHealth {
@@ -73,12 +73,12 @@ pub struct NavHealth {
     pub position: bool,
     /// Height.
     pub height: bool,
-    /// Vertical velocity: it outlives the height, by what the accelerometers add up.
+    /// Vertical velocity: stays valid for a while after the height is lost, by integrating the accelerometers.
     pub climb: bool,
 }
 
 impl NavHealth {
-    /// All of it: what an ideal sensor gives.
+    /// Everything, as on ideal state.
     pub const ALL: Self =
         Self { attitude: true, heading: true, velocity: true, position: true, height: true, climb: true };
     /// Nothing.
@@ -86,19 +86,19 @@ impl NavHealth {
         Self { attitude: false, heading: false, velocity: false, position: false, height: false, climb: false };
 }
 
-/// What is delivered for one tick.
+/// Sensor input of one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SensorFrame {
-    /// The vehicle's motion at this tick: what an ideal sensor gives, for comparing control laws.
+    /// Ideal state: the vehicle's true motion at this tick, for comparing control laws.
     Motion(NavState),
-    /// What sensors have measured.
+    /// Measurements of sensors.
     Measured(Measurements),
 }
 
-/// Speeds the rotors are to turn at.
+/// Commanded rotor speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorCommand {
-    /// One speed a rotor, rad/s, 0..=ωmax.
+    /// One speed per rotor, rad/s, 0..=ωmax.
     pub omega_rad_s: [f32; ROTORS],
 }
 
@@ -107,7 +107,7 @@ impl MotorCommand {
     pub const STOPPED: Self = Self { omega_rad_s: [0.0; ROTORS] };
 }
 
-/// Where the reference trajectory is, down to its fourth derivative.
+/// Position and heading reference with derivatives, up to snap: the flat outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatReference {
     /// Position, m.
@@ -145,7 +145,7 @@ impl FlatReference {
     }
 }
 
-/// The attitude to follow, now.
+/// Attitude setpoint with two derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeTarget {
     /// Desired body to world.
@@ -156,10 +156,10 @@ pub struct AttitudeTarget {
     pub accelerations: Vector3<f32>,
 }
 
-/// What the outer loop asks of the inner: an attitude with two derivatives, and the thrust.
+/// Reference of the outer loop for the inner: attitude with two derivatives, and thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttitudeReference {
-    /// The tick for which the values hold; inner extrapolates from there.
+    /// The tick at which the values are valid; the inner loop extrapolates from there.
     pub valid_at: Tick,
     /// Attitude, rates and accelerations.
     pub target: AttitudeTarget,
@@ -177,13 +177,13 @@ impl AttitudeReference {
         Self { valid_at: 0, target, thrust_n: 0.0, thrust_rate_n_s: 0.0 }
     }
 
-    /// The attitude to follow `dt` seconds later, for turns of a few degrees: the quaternion's exponential to second
-    /// order (3e-6 rad in 4 ms at 10 rad/s), the product's size to fourth.
+    /// The attitude setpoint extrapolated by `dt` seconds, for turns of a few degrees: the quaternion exponential to
+    /// second order (an error of 3e-6 rad over 4 ms at 10 rad/s), its norm to fourth order.
     #[inline]
     pub fn target_after(&self, dt: f32) -> AttitudeTarget {
         let AttitudeTarget { attitude, rates, accelerations } = &self.target;
         let later = rates + accelerations * dt;
-        // Half of dt times the mean of the rates now and then.
+        // Half of dt times the mean rate.
         let half = later * (0.5 * dt) - accelerations * (0.25 * dt * dt);
         let square = half.norm_squared();
         let turn = Quaternion::new(1.0 - 0.5 * square, half.x, half.y, half.z);

@@ -1,6 +1,6 @@
-//! Why a configuration is refused, and the checks that its parts share.
+//! Configuration errors, and the range checks that configuration types share.
 
-/// Why a configuration is refused; each names the field.
+/// Error of a configuration, with the name of the field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConfigError {
     /// Not a finite number.
@@ -15,13 +15,14 @@ pub enum ConfigError {
     SingularGeometry,
 }
 
-/// No quantity of a flight is larger, in SI units; products of three still fit an f32.
+/// Greatest accepted value, in SI units: the product of three still fits an f32.
 const LARGEST: f32 = 1e9;
 
 impl ConfigError {
+    /// Checks that `value` is from 1e-9 to 1e9, where f32 arithmetic neither overflows nor underflows.
+    ///
     /// # Errors
-    /// `name` unless `value` is finite, above zero, and of a size with which f32 arithmetic neither overflows nor
-    /// vanishes: 1e-9 to 1e9.
+    /// `name`, if it is not.
     pub fn require_positive(name: &'static str, value: f32) -> Result<(), Self> {
         if !value.is_finite() {
             Err(Self::NonFinite(name))
@@ -34,8 +35,10 @@ impl ConfigError {
         }
     }
 
+    /// Checks that `value` is from 0 to 1e9.
+    ///
     /// # Errors
-    /// `name` unless `value` is finite, not below zero and at most 1e9.
+    /// `name`, if it is not.
     pub fn require_not_negative(name: &'static str, value: f32) -> Result<(), Self> {
         if !value.is_finite() {
             Err(Self::NonFinite(name))

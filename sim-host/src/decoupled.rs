@@ -70,7 +70,8 @@ impl Decoupled {
     /// None for a scenario that has been validated.
     pub fn new(scenario: &Scenario, seed: u64) -> anyhow::Result<Self> {
         let config = scenario.flight_config();
-        let guidance = Guidance::with_tick(config.trajectory, STEP_S).map_err(|error| anyhow::anyhow!("{error}"))?;
+        let guidance =
+            Guidance::with_tick(config.trajectory.clone(), STEP_S).map_err(|error| anyhow::anyhow!("{error}"))?;
         Ok(Self {
             constants: scenario.constants(),
             airframe: config.airframe,

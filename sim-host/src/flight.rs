@@ -70,7 +70,7 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
     let autopilot = Autopilot::with_laws(&config, attitude, position)
         .map_err(|error| anyhow!("scenario `{}`: {error}", scenario.name))?;
     let noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
-    let flight = Flight::new(autopilot, plant, noise, config.trajectory);
+    let flight = Flight::new(autopilot, plant, noise, config.trajectory.clone());
     let flight = flight.with_actuation_delay(scenario.actuation_delay_ticks());
     let file = &scenario.file;
     let sensors = file.sensors.as_ref().map(|suite| Suite::new(suite, &file.home, &file.fault, seed));

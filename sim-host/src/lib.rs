@@ -34,6 +34,7 @@ pub mod seeds;
 pub mod sensors;
 pub mod serve;
 pub mod sil;
+pub mod spline;
 pub mod statistics;
 pub mod sweep;
 pub mod tune;

@@ -123,6 +123,11 @@ impl Pilot {
         Self { script: script.to_vec(), done: 0, given_at: 0, target: None, arrived_since: None }
     }
 
+    /// How many commands of the script have been given.
+    pub fn given(&self) -> usize {
+        self.done
+    }
+
     /// What is asked at a tick, if anything. To be called each tick, with what the vehicle says of itself.
     pub fn step(&mut self, tick: Tick, nav: &NavState, armed: bool) -> Option<Request> {
         if !tick.is_multiple_of(LOOKS_EVERY) {

@@ -7,6 +7,7 @@ use firmware::signals::{NavHealth, NavState, Tick};
 use nalgebra::Vector3;
 
 use crate::plant::Motion;
+use crate::plant::battery::BatteryState;
 
 /// One tick of a flight. World frame NWU, body frame FLU, SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,6 +86,19 @@ pub struct Navigation<'a> {
     pub commander: &'a CommanderOutput,
 }
 
+/// What the vehicle is doing at a tick, and what its pilot has told it.
+#[derive(Clone, Copy, Debug)]
+pub struct Activity<'a> {
+    /// Time, s.
+    pub t: f64,
+    /// What the vehicle is doing.
+    pub commander: &'a CommanderOutput,
+    /// How many commands of its script the pilot has given.
+    pub given: usize,
+    /// The battery as it is, if there is one.
+    pub battery: Option<BatteryState>,
+}
+
 /// Takes the rows of a flight, in order.
 pub trait Recorder {
     /// False where rows would be thrown away, so that the loop need not make them.
@@ -95,6 +109,14 @@ pub trait Recorder {
 
     /// Takes what the vehicle believes, after the row of the same tick; of flights on sensors alone.
     fn navigate(&mut self, _navigation: &Navigation) {}
+
+    /// Takes what the vehicle is doing, after the row of the same tick; of flights with the firmware in lockstep.
+    fn observe(&mut self, _activity: &Activity) {}
+
+    /// Whether the flight is to end after this tick. Asked after each row, so that it must be cheap.
+    fn stops(&self) -> bool {
+        false
+    }
 }
 
 /// Takes nothing: for benchmarks.
@@ -124,6 +146,15 @@ impl<A: Recorder, B: Recorder> Recorder for (A, B) {
         self.0.navigate(navigation);
         self.1.navigate(navigation);
     }
+
+    fn observe(&mut self, activity: &Activity) {
+        self.0.observe(activity);
+        self.1.observe(activity);
+    }
+
+    fn stops(&self) -> bool {
+        self.0.stops() || self.1.stops()
+    }
 }
 
 /// Gives each row to a recorder, if there is one.
@@ -141,6 +172,16 @@ impl<A: Recorder> Recorder for Option<A> {
             recorder.navigate(navigation);
         }
     }
+
+    fn observe(&mut self, activity: &Activity) {
+        if let Some(recorder) = self {
+            recorder.observe(activity);
+        }
+    }
+
+    fn stops(&self) -> bool {
+        self.as_ref().is_some_and(Recorder::stops)
+    }
 }
 
 /// Gives each row to somebody else's recorder.
@@ -153,5 +194,13 @@ impl<A: Recorder> Recorder for &mut A {
 
     fn navigate(&mut self, navigation: &Navigation) {
         (**self).navigate(navigation);
+    }
+
+    fn observe(&mut self, activity: &Activity) {
+        (**self).observe(activity);
+    }
+
+    fn stops(&self) -> bool {
+        (**self).stops()
     }
 }

@@ -1,6 +1,8 @@
 //! The trajectories again, in double precision: what errors are measured against. Independent of the firmware's.
 
-use firmware::guidance::Trajectory;
+use std::f64::consts::TAU;
+
+use firmware::guidance::{DEGREE, Spline, Trajectory};
 
 /// x, y, z (m) and yaw (rad) of a trajectory at flight time `t` (s).
 pub fn at(trajectory: &Trajectory, t: f64) -> [f64; 4] {
@@ -21,5 +23,30 @@ pub fn at(trajectory: &Trajectory, t: f64) -> [f64; 4] {
             let [x, y, z] = wide(center_m);
             still([x + f64::from(a) * libm::sin(angle), y + f64::from(b) * libm::sin(2.0 * angle), z], yaw_rad)
         }
+        Trajectory::Spline(ref path) => spline(path, t),
     }
+}
+
+/// By de Boor's recursion: control points halfway between neighbours, level by level, down to one.
+fn spline(path: &Spline, t: f64) -> [f64; 4] {
+    let (begin, duration) = (f64::from(path.begin_ms) * 1e-3, f64::from(path.duration_ms) * 1e-3);
+    let passed = if path.repeat && t > begin { (t - begin) % duration } else { (t - begin).clamp(0.0, duration) };
+    let (segments, points) = (path.segments(), &path.control_points);
+    let place = passed / duration * segments as f64;
+    let segment = (place as usize).min(segments - 1);
+    let u = place - segment as f64;
+    let mut active: [[f64; 4]; DEGREE + 1] = std::array::from_fn(|i| {
+        let index = segment + i;
+        let mut point = points[index % points.len()].map(f64::from);
+        point[3] += f64::from(path.turn_rad) * (index / points.len()) as f64;
+        point
+    });
+    for level in 1..=DEGREE {
+        for i in (level..=DEGREE).rev() {
+            let part = (u + (DEGREE - i) as f64) / (DEGREE + 1 - level) as f64;
+            active[i] = std::array::from_fn(|k| active[i - 1][k] + part * (active[i][k] - active[i - 1][k]));
+        }
+    }
+    let [x, y, z, yaw] = active[DEGREE];
+    [x, y, z, yaw - TAU * libm::round(yaw / TAU)]
 }

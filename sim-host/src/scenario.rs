@@ -1,9 +1,11 @@
 //! Scenarios: what to fly, typed. Built into the binary, or read from a file; every key can be set from outside.
 
+mod csv;
 mod load;
 mod settings;
 #[cfg(test)]
 mod tests;
+mod trajectory;
 mod validate;
 mod world;
 
@@ -23,10 +25,10 @@ pub(crate) use settings::value;
 pub use world::{BatteryStart, Gust, ScheduledPush, Truth, Tumble, Wind, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.
-const SCENARIOS: [(&str, &str); 36] = built_in!("scenarios":
+const SCENARIOS: [(&str, &str); 37] = built_in!("scenarios":
     "helix", "helix-tw4", "helix-lag", "figure-eight", "step", "hover", "pad",
     "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
-    "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery",
+    "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery", "waypoints",
     "outdoor-tour", "field", "outdoor-hover", "outdoor-eight", "indoor-hover", "indoor-helix", "path", "path-gnss-lost", "path-mag-off",
     "path-mag-stuck", "path-baro-off", "path-baro-stuck", "gnss-glitch", "twist", "weak-rotor", "lost-rotor", "battery-collapse",
     "day",
@@ -269,7 +271,7 @@ impl Scenario {
     pub fn flight_config(&self) -> FlightConfig {
         let mut config = FlightConfig {
             airframe: self.airframe.flight(),
-            trajectory: self.file.trajectory,
+            trajectory: self.file.trajectory.clone(),
             join: self.file.join.clone(),
             start: self.file.start,
             start_position_m: self.file.start_position_m.map(|v| v as f32),

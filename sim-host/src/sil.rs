@@ -20,7 +20,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::noise::{Disturbed, Noise};
 use crate::pilot::Pilot;
 use crate::plant::{Motion, Plant};
-use crate::record::{Navigation, Recorder, Row};
+use crate::record::{Activity, Navigation, Recorder, Row};
 use crate::reference;
 use crate::report::angles::roll_pitch_yaw;
 use crate::sensors::faults::Kind;
@@ -259,6 +259,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         let row = self.row(inner, outer);
         self.outcome.survived &= row.is_tracking();
         recorder.record(&row);
+        recorder.observe(&self.activity(row.t));
         if self.sensors.is_some() {
             recorder.navigate(&self.navigation(row.t));
         }
@@ -310,6 +311,16 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
             u: inner.demand.as_array().map(f64::from),
             s: [inner.s.x, inner.s.y, inner.s.z, outer.s.x, outer.s.y, outer.s.z].map(f64::from),
             ..Row::of_motion(t, &self.plant.motion())
+        }
+    }
+
+    /// What the vehicle is doing.
+    fn activity(&self, t: f64) -> Activity<'_> {
+        Activity {
+            t,
+            commander: self.autopilot.inner.commander_output(),
+            given: self.pilot.as_ref().map_or(0, |pilot| pilot.given()),
+            battery: self.plant.battery(),
         }
     }
 

@@ -1,12 +1,13 @@
-//! What has to hold before something is begun.
+//! Checks before arming, take-off and position flight.
 
 use super::watch::Charge;
 use super::{AT_PLACE_M, Commander, CommanderInput, Known, Refusal, Request};
 use crate::math;
 use crate::signals::NavState;
 
-/// cos 20°.
+/// Greatest tilt for arming: cos 20°.
 const COS_TILT_MAX: f32 = 0.94;
+/// Greatest speed of a vehicle that counts as not moving, m/s: above the noise of an estimate at rest.
 const SPEED_MAX_M_S: f32 = 0.5;
 
 impl Commander {
@@ -24,7 +25,7 @@ impl Commander {
         }
     }
 
-    /// Whether everything is there that a flight needs.
+    /// Whether navigation, battery and rotors are fit for a flight.
     fn check_systems(&self, input: &CommanderInput) -> Result<(), Refusal> {
         let health = &input.health;
         if input.nav_fresh && !(health.attitude && health.heading) {
@@ -40,7 +41,7 @@ impl Commander {
         }
     }
 
-    /// Whether it may leave the ground.
+    /// Whether the vehicle may take off.
     pub(super) fn check_take_off(&self, request: &Request, input: &CommanderInput) -> Result<(), Refusal> {
         self.check_systems(input)?;
         if self.battery.charge() != Charge::Good {
@@ -53,7 +54,7 @@ impl Commander {
         Ok(())
     }
 
-    /// Whether it knows where it is: now, and for some time.
+    /// Whether the position is known, now and persistently.
     pub(super) fn check_position(&self, input: &CommanderInput) -> Result<(), Refusal> {
         check_position(input)?;
         if self.navigation.known() == Known::Position { Ok(()) } else { Err(Refusal::NoPosition) }
@@ -72,7 +73,7 @@ fn check_position(input: &CommanderInput) -> Result<(), Refusal> {
     }
 }
 
-/// Slower than what counts as moving.
+/// Whether the vehicle counts as not moving.
 pub(super) fn is_slow(nav: &NavState) -> bool {
     nav.velocity.norm_squared() < SPEED_MAX_M_S * SPEED_MAX_M_S
 }

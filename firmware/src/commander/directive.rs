@@ -1,64 +1,64 @@
-//! What the commander tells guidance and the rotors to do, and by what name pilots know it.
+//! Directives of the commander to guidance, and the modes that pilots see.
 
 use nalgebra::Vector3;
 
 use crate::signals::Tick;
 
-/// How much of the motion is known, the most first: what is not known is not controlled.
+/// How much of the motion is known, from most to least. Only what is known is controlled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Known {
-    /// Everything.
+    /// Position, velocity, height and attitude.
     Position,
-    /// Where it is, is not; horizontal velocity, height and attitude are.
+    /// Position unknown; horizontal velocity, height and attitude known.
     Velocity,
-    /// Height and attitude only: level, at a rate of descent.
+    /// Height and attitude only: descends level at a rate.
     Height,
-    /// The vertical velocity and the attitude: level, at a rate of descent, without a height.
+    /// Vertical velocity and attitude only: descends level at a rate, without a height.
     Climb,
-    /// The attitude at best: level, with a thrust that is known to let the vehicle sink.
+    /// Attitude at most: holds level with a thrust below the weight.
     Attitude,
 }
 
-/// What guidance is to do now.
+/// Directive for guidance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Directive {
     /// Rotors stopped.
     Stop,
     /// Rotors at a low idle, on the ground.
     Idle,
-    /// The configured trajectory, joined from where the reference stands.
+    /// Follow the configured trajectory, joined from the present reference.
     Follow {
         /// Start of the flight's clock.
         since: Tick,
     },
-    /// To a place, and stay.
+    /// Go to a place, and stay.
     GoTo {
         /// In the world, m.
         position: Vector3<f32>,
-        /// ψ, rad; `None` for as it is.
+        /// ψ, rad; `None` to keep the heading.
         yaw: Option<f32>,
     },
-    /// With a velocity; one of zero is to brake and to stay where that ends.
+    /// Fly with a velocity; zero brakes and holds the place where the vehicle stops.
     Velocity {
         /// In the world, m/s.
         velocity: Vector3<f32>,
         /// ψ̇, rad/s.
         yaw_rate: f32,
     },
-    /// To a height, over the place where braking ends.
+    /// Go to a height, over the place where the vehicle stops.
     Climb {
         /// z in the world, m.
         height_m: f32,
-        /// At most, m/s.
+        /// Greatest speed, m/s.
         speed_m_s: f32,
     },
-    /// Down, into the ground if there is any: over one place, or as near to it as what is known allows.
+    /// Descend to the ground, over one place if the position is known.
     Descend {
-        /// Rate, m/s, downwards.
+        /// Rate of descent, m/s.
         rate_m_s: f32,
-        /// What is controlled.
+        /// What is known, and therefore controlled.
         known: Known,
-        /// Whether the heading is given up: with a rotor lost, it cannot be held.
+        /// Whether the heading is given up: with a failed rotor it cannot be held.
         heading_free: bool,
     },
 }
@@ -67,7 +67,7 @@ impl Directive {
     /// Brake, and stay.
     pub const HOLD: Self = Self::Velocity { velocity: Vector3::new(0.0, 0.0, 0.0), yaw_rate: 0.0 };
 
-    /// True if every number of it is finite.
+    /// True if every value is finite.
     pub fn is_finite(&self) -> bool {
         match self {
             Self::Stop | Self::Idle | Self::Follow { .. } => true,
@@ -90,13 +90,13 @@ pub enum Mode {
     Disarmed,
     /// Armed on the ground.
     Idle,
-    /// Climbing to where it holds.
+    /// Climbing from the ground.
     TakeOff,
     /// Holding a place.
     Hold,
     /// On the way to a place, or there.
     GoTo,
-    /// At a velocity.
+    /// Flying with a velocity.
     Velocity,
     /// On the configured trajectory, or on the way to it.
     Follow,
@@ -104,8 +104,8 @@ pub enum Mode {
     Return,
     /// Landing.
     Land,
-    /// Coming down because something has failed.
+    /// Descending after a failure.
     Descent,
-    /// Coming down with a rotor lost.
+    /// Descending with a failed rotor.
     MotorOut,
 }

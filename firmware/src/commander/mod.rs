@@ -1,11 +1,12 @@
-//! The commander partition, 50 Hz: what the vehicle is to do now. Arming, modes, and what happens when something fails.
+//! The commander partition, 50 Hz: arming, modes and failsafes.
 //!
-//! `state` has the states and the diagram of what leads from one to another, `watch` what is believed of the vehicle
-//! over several jobs, `checks` what has to hold before something is begun. What comes in are [`Request`]s, what goes
-//! out is a [`Directive`] for guidance.
+//! `state` holds the states and the transition diagram, `watch` the conditions that are judged over several jobs,
+//! `checks` the conditions for arming and take-off. The input is a list of [`Request`]s, the output a [`Directive`] for
+//! guidance.
 //!
-//! A refused command leaves the state as it is and says why; one that asks for what is already being done changes
-//! nothing. A forced disarm also acts at once, through the latch that the inner loop reads every tick (see `autopilot`).
+//! A refused request leaves the state unchanged and returns the reason; a request for what is already being done
+//! changes nothing. A forced disarm also acts at once, through the latch that the inner loop reads every tick (see
+//! `autopilot`).
 
 mod checks;
 mod directive;
@@ -40,28 +41,28 @@ use crate::signals::{NavHealth, NavState, TICK_S, Tick};
 pub struct CommanderInput {
     /// The motion at the release.
     pub nav: NavState,
-    /// Whether samples come.
+    /// Whether sensor samples are arriving.
     pub nav_fresh: bool,
-    /// What of the motion is to be trusted.
+    /// Which components of the motion may be trusted.
     pub health: NavHealth,
-    /// Thrust that the rotors are believed to give, N.
+    /// Estimated thrust of the rotors, N.
     pub thrust_n: f32,
-    /// The battery, if there is a monitor.
+    /// The last battery sample, if there is a recent one.
     pub battery: Option<BatterySample>,
-    /// The rotor that is known to have failed, from 0.
+    /// The rotor that has failed, from 0.
     pub failed_rotor: Option<u8>,
-    /// Commands that came since the last job.
+    /// Commands since the last job.
     pub commands: Commands,
 }
 
-/// What the commander has decided.
+/// Output of the commander.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CommanderOutput {
     /// Whether the rotors may turn.
     pub armed: bool,
     /// What the vehicle is doing, for pilots.
     pub mode: Mode,
-    /// What guidance is to do.
+    /// The directive for guidance.
     pub directive: Directive,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
@@ -69,12 +70,12 @@ pub struct CommanderOutput {
     pub armable: Result<(), Refusal>,
     /// Answers to the commands.
     pub replies: Replies,
-    /// What the pilot is to know.
+    /// A failsafe event to report to the pilot.
     pub event: Option<Event>,
 }
 
 impl CommanderOutput {
-    /// The tick at which the flight's clock started; none unless the trajectory is being flown.
+    /// The tick at which the flight's clock started; `None` unless the trajectory is being flown.
     pub fn flight_start(&self) -> Option<Tick> {
         match self.directive {
             Directive::Follow { since } => Some(since),
@@ -88,31 +89,31 @@ impl CommanderOutput {
 pub struct Commander {
     settings: ModeSettings,
     weight_n: f32,
-    /// Where the trajectory is joined from the ground, and from the air with which heading.
+    /// Where the trajectory is joined from the ground; then the place and heading to join it from the air.
     start: Vector3<f32>,
     entry: Vector3<f32>,
     entry_yaw: f32,
     state: State,
-    /// Where it was armed.
+    /// Where the vehicle was armed.
     home: Vector3<f32>,
     navigation: NavWatch,
     battery: BatteryWatch,
     ground: GroundWatch,
-    /// That the battery is low has been acted upon: the pilot may have decided otherwise.
+    /// The charge level whose failsafe has already acted. It acts once, so that the pilot can override it.
     battery_answered: Charge,
 }
 
-/// A velocity is flown this long, s, unless it is asked for again.
+/// A velocity request expires after this time, s, unless it is repeated.
 pub const VELOCITY_TIMEOUT_S: f32 = 1.0;
-/// After a landing the rotors idle this long, s.
+/// Time for which the rotors idle after a landing, s.
 const IDLE_AFTER_LANDING_S: f32 = 1.0;
-/// A height is reached this near to it, m.
+/// Acceptance radius of a height, m.
 const AT_HEIGHT_M: f32 = 0.3;
-/// A place is reached this near to it, m, and slow.
+/// Acceptance radius of a place, m; the vehicle must also be slow.
 const AT_PLACE_M: f32 = 0.5;
-/// And a heading, rad.
+/// Acceptance range of a heading, rad.
 const AT_HEADING_RAD: f32 = 0.15;
-/// Lower than this over home, m, a landing slows down.
+/// Below this height over home, m, a landing slows down to the touchdown speed.
 const FINAL_HEIGHT_M: f32 = 2.0;
 
 /// The number of ticks in a time.
@@ -125,8 +126,8 @@ impl Commander {
     pub fn new(config: &FlightConfig) -> Self {
         let flies = config.start == Start::InFlight;
         let start = config.start_position();
-        // A trajectory that is none has been refused before.
-        let (entry, entry_yaw) = Guidance::new(config.trajectory, config.join.as_ref(), start)
+        // An invalid trajectory has been refused before.
+        let (entry, entry_yaw) = Guidance::new(config.trajectory.clone(), config.join.as_ref(), start)
             .map_or((start, 0.0), |guidance| guidance.entry(config.start));
         Self {
             settings: config.modes,
@@ -143,7 +144,7 @@ impl Commander {
         }
     }
 
-    /// What holds before the first job's output.
+    /// The output in effect before the first job's.
     pub fn initial_output(&self) -> CommanderOutput {
         CommanderOutput {
             armed: self.state != State::Disarmed,
@@ -163,7 +164,8 @@ impl Commander {
         let mut replies = Replies::new();
         let mut killed = false;
         for command in &input.commands {
-            // The latch that stops the rotors at once is released by an output that says disarmed: not in this one.
+            // An output with `armed` would not release the kill latch, so arming right after a forced disarm is
+            // refused.
             let outcome = if killed && matches!(command.request, Request::Arm { .. }) {
                 Outcome::TemporarilyRejected(Refusal::Moving)
             } else {
@@ -186,7 +188,7 @@ impl Commander {
         }
     }
 
-    /// What is being done.
+    /// The present state.
     pub fn state(&self) -> &State {
         &self.state
     }
@@ -245,7 +247,7 @@ impl Commander {
         self.state = State::Disarmed;
     }
 
-    /// A request to fly somehow.
+    /// A request to take off, move, hold or land.
     fn fly(&mut self, request: &Request, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
         use State as S;
         match (self.state, request) {
@@ -265,7 +267,7 @@ impl Commander {
         Ok(())
     }
 
-    /// The state that a request to fly leads to.
+    /// The state that such a request leads to.
     fn state_for(&self, request: &Request, effective: Tick, input: &CommanderInput) -> State {
         let height = input.nav.position.z;
         match *request {
@@ -289,7 +291,7 @@ impl Commander {
         State::Return { at_m: math::max(self.home.z + self.settings.return_height_m, height), climbs: true }
     }
 
-    /// What fails is answered here, the worst first.
+    /// Failsafes, the most severe first.
     fn fail_safe(&mut self, input: &CommanderInput) -> Option<Event> {
         if matches!(self.state, State::Disarmed | State::Idle { .. }) {
             return None;
@@ -331,7 +333,7 @@ impl Commander {
             return None;
         }
         match (charge, self.state) {
-            // Down it goes already; should it be asked to stay up, this is still to be answered.
+            // It is already descending. If the pilot takes over, the failsafe still has to act.
             (Charge::Good, _) | (_, State::Land | State::Descent { .. }) => return None,
             (Charge::Low, State::Return { .. }) => {}
             (Charge::Critical, _) => self.state = State::Land,
@@ -341,7 +343,7 @@ impl Commander {
         Some(if charge == Charge::Critical { Event::BatteryCritical } else { Event::BatteryLow })
     }
 
-    /// What has been reached leads on.
+    /// Transitions on arrival, touchdown and timeout.
     fn progress(&mut self, effective: Tick, input: &CommanderInput) {
         let nav = &input.nav;
         let has_come = |at: Tick| effective.wrapping_sub(at) < Tick::MAX / 2;
@@ -369,7 +371,7 @@ impl Commander {
         Vector3::new(self.home.x, self.home.y, height)
     }
 
-    /// What guidance is to do, at a height (z, m).
+    /// The directive for guidance, at a height (z, m).
     fn directive(&self, height: f32) -> Directive {
         let settings = &self.settings;
         match self.state {

@@ -1,28 +1,28 @@
-//! What may be asked of the commander, and what it answers and reports.
+//! Requests to the commander, its replies, and the events that it reports.
 
 use core::ops::RangeInclusive;
 
 use crate::math;
 
-/// Height of a take-off for which none is given, m.
+/// Default height of a take-off, m.
 pub const TAKE_OFF_HEIGHT_M: f32 = 2.5;
-/// Heights of a take-off, m: higher than what a landed vehicle's height is uncertain by, and low enough to be over in a
-/// minute or so.
+/// Accepted heights of a take-off, m: more than the uncertainty of a landed vehicle's height, and low enough to be
+/// reached in about a minute.
 pub const TAKE_OFF_HEIGHTS_M: RangeInclusive<f32> = 0.3..=100.0;
-/// No flight goes farther from its origin along an axis, m.
+/// Greatest accepted distance from the origin along an axis, m.
 pub const FARTHEST_M: f32 = 10_000.0;
-/// Faster than any limit that may be configured, m/s.
+/// Greatest accepted speed, m/s: above any limit that may be configured.
 pub const FASTEST_M_S: f32 = 100.0;
 
-/// What a ground station, or a program on board, may ask for. World frame NWU.
+/// A request of a ground station or of a program on board. World frame NWU.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Request {
-    /// Let the rotors turn; `force` skips the checks.
+    /// Arm: the rotors may turn.
     Arm {
         /// Skip the checks.
         force: bool,
     },
-    /// Stop the rotors; `force` also in the air.
+    /// Disarm: the rotors stop.
     Disarm {
         /// Also in the air.
         force: bool,
@@ -41,7 +41,7 @@ pub enum Request {
         /// ψ, rad.
         yaw_rad: f32,
     },
-    /// Fly with a velocity for [`VELOCITY_TIMEOUT_S`](super::VELOCITY_TIMEOUT_S), unless asked again.
+    /// Fly with a velocity; expires after [`VELOCITY_TIMEOUT_S`](super::VELOCITY_TIMEOUT_S) unless it is repeated.
     Velocity {
         /// m/s.
         velocity_m_s: [f32; 3],
@@ -57,9 +57,9 @@ pub enum Request {
 }
 
 impl Request {
-    /// True if every number of it is one that a vehicle can be asked for.
+    /// True if every value is finite and within the accepted range.
     pub fn is_sane(&self) -> bool {
-        /// Two turns, or two turns a second.
+        /// Two turns, or two turns per second.
         const ANGLE: f32 = 4.0 * core::f32::consts::PI;
         // A comparison with NaN is false.
         let within = |values: &[f32], most: f32| values.iter().all(|value| math::abs(*value) <= most);
@@ -74,37 +74,37 @@ impl Request {
     }
 }
 
-/// Where a request has come from, so that the answer finds its way.
+/// The sender of a request, to which the reply goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// From a program on board: nobody waits for an answer.
+    /// A program on board: no acknowledgement is sent.
     OnBoard,
-    /// From a ground station.
+    /// A ground station.
     Station {
         /// MAVLink system and component of the sender.
         sender: (u8, u8),
-        /// Number in `MAV_CMD` of what it has sent.
+        /// The `MAV_CMD` that it sent.
         command: u16,
     },
 }
 
-/// A request and where it has come from.
+/// A request and its sender.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Command {
-    /// What is asked.
+    /// The request.
     pub request: Request,
-    /// By whom.
+    /// Its sender.
     pub origin: Origin,
 }
 
-/// How a command ended.
+/// Result of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Done, or under way.
+    /// Done, or in progress.
     Accepted,
-    /// Not now; the reason may pass.
+    /// Refused for a reason that may pass.
     TemporarilyRejected(Refusal),
-    /// It holds a number that makes no sense.
+    /// A parameter is not finite or out of range.
     Denied,
 }
 
@@ -113,11 +113,11 @@ pub enum Outcome {
 pub enum Refusal {
     /// No valid motion from the sensors.
     NoNavigation,
-    /// Roll and pitch, or the heading, are not known yet.
+    /// No valid estimate of roll and pitch, or of the heading.
     NotAligned,
-    /// The position is not known.
+    /// No valid estimate of position or velocity.
     NoPosition,
-    /// The height is not known.
+    /// No valid estimate of the height.
     NoHeight,
     /// Tilted more than 20°.
     NotLevel,
@@ -129,43 +129,44 @@ pub enum Refusal {
     RotorFailed,
     /// In the air.
     InAir,
-    /// On the ground: it is to take off first.
+    /// On the ground: take off first.
     OnGround,
-    /// Rotors stopped: it is to be armed first.
+    /// Disarmed: arm first.
     Disarmed,
-    /// The trajectory begins elsewhere.
+    /// Not at the start point of the trajectory.
     NotAtStart,
 }
 
-/// The answer to a command.
+/// The reply to a command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reply {
     /// The command.
     pub command: Command,
-    /// How it ended.
+    /// Its result.
     pub outcome: Outcome,
 }
 
-/// Something that the pilot has not asked for and is to know.
+/// A failsafe event, to be reported to the pilot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// Samples have stopped coming: descends without knowing anything.
+    /// No sensor samples: descends level with a thrust below the weight.
     SensorsLost,
-    /// They have not come back: the rotors are stopped.
+    /// Still no sensor samples: the rotors are stopped.
     SensorsGone,
-    /// The attitude is not known: descends level, as far as that goes.
+    /// Attitude unknown: levels as well as the estimate allows, with a thrust below the weight.
     AttitudeLost,
-    /// The height is not known: descends with less thrust than its weight.
+    /// Height unknown: descends level at a rate, or with a thrust below the weight if the vertical velocity is unknown
+    /// too.
     HeightLost,
-    /// Position and velocity are not known: descends level.
+    /// Position and velocity unknown: descends level.
     VelocityLost,
-    /// The position is not known: descends where it has stopped.
+    /// Position unknown: brakes and descends.
     PositionLost,
-    /// Returns.
+    /// Battery low: returns home.
     BatteryLow,
-    /// Lands at once.
+    /// Battery critical: lands at once.
     BatteryCritical,
-    /// Lands at once, turning.
+    /// A rotor has failed: descends at once, without yaw control.
     RotorFailed {
         /// Which, from 0.
         rotor: u8,

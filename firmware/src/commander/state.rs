@@ -1,4 +1,4 @@
-//! The commander's states, and what leads from one to another.
+//! The commander's states and transitions.
 //!
 //! ```text
 //! Disarmed                     ─ arm ──────────────► Idle
@@ -29,24 +29,25 @@
 //! Cruise = Hold, GoTo, Velocity, Join, Follow, Return
 //! ```
 //!
-//! A test holds this diagram against the code. *Loss* is that of position, velocity, height, attitude or samples, once
-//! it has lasted; what comes back does not end the descent, a pilot does. *Gone* are samples that have not come for so
-//! long that control does more harm than none. From a state that flies, a disarm that is not forced is accepted before
-//! lift-off only, and leads to Disarmed.
+//! A test checks this diagram against the code.
+//!
+//! *Loss* is a persistent loss of position, velocity, height, attitude or samples. If it recovers, the descent goes on
+//! until the pilot ends it. *Gone* means that samples have been missing for so long that control does more harm than
+//! good. In a flying state, a disarm that is not forced is accepted before lift-off only, and leads to Disarmed.
 
 use nalgebra::Vector3;
 
 use super::{Known, Mode};
 use crate::signals::Tick;
 
-/// What is being done (see the diagram above).
+/// State of the commander (see the diagram above).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum State {
     /// Rotors stopped.
     Disarmed,
-    /// Rotors idle, on the ground.
+    /// Rotors idling on the ground.
     Idle {
-        /// When they stop, after a landing.
+        /// When to disarm, after a landing.
         disarm_at: Option<Tick>,
     },
     /// Climbing from the ground.
@@ -54,51 +55,51 @@ pub enum State {
         /// To this z, m.
         to_m: f32,
     },
-    /// At the place where it has stopped.
+    /// Holding the place where the vehicle has stopped.
     Hold,
-    /// To a place.
+    /// Going to a place.
     GoTo {
         /// m.
         position: Vector3<f32>,
         /// ψ, rad.
         yaw: f32,
     },
-    /// With a velocity.
+    /// Flying with a velocity.
     Velocity {
         /// m/s.
         velocity: Vector3<f32>,
         /// ψ̇, rad/s.
         yaw_rate: f32,
-        /// When it has not been asked again.
+        /// When the request expires.
         until: Tick,
     },
-    /// To where the trajectory is joined.
+    /// Going to the point where the trajectory is joined.
     Join,
-    /// On the trajectory.
+    /// Following the trajectory.
     Follow {
         /// Start of the flight's clock.
         since: Tick,
     },
-    /// Home, at this z (m): up to it first.
+    /// Returning home: climbs first, then goes there.
     Return {
-        /// m.
+        /// z of the return flight, m.
         at_m: f32,
         /// Whether it is still climbing.
         climbs: bool,
     },
-    /// Down, where it is.
+    /// Landing.
     Land,
-    /// Down, because something of the motion is lost.
+    /// Descending because part of the motion is unknown.
     Descent {
         /// What is known.
         known: Known,
     },
-    /// Down, with a rotor lost.
+    /// Descending with a failed rotor.
     MotorOut,
 }
 
 impl State {
-    /// By the name that pilots know.
+    /// The mode that pilots see.
     pub(super) fn mode(&self) -> Mode {
         match self {
             Self::Disarmed => Mode::Disarmed,

@@ -1,4 +1,4 @@
-//! The state machine against its diagram, what is refused and what fails.
+//! The state machine against its diagram; refusals and failsafes.
 
 mod any;
 
@@ -10,7 +10,7 @@ use super::*;
 
 const PERIOD: Tick = COMMANDER.period;
 
-/// 30 m over the ground and away from everything, hovering.
+/// Hovering 30 m above the ground, away from home.
 fn hovering() -> CommanderInput {
     let nav = NavState { position: Vector3::new(50.0, 60.0, 30.0), ..NavState::at_rest() };
     CommanderInput { nav, thrust_n: FlightConfig::default().airframe.weight_n(), ..standing() }
@@ -41,7 +41,7 @@ fn volts(voltage_v: f32, input: &CommanderInput) -> CommanderInput {
     CommanderInput { battery: Some(BatterySample { voltage_v, current_a: 10.0 }), ..input.clone() }
 }
 
-/// A commander in a state, in the air if the state is one that flies, and the clock.
+/// A commander in a state, airborne if it is a flying state, and the clock.
 struct Bench {
     commander: Commander,
     tick: Tick,
@@ -76,7 +76,7 @@ const GO_TO: Request = Request::GoTo { position_m: [1.0, 2.0, 3.0], yaw_rad: 0.5
 const VELOCITY: Request = Request::Velocity { velocity_m_s: [1.0, 0.0, 0.0], yaw_rate_rad_s: 0.1 };
 const TAKE_OFF: Request = Request::TakeOff { height_m: 2.0 };
 
-/// Every state, none of them about to end by itself.
+/// Every state, none of them about to time out.
 fn states() -> Vec<State> {
     let velocity = Vector3::new(1.0, 0.0, 0.0);
     vec![
@@ -100,7 +100,7 @@ fn name(state: &State) -> String {
     text.split([' ', '{']).next().expect("a name").to_string()
 }
 
-/// Where a state leads to by each cause.
+/// The transitions out of a state, by cause.
 fn outcomes(state: State) -> Vec<(&'static str, State)> {
     let flies = !matches!(state, State::Disarmed | State::Idle { .. });
     let quiet = if flies { hovering() } else { standing() };
@@ -235,7 +235,7 @@ fn arming_is_refused_with_the_reason_and_lets_the_rotors_idle() {
 }
 
 #[test]
-fn what_cannot_be_done_now_is_refused_with_the_reason() {
+fn a_request_that_the_state_does_not_allow_is_refused_with_the_reason() {
     use Outcome::TemporarilyRejected as No;
     let mut disarmed = Bench::new(State::Disarmed);
     let mut idle = Bench::new(State::Idle { disarm_at: None });
@@ -262,7 +262,7 @@ fn what_cannot_be_done_now_is_refused_with_the_reason() {
 }
 
 #[test]
-fn numbers_that_make_no_sense_are_denied() {
+fn parameters_out_of_range_are_denied() {
     let go = |x: f32, yaw_rad: f32| Request::GoTo { position_m: [x, 0.0, 5.0], yaw_rad };
     let fly = |z: f32, yaw_rate_rad_s: f32| Request::Velocity { velocity_m_s: [0.0, 0.0, z], yaw_rate_rad_s };
     let climb = |height_m: f32| Request::TakeOff { height_m };
@@ -277,7 +277,7 @@ fn numbers_that_make_no_sense_are_denied() {
 }
 
 #[test]
-fn a_velocity_lasts_a_second_unless_it_is_asked_for_again() {
+fn a_velocity_expires_after_a_second_unless_it_is_repeated() {
     let mut bench = Bench::new(State::Hold);
     for _ in 0..5 {
         bench.ask(VELOCITY, &hovering());
@@ -289,7 +289,7 @@ fn a_velocity_lasts_a_second_unless_it_is_asked_for_again() {
 }
 
 #[test]
-fn losses_are_answered_by_what_is_left_and_told_once() {
+fn a_loss_starts_the_descent_that_remains_possible_and_is_reported_once() {
     let health = |f: &dyn Fn(&mut NavHealth)| {
         let mut health = NavHealth::ALL;
         f(&mut health);
@@ -321,7 +321,7 @@ fn losses_are_answered_by_what_is_left_and_told_once() {
 }
 
 #[test]
-fn a_loss_that_gets_worse_is_told_and_one_that_ends_leaves_the_decision_to_the_pilot() {
+fn a_loss_that_gets_worse_is_reported_and_one_that_ends_leaves_the_decision_to_the_pilot() {
     let mut bench = Bench::new(State::Follow { since: 0 });
     let position = CommanderInput { health: NavHealth { position: false, ..NavHealth::ALL }, ..hovering() };
     let mut velocity = position.clone();
@@ -335,7 +335,7 @@ fn a_loss_that_gets_worse_is_told_and_one_that_ends_leaves_the_decision_to_the_p
 }
 
 #[test]
-fn samples_that_stay_away_stop_the_rotors() {
+fn missing_samples_stop_the_rotors() {
     let mut bench = Bench::new(State::Hold);
     let stale = CommanderInput { nav_fresh: false, ..hovering() };
     assert_eq!(bench.run(1.9, &stale), [Event::SensorsLost]);
@@ -394,7 +394,7 @@ fn a_return_climbs_goes_home_and_lands() {
 }
 
 #[test]
-fn it_has_landed_when_it_gives_little_thrust_and_does_not_fall_and_only_if_it_was_to() {
+fn touchdown_is_little_thrust_without_falling_and_only_while_descending() {
     let weight = FlightConfig::default().airframe.weight_n();
     let with = |thrust: f32, sink: f32| {
         let mut input = CommanderInput { thrust_n: thrust * weight, ..hovering() };
@@ -435,7 +435,7 @@ fn before_lift_off_it_may_be_disarmed_and_after_it_not() {
     let mut bench = Bench::new(State::Idle { disarm_at: None });
     bench.ask(TAKE_OFF, &standing());
     assert_eq!(bench.ask(disarm, &standing()), Outcome::Accepted);
-    // A height that does not move is no proof of standing, once there is thrust.
+    // With thrust, a constant height does not prove that the vehicle is on the ground.
     let mut bench = Bench::new(State::Idle { disarm_at: None });
     bench.ask(TAKE_OFF, &standing());
     let lifting = CommanderInput { thrust_n: FlightConfig::default().airframe.weight_n(), ..standing() };

@@ -1,10 +1,10 @@
-//! The commander's words: the one place for what modes, requests, refusals and events are called, over MAVLink, on a
-//! console and in files.
+//! Texts of the commander: the names of modes, requests, refusals and events, over MAVLink, on the console and in
+//! files.
 
 use super::{Event, Mode, Refusal, Request};
 
 impl Mode {
-    /// Its name, in lower case and without spaces.
+    /// The name of the mode, in lower case and without spaces.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Disarmed => "disarmed",
@@ -23,12 +23,12 @@ impl Mode {
 }
 
 impl Request {
-    /// What is requested, to be followed by "refused".
+    /// The name of the request, to be followed by "refused".
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Arm { .. } => "Arming",
             Self::Disarm { .. } => "Disarming",
-            Self::TakeOff { .. } => "Take-off",
+            Self::TakeOff { .. } => "Takeoff",
             Self::Hold => "Hold",
             Self::GoTo { .. } => "Go to",
             Self::Velocity { .. } => "Velocity",
@@ -40,43 +40,99 @@ impl Request {
 }
 
 impl Refusal {
-    /// The reason in two or three words.
+    /// The reason in a few words.
     pub const fn reason(self) -> &'static str {
         match self {
             Self::NoNavigation => "no sensor data",
-            Self::NotAligned => "attitude unknown",
-            Self::NoPosition => "position unknown",
-            Self::NoHeight => "height unknown",
-            Self::NotLevel => "not level",
-            Self::Moving => "moving",
-            Self::Battery => "battery low",
-            Self::RotorFailed => "rotor failed",
-            Self::InAir => "in the air",
-            Self::OnGround => "on the ground",
-            Self::Disarmed => "disarmed",
-            Self::NotAtStart => "it begins elsewhere",
+            Self::NotAligned => "no valid attitude estimate",
+            Self::NoPosition => "no valid position estimate",
+            Self::NoHeight => "no valid height estimate",
+            Self::NotLevel => "vehicle not level",
+            Self::Moving => "vehicle moving",
+            Self::Battery => "battery too low",
+            Self::RotorFailed => "motor failed",
+            Self::InAir => "vehicle in the air",
+            Self::OnGround => "vehicle on the ground",
+            Self::Disarmed => "vehicle disarmed",
+            Self::NotAtStart => "not at the start point",
         }
     }
 }
 
 impl Event {
-    /// What has happened, and what the vehicle does about it. Short enough for a `STATUSTEXT` (50 characters).
+    /// What has happened, and what the vehicle does about it.
     pub const fn text(self) -> &'static str {
         match self {
-            Self::SensorsLost => "Sensors lost: descending blind",
-            Self::SensorsGone => "Sensors lost: rotors stopped",
-            Self::AttitudeLost => "Attitude lost: descending blind",
-            Self::HeightLost => "Height lost: descending blind",
-            Self::VelocityLost => "Velocity lost: descending level",
-            Self::PositionLost => "Position lost: descending",
-            Self::BatteryLow => "Battery low: returning",
+            Self::SensorsLost => "Sensor data lost: blind descent",
+            Self::SensorsGone => "No sensor data for 2 s: motors stopped",
+            Self::AttitudeLost => "Attitude estimate lost: blind descent",
+            Self::HeightLost => "Height estimate lost: level descent",
+            Self::VelocityLost => "Velocity estimate lost: level descent",
+            Self::PositionLost => "Position estimate lost: descending",
+            Self::BatteryLow => "Battery low: returning home",
             Self::BatteryCritical => "Battery critical: landing",
-            // Pilots count rotors from 1.
-            Self::RotorFailed { rotor: 0 } => "Rotor 1 failed: descending, turning",
-            Self::RotorFailed { rotor: 1 } => "Rotor 2 failed: descending, turning",
-            Self::RotorFailed { rotor: 2 } => "Rotor 3 failed: descending, turning",
-            Self::RotorFailed { rotor: 3 } => "Rotor 4 failed: descending, turning",
-            Self::RotorFailed { .. } => "Rotor failed: descending, turning",
+            // Pilots count motors from 1.
+            Self::RotorFailed { rotor: 0 } => "Motor 1 failed: descending without yaw control",
+            Self::RotorFailed { rotor: 1 } => "Motor 2 failed: descending without yaw control",
+            Self::RotorFailed { rotor: 2 } => "Motor 3 failed: descending without yaw control",
+            Self::RotorFailed { rotor: 3 } => "Motor 4 failed: descending without yaw control",
+            Self::RotorFailed { .. } => "Motor failed: descending without yaw control",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Length of the text in a MAVLink `STATUSTEXT`.
+    const STATUSTEXT: usize = 50;
+
+    #[test]
+    fn texts_fit_into_a_statustext() {
+        let zero = [0.0; 3];
+        let requests = [
+            Request::Arm { force: false },
+            Request::Disarm { force: false },
+            Request::TakeOff { height_m: 0.0 },
+            Request::Hold,
+            Request::GoTo { position_m: zero, yaw_rad: 0.0 },
+            Request::Velocity { velocity_m_s: zero, yaw_rate_rad_s: 0.0 },
+            Request::Land,
+            Request::Return,
+            Request::Follow,
+        ];
+        let refusals = [
+            Refusal::NoNavigation,
+            Refusal::NotAligned,
+            Refusal::NoPosition,
+            Refusal::NoHeight,
+            Refusal::NotLevel,
+            Refusal::Moving,
+            Refusal::Battery,
+            Refusal::RotorFailed,
+            Refusal::InAir,
+            Refusal::OnGround,
+            Refusal::Disarmed,
+            Refusal::NotAtStart,
+        ];
+        for (request, refusal) in requests.iter().flat_map(|request| refusals.map(|refusal| (request, refusal))) {
+            let text = format!("{} refused: {}", request.name(), refusal.reason());
+            assert!(text.len() <= STATUSTEXT, "{text}");
+        }
+        for event in [
+            Event::SensorsLost,
+            Event::SensorsGone,
+            Event::AttitudeLost,
+            Event::HeightLost,
+            Event::VelocityLost,
+            Event::PositionLost,
+            Event::BatteryLow,
+            Event::BatteryCritical,
+            Event::RotorFailed { rotor: 3 },
+            Event::RotorFailed { rotor: 4 },
+        ] {
+            assert!(event.text().len() <= STATUSTEXT, "{}", event.text());
         }
     }
 }

@@ -1,5 +1,4 @@
-//! What the commander believes of the vehicle over several jobs: what of the motion is lost, how the battery stands,
-//! and whether it touches the ground.
+//! Conditions that are judged over several jobs: loss of navigation, battery charge, lift-off and touchdown.
 
 use super::checks::is_slow;
 use super::{CommanderInput, Known};
@@ -8,35 +7,36 @@ use crate::math;
 use crate::schedule::COMMANDER;
 use crate::signals::TICK_S;
 
-/// Jobs in a time.
+/// Number of commander jobs in a time.
 pub(super) const fn jobs(seconds: f32) -> u16 {
     (seconds / (COMMANDER.period as f32 * TICK_S) + 0.5) as u16
 }
 
-/// Counts the jobs for which something has been true without a break.
+/// Counts the consecutive jobs for which a condition has been true.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Persistence {
     jobs: u16,
 }
 
 impl Persistence {
-    /// True once it has been so for as long.
-    fn step(&mut self, is_so: bool, long: u16) -> bool {
-        self.jobs = if is_so { self.jobs.saturating_add(1) } else { 0 };
+    /// Takes the condition of a job; true once it has held for `long` jobs.
+    fn step(&mut self, condition: bool, long: u16) -> bool {
+        self.jobs = if condition { self.jobs.saturating_add(1) } else { 0 };
         self.jobs >= long
     }
 }
 
-/// A position or velocity that does not come back within this time is lost, s: until then, it is carried forward.
+/// A position or velocity that stays invalid for this long is lost, s. Until then the estimator's prediction is good
+/// enough.
 const LOST_AFTER_S: f32 = 1.0;
-/// The same for a height, s: what is wrong upwards meets the ground sooner.
+/// The same for the height, s: shorter, because a vertical error ends in the ground.
 const HEIGHT_LOST_AFTER_S: f32 = 0.5;
-/// The same for an attitude, s.
+/// The same for the attitude, s: shorter still, because thrust in a wrong direction accelerates the vehicle at once.
 const ATTITUDE_LOST_AFTER_S: f32 = 0.1;
-/// Without a sample for this long, the attitude is no more what it was and control does harm, s.
+/// After this time without a sample the attitude may be anything, and control does more harm than good, s.
 const GONE_AFTER_S: f32 = 2.0;
 
-/// What of the motion is lost.
+/// Detects the loss of navigation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NavWatch {
     position: Persistence,
@@ -45,7 +45,7 @@ pub(super) struct NavWatch {
     attitude: Persistence,
     climb: Persistence,
     samples: Persistence,
-    /// What is known, a loss counted once it has lasted.
+    /// What is known, after persistent losses.
     known: Option<Known>,
     gone: bool,
 }
@@ -77,19 +77,19 @@ impl NavWatch {
         self.known.unwrap_or(Known::Position)
     }
 
-    /// True if samples have not come for so long that nothing can be controlled.
+    /// True if samples have been missing for so long that nothing can be controlled.
     pub(super) fn is_gone(&self) -> bool {
         self.gone
     }
 }
 
-/// A voltage counts once it has lasted, s: it dips with every climb.
+/// A low voltage must persist for this long, s: it dips briefly with every climb.
 const VOLTAGE_LASTS_S: f32 = 2.0;
 
-/// How the battery stands.
+/// Charge of the battery.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Charge {
-    /// Enough, or not watched.
+    /// Good, or not monitored.
     #[default]
     Good,
     /// Enough to return.
@@ -98,7 +98,7 @@ pub(super) enum Charge {
     Critical,
 }
 
-/// The battery's voltage over time. It does not recover in flight: what has been low stays so until it is disarmed.
+/// Monitors the battery voltage. A battery does not recover in flight: a level that was reached holds until disarming.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BatteryWatch {
     low: Persistence,
@@ -108,7 +108,7 @@ pub(super) struct BatteryWatch {
 
 impl BatteryWatch {
     pub(super) fn step(&mut self, input: &CommanderInput, settings: &ModeSettings) {
-        // A voltage that is not a number is not low.
+        // NaN is not below any limit.
         let below = |limit: f32| input.battery.is_some_and(|battery| battery.voltage_v < limit);
         let low = self.low.step(below(settings.battery_low_v), jobs(VOLTAGE_LASTS_S));
         let critical = self.critical.step(below(settings.battery_critical_v), jobs(VOLTAGE_LASTS_S));
@@ -131,25 +131,26 @@ impl BatteryWatch {
     }
 }
 
-/// Higher than this over where it stood, m, the vehicle flies.
+/// Airborne above this height over the ground, m.
 const LIFT_OFF_M: f32 = 0.15;
-/// So does one that gives this part of its weight for [`LIFT_OFF_S`], whatever its height is believed to be.
+/// Airborne with a thrust above this fraction of the weight for [`LIFT_OFF_S`], whatever the height estimate says.
 const LIFT_OFF_THRUST: f32 = 0.85;
 const LIFT_OFF_S: f32 = 0.5;
-/// A vehicle that is told to descend, gives less than this part of its weight and does not fall, stands.
+/// Touchdown while descending: thrust below this fraction of the weight, yet slower than [`STANDING_M_S`], for
+/// [`STANDING_S`]. A flying vehicle with so little thrust would fall.
 const STANDING_THRUST: f32 = 0.55;
 const STANDING_M_S: f32 = 0.3;
 const STANDING_S: f32 = 0.5;
-/// So does one that gives less than all of it and has not moved at all for longer.
+/// Touchdown too: thrust below nearly all of the weight, and no motion at all for longer.
 const RESTING_THRUST: f32 = 0.95;
 const RESTING_M_S: f32 = 0.1;
 const RESTING_S: f32 = 2.0;
 
-/// Whether the vehicle touches the ground.
+/// Detects lift-off and touchdown.
 #[derive(Clone, Debug)]
 pub(super) struct GroundWatch {
     airborne: bool,
-    /// Where it stood, m.
+    /// z of the ground, as last stood on, m.
     ground_m: f32,
     lifting: Persistence,
     standing: Persistence,
@@ -163,15 +164,15 @@ impl GroundWatch {
         Self { airborne, ground_m, lifting: none, standing: none, resting: none, at_rest: none }
     }
 
-    /// With rotors that stand still or idle: it is on the ground once it has come to rest.
+    /// With rotors stopped or idling: landed once the vehicle has come to rest.
     pub(super) fn step_idle(&mut self, input: &CommanderInput) {
         if self.at_rest.step(is_slow(&input.nav), jobs(STANDING_S)) || !self.airborne {
             *self = Self::new(false, input.nav.position.z);
         }
     }
 
-    /// With rotors that carry; if the vehicle is told to descend, with what is known of the motion. Without its height,
-    /// whether it moves is not known, and it is never taken to have landed.
+    /// With rotors carrying the vehicle; `descends` is what is known of the motion if it is commanded to descend.
+    /// Without a known vertical velocity no touchdown is detected.
     pub(super) fn step_flying(&mut self, input: &CommanderInput, weight_n: f32, descends: Option<Known>) {
         let descend = descends.is_some_and(|known| known <= Known::Climb);
         let thrust = input.thrust_n / weight_n;

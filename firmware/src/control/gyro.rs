@@ -1,10 +1,11 @@
-//! The gyroscope's way to the controller: notches at the rotors' frequencies, then a low-pass.
+//! Gyroscope filter ahead of the controller: notches at the rotor frequencies, then a low-pass.
 //!
-//! A rotor that is not quite balanced shakes the frame once a turn. The notches follow the speeds at which the rotors are
-//! believed to turn, one rotor's a tick; each is the bilinear image of `(s² + ω²)/(s² + s ω/Q + ω²)`, the low-pass that of
-//! a second-order Butterworth filter (Oppenheim and Schafer 2010, §7.1, with the frequency prewarped). Below them they
-//! cost phase: a notch about f/(Q f0) rad at f ≪ f0. What is integrated to an attitude does not pass through here:
-//! vibration has no mean, and a delay would.
+//! An unbalanced rotor shakes the frame once per turn. The notches follow the estimated rotor speeds; one notch is
+//! retuned per tick, in turn. Each notch is the bilinear transform of `(s² + ω²)/(s² + s ω/Q + ω²)`, and the low-pass
+//! that of a second-order Butterworth filter (Oppenheim and Schafer 2010, §7.1, with frequency prewarping). Below its
+//! frequency f0 a notch costs a phase of about f/(Q f0) rad, for f ≪ f0.
+//!
+//! The estimator integrates the unfiltered rates: vibration has zero mean, but the delay of a filter would be an error.
 
 use nalgebra::Vector3;
 
@@ -12,11 +13,11 @@ use crate::airframe::ROTORS;
 use crate::math;
 use crate::signals::TICK_S;
 
-/// Frequency over bandwidth of a notch.
+/// Quality factor of a notch: centre frequency over bandwidth.
 const QUALITY: f32 = 4.0;
-/// Slower rotors than this are not filtered, rad/s: a notch would take what control needs.
+/// A rotor slower than this is not filtered, rad/s: the notch's phase lag would reach into the control bandwidth.
 const NOTCH_FROM_RAD_S: f32 = 250.0;
-/// Nor faster ones: 450 Hz, short of half the sampling frequency.
+/// A rotor faster than this is not filtered, rad/s: 450 Hz, just below the Nyquist frequency.
 const NOTCH_TO_RAD_S: f32 = 2_827.0;
 /// Cut-off of the low-pass, rad/s: 150 Hz.
 const LOW_PASS_RAD_S: f32 = 942.5;
@@ -29,7 +30,7 @@ struct Coefficients {
 }
 
 impl Coefficients {
-    /// Lets everything pass.
+    /// Passes everything.
     const NONE: Self = Self { b: [1.0, 0.0, 0.0], a: [0.0, 0.0] };
 
     /// A notch at ω, rad/s.
@@ -54,7 +55,7 @@ impl Coefficients {
     }
 }
 
-/// A filter of three axes, by its last inputs and outputs: its coefficients may change as it runs.
+/// A biquad filter of three axes in direct form I, so that its coefficients may change while it runs.
 #[derive(Clone, Copy, Debug)]
 struct Biquad {
     coefficients: Coefficients,
@@ -78,17 +79,17 @@ impl Biquad {
     }
 }
 
-/// The filter ahead of the controller.
+/// The gyroscope filter ahead of the controller.
 #[derive(Clone, Debug)]
 pub struct GyroFilter {
     notches: [Biquad; ROTORS],
     low_pass: Biquad,
-    /// The rotor whose notch is moved next.
+    /// The rotor whose notch was retuned last.
     turn: usize,
 }
 
 impl GyroFilter {
-    /// At rest, rotors standing.
+    /// For a vehicle at rest with its rotors stopped.
     pub fn new() -> Self {
         Self {
             notches: [Biquad::new(Coefficients::NONE); ROTORS],
@@ -97,7 +98,7 @@ impl GyroFilter {
         }
     }
 
-    /// Rates for the controller, of those measured and the rotors' speeds, all rad/s.
+    /// The filtered rates, from the measured rates and the rotor speeds, all in rad/s.
     #[inline]
     pub fn filter(&mut self, measured: &Vector3<f32>, omega_rad_s: &[f32; ROTORS]) -> Vector3<f32> {
         self.turn = (self.turn + 1) % ROTORS;

@@ -1,9 +1,31 @@
-//! The mixer: from U1..U4 to squared rotor speeds, the inverse of Eq. 4 within 0 ≤ ωi² ≤ a limit for each rotor.
+//! The mixer (control allocation): from U1..U4 to squared rotor speeds, the inverse of Eq. 4 within a limit per rotor.
 //!
-//! Where a limit binds, roll and pitch are kept before thrust, and thrust before yaw: first the torque vector
-//! (U2, U3) is shortened as little as possible over every thrust and yaw, then the thrust nearest to the wanted
-//! one is taken over every yaw, then the nearest yaw. Exact for four to eight rotors, and without a search: the
-//! [`facets`] of what the rotors can give are known beforehand, so each priority is a limit by those that bound it.
+//! When a rotor saturates, roll and pitch have priority over thrust, and thrust over yaw: the torque vector (U2, U3) is
+//! shortened as little as possible, for any thrust and yaw; then the thrust nearest to the demand is chosen, for any
+//! yaw; then the nearest yaw. The result is exact for four to eight rotors and needs no search: the [`facets`] of the
+//! set of attainable U are computed in advance, so each priority is a clamp by the facets that bound it.
+//!
+//! ```
+//! use firmware::airframe::Airframe;
+//! use firmware::control::mixer::Mixer;
+//! use firmware::signals::ControlInput;
+//!
+//! let airframe = Airframe::paper(2.0);
+//! let mixer = Mixer::new(&airframe.geometry.rows(), airframe.omega_max_rad_s).expect("independent rows");
+//!
+//! // Hover with a little roll: the four rotors give exactly the demand.
+//! let demand = ControlInput { thrust_n: airframe.weight_n(), roll_n_m: 0.1, ..ControlInput::default() };
+//! let allocation = mixer.allocate(&demand).expect("a finite demand");
+//! assert!(!allocation.saturated);
+//! assert!((mixer.given(&allocation.omega_sq).roll_n_m - 0.1).abs() < 1e-4);
+//!
+//! // Far too much yaw: roll and thrust stay, yaw is what is left.
+//! let demand = ControlInput { yaw_n_m: 1.0, ..demand };
+//! let allocation = mixer.allocate(&demand).expect("a finite demand");
+//! let given = mixer.given(&allocation.omega_sq);
+//! assert!(allocation.saturated && given.yaw_n_m < 0.2);
+//! assert!((given.thrust_n - airframe.weight_n()).abs() < 1e-3 && (given.roll_n_m - 0.1).abs() < 1e-4);
+//! ```
 
 pub mod facets;
 
@@ -13,40 +35,40 @@ use crate::math;
 use crate::signals::ControlInput;
 use facets::{Column, Facet, Layout, Rotors, Table};
 
-/// Squared rotor speeds, rad²/s², and whether they give the demand.
+/// Squared rotor speeds, rad²/s², and whether they give the whole demand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Allocation<const N: usize> {
     /// ωi², each from zero to its rotor's limit.
     pub omega_sq: [f32; N],
-    /// True if a limit took something of the demand.
+    /// True if a limit reduced the demand.
     pub saturated: bool,
 }
 
-/// Why a mixer cannot be built, a limit not be set or a demand not allocated.
+/// Error of building a mixer, setting a limit or allocating a demand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MixerError {
     /// The geometry does not span U1..U4: its rows are not independent.
     Singular,
     /// The limit of this rotor, counted from 0, is not within 0..=1.
     Limit(usize),
-    /// The demand holds a number that is not finite; the field's name.
+    /// A field of the demand is NaN or infinite; its name.
     NonFinite(&'static str),
 }
 
-/// The inverse of a rotor geometry and the facets of what its rotors can give, ready for the loop.
+/// The inverse of a rotor geometry and the facets of its attainable set, ready for the loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mixer<const N: usize>
 where
     Rotors<N>: Layout,
 {
-    /// Speeds for a unit of each of U1, U2, U3, U4: columns of B⁺.
+    /// Columns of B⁺: squared speeds per unit of U1, U2, U3 and U4.
     thrust: [f32; N],
     roll: [f32; N],
     pitch: [f32; N],
     yaw: [f32; N],
-    /// Yaw for a unit of a rotor's speed: 1/`yaw`, or 0 for a rotor to which yaw is all one.
+    /// Yaw per unit of a rotor's squared speed: 1/`yaw`, or 0 for a rotor whose speed does not depend on yaw.
     yaw_per_speed: [f32; N],
-    /// Greatest ωi² of each rotor. Never −0: [`is_possible`] compares bits.
+    /// Greatest ωi² of each rotor. Never −0: [`is_possible`] compares bit patterns.
     limits: [f32; N],
     torque_facets: <Rotors<N> as Layout>::Torque,
     thrust_facets: <Rotors<N> as Layout>::Thrust,
@@ -56,19 +78,19 @@ where
     omega_sq_max: f32,
 }
 
-/// How U is shared out where more than four rotors leave a choice that the pseudo-inverse does not make.
+/// Allocation among more than four rotors where the pseudo-inverse exceeds a limit.
 #[derive(Clone, Debug, PartialEq)]
 struct Spare<const N: usize>
 where
     Rotors<N>: Layout,
 {
-    /// The rotors: four that span U1..U4, then the others.
+    /// Order of the rotors: four that span U1..U4, then the others.
     order: [usize; N],
-    /// The four rotors' speeds for U.
+    /// Inverse of the first four columns of B.
     inverse: Matrix4<f32>,
-    /// What bounds the speed of the fifth rotor in `order`, then of the sixth and so on.
+    /// Facets that bound the speed of the fifth rotor in `order`, then of the sixth and so on.
     facets: <Rotors<N> as Layout>::Spare,
-    /// How many of these facets are the fifth's, the sixth's and so on; those of the first four are none.
+    /// Number of facets per rotor in `order`; 0 for the first four.
     counts: [usize; N],
 }
 
@@ -80,11 +102,11 @@ fn non_finite(demand: &ControlInput) -> MixerError {
     MixerError::NonFinite(culprit.map_or("demand", |(name, _)| name))
 }
 
-/// Greatest entry of (B Bᵀ)⁻¹, rows of unit size: beyond it f32 leaves less than three digits of the inverse.
+/// Greatest entry of (B Bᵀ)⁻¹ for rows of unit norm: beyond it f32 leaves less than three digits of the inverse.
 const INVERSE_MAX: f32 = 1e4;
 
-/// How far beyond its limits a rotor is taken to reach where torque is shortened, as a part of ωmax². Where rotors have
-/// failed, the origin may lie on an edge of the torques: one along it must not vanish because rounding leads it out.
+/// Slack on each rotor's limit when torque is shortened, as a fraction of ωmax². With failed rotors the origin may lie
+/// on an edge of the attainable torques; a torque along that edge must not vanish because of rounding.
 const HAIR: f32 = 1e-6;
 
 impl<const N: usize> Mixer<N>
@@ -96,7 +118,7 @@ where
     /// # Errors
     /// [`MixerError::Singular`] if the rotors cannot produce U1..U4 independently of each other.
     pub fn new(rows: &[[f32; N]; 4], omega_max: f32) -> Result<Self, MixerError> {
-        // Each row is scaled to unit size first, so that N and N m weigh the same.
+        // Each row is scaled to unit norm first, so that N and N m have the same weight.
         let mut scale = [0.0; 4];
         let mut b = SMatrix::<f32, 4, N>::zeros();
         for ((row, scale), mut target) in rows.iter().zip(&mut scale).zip(b.row_iter_mut()) {
@@ -140,16 +162,16 @@ where
         Ok(mixer)
     }
 
-    /// Greatest ωi² of a sound rotor, rad²/s².
+    /// Greatest ωi² of a working rotor, rad²/s².
     pub const fn omega_sq_max(&self) -> f32 {
         self.omega_sq_max
     }
 
-    /// Limits each rotor's ω² to a part 0..=1 of the greatest: less than one for a weak rotor, zero for one that has
-    /// failed. For the slow parts of a flight, not for the loop.
+    /// Limits each rotor's ω² to a fraction 0..=1 of ωmax²: less than one for a weak rotor, zero for a failed one. Not
+    /// meant for every tick: it recomputes all facets.
     ///
     /// # Errors
-    /// [`MixerError::Limit`] with the first rotor whose part is out of range; all limits then stay as they were.
+    /// [`MixerError::Limit`] with the first rotor whose fraction is out of range; no limit is changed then.
     pub fn set_limits(&mut self, fractions: [f32; N]) -> Result<(), MixerError> {
         if let Some(rotor) = fractions.iter().position(|fraction| !(0.0..=1.0).contains(fraction)) {
             return Err(MixerError::Limit(rotor));
@@ -173,7 +195,7 @@ where
         Ok(())
     }
 
-    /// What squared speeds (rad²/s²) give: U = B ω².
+    /// The control input U = B ω² of squared speeds (rad²/s²).
     pub fn given(&self, omega_sq: &[f32; N]) -> ControlInput {
         let mut u = [0.0; 4];
         for (column, speed) in self.columns.iter().zip(omega_sq) {
@@ -185,22 +207,22 @@ where
         ControlInput { thrust_n, roll_n_m, pitch_n_m, yaw_n_m }
     }
 
-    /// Squared speeds for a demand, by the priorities in the module's text. The steps are bounded: one for each facet.
+    /// Allocates a demand, with the priorities given in the module docs. Bounded: one step per facet.
     ///
     /// # Errors
-    /// [`MixerError::NonFinite`] with the demand's field; nothing is allocated then.
+    /// [`MixerError::NonFinite`] with the name of the demand's field.
     #[expect(clippy::inline_always, reason = "measured: a call would put the demand and the speeds into memory")]
     #[inline(always)]
     pub fn allocate(&self, demand: &ControlInput) -> Result<Allocation<N>, MixerError> {
         let omega_sq = self.speeds(demand);
-        // A demand that is not finite has no speed that is.
+        // A demand that is not finite gives speeds that are not possible, so it is caught below.
         if self.are_possible(&omega_sq) {
             return Ok(Allocation { omega_sq, saturated: false });
         }
         self.allocate_limited(*demand)
     }
 
-    /// B⁺ U, limits or not.
+    /// B⁺ U, without limits.
     #[inline]
     fn speeds(&self, u: &ControlInput) -> [f32; N] {
         core::array::from_fn(|i| {
@@ -220,9 +242,9 @@ where
         if !math::all_finite(&demand.as_array()) {
             return Err(non_finite(&demand));
         }
-        let asked = [demand.roll_n_m, demand.pitch_n_m];
-        let share = self.torque_facets.facets().iter().fold(1.0, |share, facet| facet.shorten(share, &asked));
-        let torque = asked.map(|v| v * share);
+        let wanted = [demand.roll_n_m, demand.pitch_n_m];
+        let share = self.torque_facets.facets().iter().fold(1.0, |share, facet| facet.shorten(share, &wanted));
+        let torque = wanted.map(|v| v * share);
         let thrust = nearest(self.thrust_facets.facets().iter(), demand.thrust_n, torque);
         let [roll, pitch] = torque;
         let without_yaw =
@@ -239,7 +261,7 @@ where
         Ok(Allocation { omega_sq, saturated })
     }
 
-    /// The yaw nearest to the wanted one that thrust and torque leave: with four rotors by their own limits.
+    /// The attainable yaw nearest to the demand, given thrust and torque; with four rotors, by the rotors' own limits.
     #[inline]
     fn nearest_yaw(&self, wanted: f32, known: [f32; 3], without_yaw: &[f32; N]) -> f32 {
         if N > 4 {
@@ -257,27 +279,27 @@ where
     }
 }
 
-/// True if a speed is from 0 to its limit. Numbers from 0 up are ordered as their bits are, and those of a negative
-/// number or of none are greater: one comparison does for both ends. (It refuses −0 as well, which costs time but is
-/// no error.)
+/// True if a squared speed is from 0 to its limit. The bit patterns of non-negative floats are ordered like the floats,
+/// and those of negative ones and of NaN are greater, so one comparison checks both ends. (It also refuses −0, which
+/// only costs time.)
 #[inline]
 fn is_possible(speed: f32, limit: f32) -> bool {
     speed.to_bits() <= limit.to_bits()
 }
 
-/// The speed nearest to the given one that is from 0 to its limit; 0 for no number, whatever its sign is.
+/// The squared speed clamped to 0 and its limit; 0 for NaN.
 #[inline]
 fn possible(speed: f32, limit: f32) -> f32 {
     if is_possible(speed, limit) { speed } else { math::clamp(speed, 0.0, limit) }
 }
 
-/// True if a number is no longer what it was.
+/// True if two values differ in any bit.
 #[inline]
 fn differ(a: f32, b: f32) -> bool {
     a.to_bits() != b.to_bits()
 }
 
-/// What is left for `x` by one facet after the other: the value of all of them that is nearest, because there is one.
+/// Clamps `x` by one facet after the other. The result is the nearest value within all of them, because one exists.
 #[inline]
 fn nearest<'a, const K: usize>(facets: impl Iterator<Item = &'a Facet<K>>, x: f32, known: [f32; K]) -> f32 {
     facets.fold(x, |x, facet| facet.nearest(x, &known))
@@ -287,7 +309,7 @@ impl<const N: usize> Spare<N>
 where
     Rotors<N>: Layout,
 {
-    /// From the columns and scales of B with rows of unit size.
+    /// From the columns and scales of B with rows of unit norm.
     fn new(columns: &[Column; N], scale: &[f32; 4]) -> Result<Self, MixerError> {
         let mut spare = Self {
             order: core::array::from_fn(|i| i),
@@ -321,9 +343,10 @@ where
         }
     }
 
-    /// Brings speeds within the limits that still give `u`, which the rotors can. Rotor after rotor takes the speed
-    /// nearest to the one it has that leaves the rest of U to those before it, down to four, which have no choice. So
-    /// the speeds are continuous in U: each is limited by bounds that are.
+    /// Moves the squared speeds within their limits while they still give `u`, which must be attainable. From the last
+    /// rotor to the fifth, each takes the speed nearest to its present one that leaves a remainder of U which the
+    /// rotors before it can give; the first four have no choice. The speeds are continuous in U, because every bound
+    /// is.
     fn share_out(&self, u: [f32; 4], omega_sq: &mut [f32; N], limits: &[f32; N], columns: &[Column; N]) {
         let mut rest = u;
         let mut facets = self.facets.facets().iter();

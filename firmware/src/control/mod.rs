@@ -1,9 +1,18 @@
 //! The control laws: pure functions of their gains, state and inputs.
 //!
-//! [`law`] is what the partitions ask of a control law. [`sliding`] owns the surfaces and reaching laws, [`observer`] the
-//! disturbance observer, [`design`] gains from physical numbers; [`position`] Eq. 28–31, [`flatness`] the way from a force and its derivatives to an attitude
-//! and its derivatives (Eq. 11), [`attitude`] the surfaces on the rotation group ([`pointing`]) and Eq. 25–27 on Euler
-//! angles ([`euler`]), [`mixer`] the inverse of Eq. 4, [`rotor`] the rotors' lag, [`gyro`] what of the gyroscope is heard.
+//! | module | owns |
+//! |---|---|
+//! | [`law`] | the traits that a control law implements |
+//! | [`sliding`] | sliding surfaces and reaching laws |
+//! | [`position`] | position control: Eq. 28–31 |
+//! | [`flatness`] | the map from a force and its derivatives to an attitude and its derivatives (Eq. 11) |
+//! | [`attitude`] | attitude control on the rotation group ([`pointing`]) and, by Eq. 25–27, on Euler angles ([`euler`]) |
+//! | [`mixer`] | control allocation: the inverse of Eq. 4 within the rotors' limits |
+//! | [`observer`] | the disturbance observer |
+//! | [`design`] | gains from bounds on disturbance, actuators and delay |
+//! | [`rotor`] | rotor lag and its compensation |
+//! | [`gyro`] | notch and low-pass filters on the gyroscope |
+//! | [`rotor_monitor`], [`motor_out`] | detection of a failed rotor, and control without it |
 
 pub mod attitude;
 pub mod design;

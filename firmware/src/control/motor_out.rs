@@ -1,11 +1,13 @@
-//! Attitude with a rotor lost: the heading is given up, the thrust axis is kept.
+//! Attitude control with a failed rotor: gives up the heading and keeps the thrust axis.
 //!
-//! A quadrotor that has lost a rotor can hold no yaw torque: with the opposite rotor idling, the other two carry it and
-//! spin it up until drag holds the balance (Mueller and D'Andrea 2014). Of the torques across the thrust axis it keeps
-//! both directions of one, by the two that carry, and one direction of the other, by the rotor opposite; a body that
-//! spins turns that one through all directions. So what is asked for in the missing direction is left out, and the rest
-//! flown by the law on the rotation group with gains for it: a tilt that stands in the world turns in the body at the
-//! rate of the spin, and following it takes a torque in proportion to spin and rate.
+//! A quadrotor with a failed rotor cannot balance the yaw torque: the two neighbours carry it, the opposite rotor
+//! idles, and the vehicle spins up until drag balances the torque (Mueller and D'Andrea 2014). Perpendicular to the
+//! thrust axis it keeps one torque in both directions, by the two neighbours, and the other in one direction only, by
+//! the opposite rotor; as the body spins, that direction sweeps through all directions of the world.
+//!
+//! So the demand in the missing direction is dropped, and the rest comes from the law on the rotation group with lower
+//! gains: a tilt that is constant in the world turns in the body at the rate of the spin, and following it takes a
+//! torque in proportion to spin and rate.
 
 use nalgebra::Vector3;
 
@@ -16,27 +18,27 @@ use crate::control::observer::ObserverGains;
 use crate::control::sliding::{AxisGains, ReachingLaw};
 use crate::math;
 
-/// Surface, 1/s: a third of what four rotors are flown with.
+/// Slope of the surface, 1/s: a third of that with four rotors.
 const LAMBDA: f32 = 5.0;
 /// Reaching gain, rad/s².
 const GAIN: f32 = 60.0;
-/// Sampling, lag and what is left of it, s.
+/// Horizon of the reaching law, s: sampling, rotor lag and a reserve.
 const HORIZON_S: f32 = 0.04;
-/// Greatest rate at which a tilt is taken back, rad/s: at a spin of 25 rad/s it takes 2 N m on the x500.
+/// Greatest rate at which a tilt error is reduced, rad/s: at a spin of 25 rad/s it takes 2 N m on the x500.
 const APPROACH_MAX: f32 = 2.0;
 
-/// The law with a rotor lost.
+/// The attitude law with a failed rotor.
 #[derive(Clone, Debug)]
 pub struct MotorOut {
     law: SlidingAttitude,
-    /// Unit vector of the torque that the lost rotor gave, about x and y.
+    /// Unit vector of the failed rotor's torque, about x and y.
     missing: Vector3<f32>,
-    /// Greatest ω² of each rotor, as a part: 0 for the lost one.
+    /// Limit on ω² of each rotor, as a fraction of ωmax²: 0 for the failed one.
     limits: [f32; ROTORS],
 }
 
 impl MotorOut {
-    /// Without this rotor, from 0.
+    /// Without this rotor, counted from 0.
     pub fn new(airframe: &Airframe, rotor: usize) -> Self {
         let axis = AxisGains {
             approach_max: APPROACH_MAX,
@@ -51,12 +53,12 @@ impl MotorOut {
         Self { law: SlidingAttitude::new(airframe, &gains), missing, limits }
     }
 
-    /// Greatest ω² of each rotor, as a part.
+    /// Limit on ω² of each rotor, as a fraction of ωmax².
     pub fn limits(&self) -> [f32; ROTORS] {
         self.limits
     }
 
-    /// Torque for this tick, of what can be given; nothing about z.
+    /// Torque for this tick, without the direction that cannot be produced and without yaw.
     pub fn demand(&mut self, input: &AttitudeInput) -> AttitudeDemand {
         let AttitudeDemand { s, mut torque } = self.law.step(input);
         torque.z = 0.0;
@@ -76,7 +78,7 @@ mod tests {
     use crate::signals::AttitudeTarget;
     use nalgebra::UnitQuaternion;
 
-    /// What is asked for at a tilt error about an axis of the body.
+    /// The torque demanded at a tilt error, a rotation vector in the body.
     fn torque(tilt: Vector3<f32>) -> Vector3<f32> {
         let airframe = Airframe::paper(3.0);
         let mut law = MotorOut::new(&airframe, 1);
@@ -95,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_lost_rotor_gave_is_not_asked_for_and_the_rest_is() {
+    fn the_torque_of_the_lost_rotor_is_not_demanded_and_the_rest_is() {
         // Rotor 2, on the right, gave roll to the left: U2 = L b (ω4² − ω2²).
         assert!(torque(Vector3::new(-0.2, 0.1, 0.0)).x.abs() < 1e-6);
         assert!(torque(Vector3::new(0.2, 0.1, 0.0)).x > 0.0);

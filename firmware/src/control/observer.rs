@@ -1,29 +1,29 @@
-//! A disturbance observer: what accelerates the vehicle beyond what its model says.
+//! Disturbance observer: estimates the acceleration that the model does not explain.
 //!
-//! An extended-state observer (Han 2009, linear form of Gao 2003) of `ẏ = a + d`, y a measured rate and a the
-//! acceleration that the model gives for what the rotors are believed to do: both its poles stand at `e^(−ω₀h)`, so
-//! a constant d is found to e^(−1) in about 2/ω₀, and a d that changes by L a second is followed within 2L/ω₀. Since it
-//! is fed with what the rotors do and not with what was asked of them, it does not wind up when they are at a limit.
+//! An extended-state observer (Han 2009, linear form of Gao 2003) of `ẏ = a + d`, where y is a measured rate and a the
+//! model's acceleration at the estimated rotor speeds. Both poles are at `e^(−ω₀h)`: the error of a constant d falls to
+//! e⁻¹ in about 2/ω₀, and a d that changes at a rate L is followed within 2L/ω₀. The observer is driven by what the
+//! rotors do, not by what was demanded of them, so it does not wind up when they saturate.
 //!
-//! With d̂ taken off, a reaching law needs a gain above |d − d̂| only, and not above |d|.
+//! With d̂ compensated, a reaching law needs a gain above |d − d̂| instead of |d|.
 
 use nalgebra::Vector3;
 
 use crate::math;
 use crate::validate::ConfigError;
 
-/// What an observer is configured with.
+/// Configuration of an observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct ObserverGains {
     /// ω₀, rad/s; 0 for no observer.
     pub bandwidth_rad_s: f32,
-    /// Bound D on the size of the disturbance, in units of y a second: nothing larger is believed.
+    /// Bound D on the magnitude of the estimate, in units of y per second: larger estimates are limited to it.
     pub disturbance_max: f32,
 }
 
 impl ObserverGains {
-    /// Refuses what is not a finite number, or below zero.
+    /// Checks that both values are finite and not negative.
     ///
     /// # Errors
     /// `name` with what is wrong.
@@ -38,7 +38,7 @@ impl ObserverGains {
 pub struct DisturbanceObserver {
     /// Step h, s.
     step_s: f32,
-    /// Corrections of the rate, and of the disturbance, by a unit of the rate's error.
+    /// Gains from the rate error to the rate and to the disturbance.
     rate_gain: f32,
     disturbance_gain: f32,
     disturbance_max: f32,
@@ -66,19 +66,19 @@ impl DisturbanceObserver {
         }
     }
 
-    /// Forgets the disturbance.
+    /// Clears the estimate.
     pub fn reset(&mut self) {
         self.started = false;
         self.disturbance = Vector3::zeros();
     }
 
-    /// d̂ as last found.
+    /// The last estimate d̂.
     #[inline]
     pub fn disturbance(&self) -> Vector3<f32> {
         self.disturbance
     }
 
-    /// d̂ now, given the rate as measured now and the model's acceleration from now to the next step.
+    /// Updates d̂ with the rate measured now and the model's acceleration from now to the next step.
     #[inline]
     pub fn estimate(&mut self, measured: &Vector3<f32>, model: &Vector3<f32>) -> Vector3<f32> {
         if !self.started {
@@ -88,7 +88,7 @@ impl DisturbanceObserver {
         let error = measured - self.rate;
         let mut disturbance = self.disturbance + error * self.disturbance_gain;
         let square = disturbance.norm_squared();
-        // False for no number too, so that none stays.
+        // False for NaN too, so that it does not persist.
         let believable = square <= self.square_max;
         if !believable {
             disturbance = shortened(&disturbance, square, self.disturbance_max);
@@ -99,18 +99,19 @@ impl DisturbanceObserver {
     }
 }
 
-/// A vector of the given square brought to a size; zero if it is not finite.
+/// A vector with the given squared norm, scaled to the norm `size`; zero if it is not finite.
 #[cold]
 fn shortened(vector: &Vector3<f32>, square: f32, size: f32) -> Vector3<f32> {
     if square.is_finite() { vector * (size / math::sqrt(square)) } else { Vector3::zeros() }
 }
 
-/// How much thrust the rotors really give, as a part of what the model says: a wrong mass, a weak rotor, a spent battery.
+/// Thrust effectiveness κ̂: the ratio of the real thrust to the model's. It differs from 1 with a wrong mass, a weak
+/// rotor or a drained battery.
 ///
-/// What is wrong with the thrust turns with the vehicle, faster than an observer of a disturbance that stands still in
-/// the world can follow. So the part of the disturbance along the force f, d̂·f/|f|², is taken over by a factor κ̂ on f: with
-/// `κ̂̇ = γ d̂·f/|f|²` and d̂ = (κ − κ̂) f the error of κ̂ dies as e^(−γt). What is taken over is taken off d̂ at once, so
-/// that their sum does not move.
+/// A thrust error turns with the vehicle, faster than an observer of a disturbance that is constant in the world can
+/// follow. So the component of d̂ along the force f, d̂·f/|f|², is transferred to a factor κ̂ on f: with `κ̂̇ = γ
+/// d̂·f/|f|²` and d̂ = (κ − κ̂) f the error of κ̂ decays as e^(−γt). What κ̂ gains is subtracted from d̂ in the same
+/// step, so that their sum does not jump.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThrustEffectiveness {
     /// γ h.
@@ -119,9 +120,10 @@ pub struct ThrustEffectiveness {
 }
 
 impl ThrustEffectiveness {
-    /// Beyond these a vehicle of twice its weight's thrust has no thrust to spare, or is not the one it is taken for.
+    /// Range of κ̂. Below it, a vehicle with a thrust-to-weight ratio of 2 has almost no thrust to spare; above it, the
+    /// configured mass is simply wrong.
     const RANGE: (f32, f32) = (0.6, 1.6);
-    /// Below this specific force (m/s²) its direction says little.
+    /// Smallest specific force (m/s²) whose direction is used.
     const FORCE_MIN: f32 = 1.0;
 
     /// Adapted at `rate` γ (1/s), stepped every `step_s` seconds.
@@ -135,12 +137,12 @@ impl ThrustEffectiveness {
         self.value
     }
 
-    /// Back to what the model says.
+    /// Back to 1.
     pub fn reset(&mut self) {
         self.value = 1.0;
     }
 
-    /// Takes over a part of what `observer` has found, given the model's specific force, m/s².
+    /// Transfers a fraction γ h of the disturbance along `force`, the model's specific force (m/s²), from `observer`.
     #[inline]
     pub fn adapt(&mut self, force: &Vector3<f32>, observer: &mut DisturbanceObserver) {
         let square = math::max(force.norm_squared(), Self::FORCE_MIN * Self::FORCE_MIN);

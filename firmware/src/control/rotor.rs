@@ -1,16 +1,15 @@
-//! The rotors as the controller believes them: a first-order lag, and the lead that takes most of it back.
+//! Rotor model of the controller: a first-order lag, and the lead that compensates most of it.
 //!
-//! A rotor's speed follows its command as `ω̇ = (ω_cmd − ω)/τ`. Kept as a model, that gives what the rotors do now, for
-//! laws that compare it with what the vehicle does. Inverted as far as the limits and a wrong τ allow, it makes the
-//! speeds follow what control wants with a shorter time constant τ′: each step asks for so much more that the model
-//! comes as near as a rotor of τ′ would,
+//! A rotor's speed follows its command as `ω̇ = (ω_cmd − ω)/τ`. The model estimates the present rotor speeds, which
+//! observers and laws need. Its inverse, within the speed limits, shortens the response to a time constant τ′: each
+//! step commands so much more that the modelled rotor moves as far as one with τ′ would,
 //!
 //! ```text
 //! ω_cmd = ω̂ + (ω_wanted − ω̂)·(1 − e^(−h/τ′))/(1 − e^(−h/τ)),   0 ≤ ω_cmd ≤ ω_max
 //! ```
 //!
-//! The model is fed with the limited command, so nothing winds up. [`YawInversion`] does the same for the torque with
-//! which rotors that spin up turn the body.
+//! The model is driven by the limited command, so nothing winds up. [`YawInversion`] does the same for the reaction
+//! torque of rotors that spin up.
 
 use crate::airframe::{Airframe, ROTORS, RotorGeometry, spin_rad_s};
 use crate::control::law::RotorEffect;
@@ -20,10 +19,11 @@ use crate::signals::TICK_S;
 /// Lag and lead of all rotors, and their speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RotorModel {
-    /// Part of the way to its command that a rotor goes in a tick, 1 − e^(−h/τ), and what is left; 1 and 0 without lag.
+    /// Fraction of the distance to its command that a rotor covers per tick, 1 − e^(−h/τ), and the rest; 1 and 0
+    /// without lag.
     step_fraction: f32,
     rest: f32,
-    /// What is asked for beyond it, and 1 less that; 1 and 0 without lead.
+    /// Lead factor (1 − e^(−h/τ′))/(1 − e^(−h/τ)), and 1 minus it; 1 and 0 without lead.
     lead: f32,
     behind: f32,
     omega_max: f32,
@@ -31,7 +31,7 @@ pub struct RotorModel {
 }
 
 impl RotorModel {
-    /// At rest; `lag_s` is τ and `answer_s` τ′, in s. A τ′ that is not below τ asks for no lead.
+    /// Rotors at rest; `lag_s` is τ and `answer_s` τ′, in s. Without lead if τ′ is not below τ.
     pub fn new(lag_s: f32, answer_s: f32, omega_max_rad_s: f32) -> Self {
         let step_fraction = |time_s: f32| if time_s > 0.0 { 1.0 - math::exp(-TICK_S / time_s) } else { 1.0 };
         let lead = if answer_s < lag_s { step_fraction(answer_s) / step_fraction(lag_s) } else { 1.0 };
@@ -45,18 +45,19 @@ impl RotorModel {
         }
     }
 
-    /// Speeds at which the rotors are believed to turn, rad/s.
+    /// Estimated rotor speeds, rad/s.
     #[inline]
     pub fn omega_rad_s(&self) -> &[f32; ROTORS] {
         &self.omega
     }
 
-    /// Starts from these speeds, rad/s.
+    /// Sets the estimated speeds, rad/s.
     pub fn set(&mut self, omega_rad_s: [f32; ROTORS]) {
         self.omega = omega_rad_s;
     }
 
-    /// The command (rad/s) by which the rotors come to the speeds wanted, which lie within their limits. A tick passes.
+    /// The command (rad/s) that takes the rotors to the wanted speeds, which must be within their limits. Advances the
+    /// model by a tick.
     #[inline]
     pub fn command(&mut self, wanted_rad_s: [f32; ROTORS]) -> [f32; ROTORS] {
         let mut command = wanted_rad_s;
@@ -67,7 +68,7 @@ impl RotorModel {
         command
     }
 
-    /// A tick passes with these commands, rad/s.
+    /// Advances the model by a tick with the given commands, rad/s.
     pub fn follow(&mut self, command_rad_s: &[f32; ROTORS]) {
         for (omega, command) in self.omega.iter_mut().zip(command_rad_s) {
             *omega = self.step_fraction * command + self.rest * *omega;
@@ -75,31 +76,31 @@ impl RotorModel {
     }
 }
 
-/// What rotors do to the body by their speeds.
+/// Torque of the rotors on the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotorTorque {
     geometry: RotorGeometry,
-    /// The sense, ±1, in which each spins about +z.
+    /// Sense of rotation of each rotor about +z, ±1.
     senses: [f32; ROTORS],
-    /// Jr over a tick, N m for each rad/s that Ωr changes by; 0 where there is no reaction.
+    /// Jr per tick, N m per rad/s of change in Ωr; 0 without spin-up reaction.
     reaction: f32,
 }
 
 impl RotorTorque {
-    /// Of an airframe.
+    /// For an airframe.
     pub fn new(airframe: &Airframe) -> Self {
         let reacts = airframe.spin_up_lead_s() > 0.0;
         let reaction = if reacts { airframe.rotor_inertia_kg_m2 / TICK_S } else { 0.0 };
         Self { geometry: airframe.geometry, senses: airframe.rotor_senses(), reaction }
     }
 
-    /// At speeds (rad/s) that do not change.
+    /// The effect at constant speeds (rad/s).
     pub fn steady(&self, omega_rad_s: &[f32; ROTORS]) -> RotorEffect {
         let torque = self.geometry.torque(omega_rad_s);
         RotorEffect { torque, yaw_n_m: torque.z, spin_rad_s: spin_rad_s(&self.senses, omega_rad_s) }
     }
 
-    /// At these speeds, a tick after they had the effect `before`.
+    /// The effect at these speeds (rad/s), a tick after `before`.
     #[inline]
     pub fn after(&self, before: &RotorEffect, omega_rad_s: &[f32; ROTORS]) -> RotorEffect {
         let mut torque = self.geometry.torque(omega_rad_s);
@@ -111,27 +112,28 @@ impl RotorTorque {
     }
 }
 
-/// Yaw with rotors whose spinning up turns the body by itself.
+/// Yaw allocation for rotors with a noticeable spin-up reaction.
 ///
-/// Speeds that change towards another yaw torque U4 turn the body by T U̇4 on the way, T = Jr/(2 d ω): more, where T is
-/// longer than the time τ′ in which the rotors answer, than the torque they are changed for. The two are a torque of
-/// U4 + T U̇4, so the one wanted is had almost at once and without overshoot if U4 itself goes there with a time
-/// constant of T + τ′: from where it is, it is asked to go the part τ′/(T + τ′) of the way.
+/// While the speeds change towards another yaw torque U4, the reaction adds T U̇4 with T = Jr/(2 d ω); where T is
+/// longer than the rotors' time constant τ′, that is more than the change of U4 itself. The total torque is U4 + T U̇4.
+/// It reaches the wanted value almost at once and without overshoot if U4 approaches it with a time constant of T + τ′,
+/// that is, if each step demands the fraction τ′/(T + τ′) of the remaining difference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct YawInversion {
-    anticipation: f32,
+    /// τ′/(T + τ′); 1 without spin-up reaction.
+    step_fraction: f32,
 }
 
 impl YawInversion {
     /// With T and τ′, s.
     pub fn new(lead_s: f32, answer_s: f32) -> Self {
-        Self { anticipation: if lead_s > 0.0 { answer_s / (lead_s + answer_s) } else { 1.0 } }
+        Self { step_fraction: if lead_s > 0.0 { answer_s / (lead_s + answer_s) } else { 1.0 } }
     }
 
-    /// U4 (N m) to ask for, given that of the speeds now and the torque wanted.
+    /// U4 (N m) to demand, given U4 at the present speeds and the wanted torque.
     #[inline]
     pub fn demand(self, now: f32, wanted: f32) -> f32 {
-        now + self.anticipation * (wanted - now)
+        now + self.step_fraction * (wanted - now)
     }
 }
 

@@ -1,9 +1,9 @@
-//! Which rotor has failed: what the body does, against what its rotors are believed to do.
+//! Rotor failure detection: compares the measured motion with what the estimated rotor speeds should cause.
 //!
-//! What the body feels is `U = (m f_z, I Ω̇ + Ω × IΩ + …)`, from the accelerometer and the differentiated gyroscope. What
-//! is missing of it, turned into squared speeds by the inverse of Eq. 4, is a number a rotor: a rotor that gives the part
-//! η of its thrust lacks (1 − η) ω² of its own and nothing of the others', a push on the body lacks or adds on all. Both
-//! sides pass through the same lag, so nothing is seen of a change that both have.
+//! The measured control input is `U = (m f_z, I Ω̇ + Ω × IΩ + …)`, from the accelerometer and the differentiated
+//! gyroscope. The difference from the expected U, converted to squared speeds by the inverse of Eq. 4, gives one value
+//! per rotor: a rotor with effectiveness η lacks (1 − η) ω² and leaves the others' values unchanged, while an external
+//! push changes all of them. Both sides pass through the same low-pass, so a manoeuvre does not show as a difference.
 
 use nalgebra::{Matrix4, Vector3, Vector4};
 
@@ -13,37 +13,38 @@ use crate::control::law::RotorEffect;
 use crate::math;
 use crate::signals::TICK_S;
 
-/// Time constant of the comparison, s: longer than vibration, shorter than a fall.
+/// Time constant of the low-pass on both sides of the comparison, s: longer than vibration, shorter than a fall.
 const LAG_S: f32 = 0.02;
-/// How slowly what is thought of a sound rotor follows, s: a spent battery, thin air, a frame that is a little twisted.
+/// Time constant with which the baseline of a working rotor follows, s: slow changes such as a draining battery, thin
+/// air or a slightly twisted frame are no failure.
 const BASELINE_S: f32 = 5.0;
-/// How far it follows: below, a rotor that fades is not lost sight of.
+/// Range of the baseline: bounded from below so that a rotor that fades slowly is still detected.
 const BASELINE: (f32, f32) = (0.5, 1.5);
-/// A rotor that gives less than this part of what it gave has failed…
+/// A rotor whose effectiveness falls below this fraction of its baseline has failed…
 const FAILED_BELOW: f32 = 0.4;
-/// …if every other gives more than this.
+/// …if every other is above this fraction: an external push lowers several at once.
 const SOUND_ABOVE: f32 = 0.55;
-/// For so many ticks in a row.
+/// The condition must hold for this many ticks in a row: twice the low-pass' time constant.
 const FAILED_AFTER: u32 = 40;
-/// A rotor slower than this part of hover's speed tells nothing.
+/// A rotor slower than this fraction of the hover speed is not judged: its thrust is too small to measure.
 const SLOWEST: f32 = 0.5;
 
-/// A first-order lag of a tick.
+/// The state of a first-order low-pass, updated once per tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Lagged<T>(T);
 
-/// The comparison, and what has come of it.
+/// The failure detector and its state.
 #[derive(Clone, Debug)]
 pub struct RotorMonitor {
     airframe: Airframe,
-    /// B⁻¹; none for rotors that cannot be told apart.
+    /// B⁻¹; `None` for a singular geometry, whose rotors cannot be told apart.
     inverse: Option<Matrix4<f32>>,
-    /// The least ω² that tells something.
+    /// The least ω² at which a rotor is judged, rad²/s².
     least: f32,
     rates: Lagged<Vector3<f32>>,
     missing: Lagged<Vector4<f32>>,
     square: Lagged<Vector4<f32>>,
-    /// η as last found, and as it is in the long run.
+    /// η now, and its slowly following baseline.
     effectiveness: [f32; ROTORS],
     baseline: [f32; ROTORS],
     suspect: Option<(u8, u32)>,
@@ -51,7 +52,7 @@ pub struct RotorMonitor {
 }
 
 impl RotorMonitor {
-    /// All rotors sound.
+    /// With all rotors working.
     pub fn new(airframe: &Airframe) -> Self {
         let rows = airframe.geometry.rows();
         let hover = airframe.omega_for_thrust_to_weight(1.0);
@@ -69,17 +70,17 @@ impl RotorMonitor {
         }
     }
 
-    /// The rotor that has failed, from 0.
+    /// The index of the failed rotor, from 0.
     pub fn failed(&self) -> Option<u8> {
         self.failed
     }
 
-    /// η of each rotor as last found; 1 for those too slow to tell.
+    /// The last estimate of η for each rotor; 1 for those too slow to judge.
     pub fn effectiveness(&self) -> &[f32; ROTORS] {
         &self.effectiveness
     }
 
-    /// All rotors sound again, as they are taken to be before a flight.
+    /// All rotors are taken to work again, as before a flight.
     pub fn reset(&mut self, rates: &Vector3<f32>) {
         self.rates = Lagged(*rates);
         self.missing = Lagged::default();
@@ -90,15 +91,15 @@ impl RotorMonitor {
         self.failed = None;
     }
 
-    /// A tick whose motion was not measured: nothing may be concluded from it.
+    /// A tick without a measured motion: restarts the comparison, so that nothing is concluded from the gap.
     pub fn miss(&mut self, rates: &Vector3<f32>) {
         self.rates = Lagged(*rates);
         self.missing = Lagged::default();
         self.suspect = None;
     }
 
-    /// A tick in the air: Ω (rad/s), the thrust axis' specific force (m/s²), and what the rotors are believed to do at
-    /// their speeds (rad/s).
+    /// A tick in the air, with Ω (rad/s), the specific force along the thrust axis (m/s²), the expected effect of the
+    /// rotors, and their estimated speeds (rad/s).
     pub fn update(&mut self, rates: &Vector3<f32>, force_z: f32, believed: &RotorEffect, omega_rad_s: &[f32; ROTORS]) {
         let lag_gain = TICK_S / LAG_S;
         let acceleration = (rates - self.rates.0) / LAG_S;
@@ -121,7 +122,7 @@ impl RotorMonitor {
         for ((eta, lack), square) in self.effectiveness.iter_mut().zip(&lacking).zip(&self.square.0) {
             *eta = if *square > self.least { 1.0 + lack / square } else { 1.0 };
         }
-        // A rotor that fails leaves less thrust than is believed; what is held up by more of it touches the ground.
+        // A failed rotor leaves less thrust than expected. More than expected means contact with the ground.
         let lifted_less = missing.x < 0.0;
         let mut relative = self.effectiveness;
         relative.iter_mut().zip(&self.baseline).for_each(|(eta, baseline)| *eta /= baseline);

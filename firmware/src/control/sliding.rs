@@ -1,15 +1,37 @@
 //! Sliding surfaces and reaching laws: one axis of a sliding mode controller.
 //!
-//! With the error `e = desired − actual` a surface is `s = λ e + ė` (Eq. 18–23); a reaching law makes
-//! `ṡ = −u_r(s)` (Eq. 16), and a disturbance d of the axis' acceleration turns that into `ṡ = −u_r(s) − d`.
-//! [`ReachingLaw`] is the family of `u_r`, each with what it guarantees; [`AxisGains`] is an axis as configured,
-//! [`SlidingAxis`] the same built into the form the loop uses, with its state. `K` is [`AxisGains::gain`], D a bound
-//! on |d|, L one on |ḋ|, V = s²/2.
+//! With the error `e = desired − actual` a surface is `s = λ e + ė` (Eq. 18–23). A reaching law makes `ṡ = −u_r(s)`
+//! (Eq. 16), and a disturbance d of the axis' acceleration turns that into `ṡ = −u_r(s) − d`.
+//!
+//! [`ReachingLaw`] is the family of `u_r`, each with its guarantee. [`AxisGains`] is the configuration of an axis,
+//! [`SlidingAxis`] its loop form with the state. `K` is [`AxisGains::gain`], D a bound on |d|, L a bound on |ḋ|, V =
+//! s²/2.
+//!
+//! ```
+//! use firmware::control::sliding::{AxisGains, ReachingLaw, SlidingAxis};
+//!
+//! // ë = −(correction) − d, sampled at 1 kHz, with a disturbance of half the reaching gain.
+//! let (step_s, gain, lambda, disturbance) = (1e-3, 4.0, 2.0, 2.0);
+//! let gains = AxisGains::new(gain, lambda, ReachingLaw::ImplicitSgn { horizon_s: step_s });
+//! gains.validate("roll").expect("in range");
+//! let mut axis = SlidingAxis::new(&gains, step_s);
+//!
+//! let (mut error, mut error_rate) = (0.5_f32, 0.0_f32);
+//! for _ in 0..5_000 {
+//!     let correction = axis.correction(error, error_rate, false);
+//!     error_rate -= (correction.acceleration + disturbance) * step_s;
+//!     error += error_rate * step_s;
+//! }
+//! // On the surface within T·D, as the law promises, so |e| ≤ T·D/λ.
+//! let s = lambda * error + error_rate;
+//! assert!(s.abs() < 1.1 * step_s * disturbance, "{s}");
+//! assert!(error.abs() < 2.0 * step_s * disturbance / lambda, "{error}");
+//! ```
 
 use crate::math;
 use crate::validate::ConfigError;
 
-/// A reaching law `u_r(s)`, selectable an axis at run time.
+/// A reaching law `u_r(s)`, selectable per axis at run time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -17,30 +39,31 @@ use crate::validate::ConfigError;
     serde(rename_all = "kebab-case", deny_unknown_fields)
 )]
 pub enum ReachingLaw {
-    /// `K sgn(s)`, Eq. 17. K > D: V̇ ≤ −(K − D)|s|, so s = 0 after |s0|/(K − D), for any such disturbance, without a
-    /// remaining error. Sampled every h seconds it chatters by K h.
+    /// `K sgn(s)`, Eq. 17. For K > D: V̇ ≤ −(K − D)|s|, so s = 0 after |s0|/(K − D) for any such disturbance, with no
+    /// residual error. Sampled every h seconds it chatters by K h.
     Sgn,
-    /// `K sat(s/ρ)`: sgn outside a boundary layer of half-width ρ, linear inside. K > D: V̇ < 0 for |s| > ρ D/K, which is
-    /// the error that remains. Sampled every h seconds it needs ρ ≥ K h not to overshoot, and ρ > K h/2 not to chatter as
-    /// sgn does.
+    /// `K sat(s/ρ)`: sgn outside a boundary layer of half-width ρ, linear inside. For K > D: V̇ < 0 for |s| > ρ D/K,
+    /// which is the residual error. Sampled every h seconds it needs ρ ≥ K h not to overshoot, and ρ > K h/2 not to
+    /// chatter as sgn does.
     Sat {
         /// Half-width ρ of the boundary layer, in units of s.
         rho: f32,
     },
-    /// `K tanh(s/ρ)`: smooth everywhere. K > D: V̇ < 0 for |s| > ρ artanh(D/K), which is the error that remains.
+    /// `K tanh(s/ρ)`: smooth everywhere. For K > D: V̇ < 0 for |s| > ρ artanh(D/K), which is the residual error.
     Tanh {
         /// Scale ρ of the layer, in units of s.
         rho: f32,
     },
     /// `K |s|^α sgn(s)`, 0 < α < 1 (the power-rate law): reaches s = 0 in |s0|^(1−α)/((1−α)K) without a jump; V̇ < 0 for
-    /// |s| > (D/K)^(1/α). Its power is good to 12 %, which moves the time by as much and the
-    /// error by 12 %/α.
+    /// |s| > (D/K)^(1/α). The power is computed to 12 %, which changes the reaching time by as much and the residual error
+    /// by 12 %/α.
     Power {
         /// Exponent α.
         alpha: f32,
     },
-    /// `K sat(s/ρ) + q s` (exponential reaching, Gao and Hung 1993): far out V̇ ≤ −2 q V, so s comes down as e^(−qt)
-    /// and not at the constant rate K; close in as [`Sat`](Self::Sat), which leaves |s| ≤ ρ D/(K + q ρ).
+    /// `K sat(s/ρ) + q s` (exponential reaching, Gao and Hung 1993): far out V̇ ≤ −2 q V, so s decays as e^(−qt)
+    /// instead of at the constant rate K; close in it acts as [`Sat`](Self::Sat), with a residual of |s| ≤ ρ D/(K + q
+    /// ρ).
     Exponential {
         /// Rate q, 1/s.
         rate: f32,
@@ -49,26 +72,26 @@ pub enum ReachingLaw {
     },
     /// Set-valued sgn by backward Euler (Acary and Brogliato 2010): the u of `s⁺ = s − T u, u ∈ K sgn(s⁺)`, which is
     /// `s/T` limited to ±K. With T the sampling step and K > D: s reaches |s| ≤ T D in a finite number of steps and
-    /// stays, without chattering, however large K is. Where the actuator answers later than a step, T is the time it
-    /// takes: sampling, delay and lag together.
+    /// stays, without chattering, however large K is. If the actuator responds later than within a step, T is its
+    /// response time: sampling, delay and lag together.
     ImplicitSgn {
         /// T, s.
         horizon_s: f32,
     },
-    /// `K √|s| sgn(s) + v, v̇ = k2 sgn(s)` (super-twisting, Levant 1993), explicit Euler. With k2 > L and
-    /// K² ≥ 4 L (k2 + L)/(k2 − L) both s and ṡ reach 0 in finite time (strict Lyapunov function: Moreno and Osorio
-    /// 2012), whatever the size of d. Sampled it leaves |s| of the order of h², and chatters by k2 h.
+    /// `K √|s| sgn(s) + v, v̇ = k2 sgn(s)` (super-twisting, Levant 1993), explicit Euler. With k2 > L and K² ≥ 4 L (k2
+    /// + L)/(k2 − L) both s and ṡ reach 0 in finite time (strict Lyapunov function: Moreno and Osorio 2012), whatever
+    /// the size of d. Sampled, its residual is |s| of order h², and it chatters by k2 h.
     SuperTwisting {
-        /// k2, in units of s a second squared.
+        /// k2, in units of s per second squared.
         twist: f32,
     },
     /// Super-twisting by backward Euler (after Brogliato, Polyakov and Efimov 2020), v taken as the estimate of the
-    /// disturbance: with `u = v + w`, w solves `s⁺ = s − T w, w ∈ K √|s⁺| sgn(s⁺) + 4T k2 sgn(s⁺)`, and
-    /// `v̇ ∈ k2 sgn(s⁺)`. No chattering; where |s| ≤ 4T² k2 it is `s/T + ∫s/(4T²)`, two poles at −1/(2T), so a constant
-    /// disturbance leaves no error (weighed over T alone, the poles would lie on the unit circle for T = h). T as for
-    /// [`ImplicitSgn`](Self::ImplicitSgn).
+    /// disturbance: with `u = v + w`, w solves `s⁺ = s − T w, w ∈ K √|s⁺| sgn(s⁺) + 4T k2 sgn(s⁺)`, and `v̇ ∈ k2
+    /// sgn(s⁺)`. No chattering; where |s| ≤ 4T² k2 it is `s/T + ∫s/(4T²)`, two poles at −1/(2T), so a constant
+    /// disturbance leaves no error (with a weight of T alone, the poles would lie on the unit circle for T = h). T as
+    /// for [`ImplicitSgn`](Self::ImplicitSgn).
     ImplicitSuperTwisting {
-        /// k2, in units of s a second squared.
+        /// k2, in units of s per second squared.
         twist: f32,
         /// T, s.
         horizon_s: f32,
@@ -79,11 +102,11 @@ pub enum ReachingLaw {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Surface {
-    /// `s = λ e + ė` (Eq. 18–23): on it the error dies as e^(−λt).
+    /// `s = λ e + ė` (Eq. 18–23): on it the error decays as e^(−λt).
     #[default]
     Linear,
     /// `s = ė + 2λ e + λ² ∫e − (ė + 2λ e)(0)` (integral SMC, Utkin and Shi 1996): s = 0 from the first moment, so the
-    /// bound on the disturbance holds without a reaching phase; on it the error dies with a double pole at −λ, and a
+    /// bound on the disturbance holds without a reaching phase; on it the error decays with a double pole at −λ, and a
     /// constant disturbance leaves no error.
     Integral,
 }
@@ -94,31 +117,30 @@ pub enum Surface {
 pub struct AxisGains {
     /// Slope λ of the surface, 1/s.
     pub lambda: f32,
-    /// Reaching gain K, in units of s a second; for super-twisting a second for each √s.
+    /// Reaching gain K, in units of s per second; for super-twisting in units of √s per second.
     pub gain: f32,
     /// Reaching law.
     pub reaching: ReachingLaw,
     /// Form of the surface.
     #[cfg_attr(feature = "serde", serde(default))]
     pub surface: Surface,
-    /// On a linear surface, λ e is limited to this: the greatest rate at which a large error is taken back, in
-    /// units of s.
+    /// Limit on λ e of a linear surface: the greatest rate at which a large error is reduced, in units of s.
     #[cfg_attr(feature = "serde", serde(default = "unlimited"))]
     pub approach_max: f32,
-    /// On a linear surface, the greatest deceleration A along it, in units of s a second: from |e| = A/λ² on, λ|e| gives
-    /// way to the parabola √(2A|e| − (A/λ)²), on which the error is braked by A until it is small, as on the switching
-    /// curve of the time-optimal double integrator.
+    /// Greatest deceleration A along a linear surface, in units of s per second: beyond |e| = A/λ², λ|e| is replaced by
+    /// the parabola √(2A|e| − (A/λ)²), on which the error is braked by A until it is small, as on the switching curve
+    /// of the time-optimal double integrator.
     #[cfg_attr(feature = "serde", serde(default = "unlimited"))]
     pub braking: f32,
 }
 
-/// No error is taken back faster than this.
+/// A limit that never acts.
 const fn unlimited() -> f32 {
     1e9
 }
 
 impl AxisGains {
-    /// Gains with a reaching law of one's own, on a linear surface without a limit.
+    /// Gains with any reaching law, on a linear surface without limits.
     pub const fn new(gain: f32, lambda: f32, reaching: ReachingLaw) -> Self {
         Self { lambda, gain, reaching, surface: Surface::Linear, approach_max: unlimited(), braking: unlimited() }
     }
@@ -128,10 +150,10 @@ impl AxisGains {
         Self::new(gain, lambda, ReachingLaw::Sat { rho })
     }
 
-    /// Refuses gains with which the law is not defined.
+    /// Checks that the law is defined for these gains.
     ///
     /// # Errors
-    /// `name` with what is wrong: a number that is not finite or not positive, or α not below 1.
+    /// `name` and the reason: a value is not finite or not positive, or α is not below 1.
     pub fn validate(&self, name: &'static str) -> Result<(), ConfigError> {
         let positive = |value| ConfigError::require_positive(name, value);
         positive(self.lambda)?;
@@ -153,7 +175,7 @@ impl AxisGains {
     }
 }
 
-/// A reaching law as the loop uses it: no division left.
+/// A reaching law in loop form, without divisions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Reach {
     Sgn,
@@ -208,21 +230,21 @@ impl Twist {
     }
 }
 
-/// ±`most`, on the side of `x`. A call of its own, or the compiler would have both sides computed every time.
+/// `most` with the sign of `x`. A separate function, because inlined the compiler would compute both sides every time.
 #[cold]
 #[inline(never)]
 fn bound(x: f32, most: f32) -> f32 {
     if x > 0.0 { most } else { -most }
 }
 
-/// The rate at which a large error is approached, as a function of the error, with two derivatives.
+/// The rate at which a large error is reduced, as a function of the error, with two derivatives.
 struct Approach {
     rate: f32,
     slope: f32,
     curvature: f32,
 }
 
-/// What a sliding mode law asks for beyond its equivalent control.
+/// What a sliding mode law adds to its equivalent control.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
     /// The sliding variable s.
@@ -236,25 +258,25 @@ pub struct Correction {
 pub struct SlidingAxis {
     lambda: f32,
     gain: f32,
-    /// Greatest λ|e| that is taken as it is.
+    /// Greatest λ|e| in the linear range.
     linear_max: f32,
     approach_max: f32,
     braking: f32,
-    /// Whether there is a parabola below the limit.
+    /// Whether the braking parabola begins below `approach_max`.
     brakes: bool,
     reach: Reach,
     surface: Surface,
-    /// Slope of a layer on a linear surface: with [`ReachingLaw::ImplicitSgn`] or [`ReachingLaw::Sat`].
+    /// Slope of the boundary layer, for [`ReachingLaw::ImplicitSgn`] and [`ReachingLaw::Sat`] on a linear surface.
     layer: Option<f32>,
     step_s: f32,
     /// v of super-twisting.
     twist: f32,
-    /// `λ² ∫e − (ė + 2λ e)(0)` of the integral surface; none before the first step.
+    /// `λ² ∫e − (ė + 2λ e)(0)` of the integral surface; `None` before the first step.
     integral: Option<f32>,
 }
 
 impl SlidingAxis {
-    /// An axis that is stepped every `step_s` seconds, with valid gains.
+    /// An axis that is evaluated every `step_s` seconds, with valid gains.
     pub fn new(gains: &AxisGains, step_s: f32) -> Self {
         let k = gains.gain;
         let reach = match gains.reaching {
@@ -298,22 +320,22 @@ impl SlidingAxis {
         }
     }
 
-    /// Forgets what has been integrated.
+    /// Clears the integrators.
     pub fn reset(&mut self) {
         self.twist = 0.0;
         self.integral = None;
     }
 
-    /// `λ ė + u_r(s)`, the part that every law of the paper adds to its equivalent control, for e and ė.
+    /// `λ ė + u_r(s)`, the term that every law of the paper adds to its equivalent control, for e and ė.
     ///
-    /// `hold` keeps the integrals as they are: the actuator is at its limit, and would not hear them.
+    /// `hold` freezes the integrators while the actuator is saturated (anti-windup).
     #[inline]
     pub fn correction(&mut self, error: f32, error_rate: f32, hold: bool) -> Correction {
         self.correction_along(error, error_rate, error_rate, hold)
     }
 
-    /// The same where the error's derivative and the velocity error differ, as they do on the rotation group: the
-    /// surface is `s = λ e + velocity_error`, its derivative takes `λ ė`.
+    /// The same where the derivative of the error differs from the velocity error, as on the rotation group: the
+    /// surface is `s = λ e + velocity_error`, and its derivative contains `λ ė`.
     #[inline]
     pub fn correction_along(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> Correction {
         if let Some(slope) = self.layer {
@@ -323,7 +345,7 @@ impl SlidingAxis {
         self.correction_otherwise(error, error_rate, velocity_error, hold)
     }
 
-    /// The same for every surface and reaching law; apart, so that what is flown most fits into the loop.
+    /// The same for any surface and reaching law; a separate function, so that the usual case stays small.
     #[inline(never)]
     fn correction_otherwise(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> Correction {
         let (s, equivalent) = match self.surface {
@@ -333,7 +355,7 @@ impl SlidingAxis {
         Correction { s, acceleration: equivalent + self.reach(s, hold) }
     }
 
-    /// s, and the derivative of its part λ e.
+    /// s, and the derivative of its term λ e.
     #[inline]
     fn linear_surface(&self, error: f32, error_rate: f32, velocity_error: f32) -> (f32, f32) {
         let approach = self.lambda * error;
@@ -343,12 +365,12 @@ impl SlidingAxis {
             let Approach { rate, slope, .. } = self.approach(error);
             (rate + velocity_error, slope * error_rate)
         } else {
-            // Limited, it does not change.
+            // At the limit, the term is constant.
             (bound(approach, self.approach_max) + velocity_error, 0.0)
         }
     }
 
-    /// The approach to a large error. A call of its own, or the compiler would have it computed every time.
+    /// The rate of approach for a large error. A separate function, because inlined it would be computed every time.
     #[cold]
     #[inline(never)]
     fn approach(&self, error: f32) -> Approach {
@@ -356,7 +378,7 @@ impl SlidingAxis {
         let sign = sgn(error);
         let from_linear = a / self.lambda;
         let square = 2.0 * a * e - from_linear * from_linear;
-        // Short of the parabola, or above the limit, the limit is what acts: it does not change.
+        // Before the parabola begins, or above the limit, the constant limit acts.
         if e * self.lambda < from_linear || square >= self.approach_max * self.approach_max {
             return Approach { rate: sign * self.approach_max, slope: 0.0, curvature: 0.0 };
         }
@@ -392,8 +414,7 @@ impl SlidingAxis {
         u
     }
 
-    /// Slope `du_r/ds` where it is of use to a feedforward: the layer's gain inside it, 0 where the law is flat or
-    /// jumps.
+    /// Slope `du_r/ds` for feedforward: the gain inside the boundary layer, 0 where the law is constant or jumps.
     #[inline]
     fn reach_slope(&self, s: f32) -> f32 {
         match self.reach {
@@ -408,7 +429,7 @@ impl SlidingAxis {
         }
     }
 
-    /// Derivative of the [`correction`](Self::correction) that gave `s`, for e, ė and ë.
+    /// Derivative of the [`correction`](Self::correction) that returned `s`, for e, ė and ë.
     #[inline]
     pub fn correction_rate(&self, s: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
         if let Some(slope) = self.layer {
@@ -418,7 +439,7 @@ impl SlidingAxis {
         self.correction_rate_otherwise(s, error, error_rate, error_acceleration)
     }
 
-    /// The same for every surface and reaching law.
+    /// The same for any surface and reaching law.
     #[inline(never)]
     fn correction_rate_otherwise(&self, s: f32, error: f32, error_rate: f32, error_acceleration: f32) -> f32 {
         let slope = self.reach_slope(s);

@@ -1,4 +1,5 @@
-//! The first second: where is down, where is north, what do the gyroscopes read at rest.
+//! Initial alignment: roll and pitch from gravity, heading from the magnetometer or motion capture, gyroscope bias from
+//! the mean rates at rest.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -8,30 +9,31 @@ use crate::math;
 use crate::sensors::{MagSample, PoseSample};
 use crate::signals::{TICK_S, Tick};
 
-/// Averaged over this long, ticks.
+/// Length of the averaging window, ticks.
 const WINDOW: Tick = 1_000;
-/// A vehicle that does not come to rest is taken as it moves after this long, ticks.
+/// A vehicle that does not come to rest within this time is aligned while it moves, ticks.
 const PATIENCE: Tick = 5_000;
 
-/// At rest the mean of the gyroscopes is their bias, within what calibration may have left of it, 1.7 °/s.
+/// Greatest mean rate at rest, rad/s: the gyroscope bias that calibration may leave, 1.7 °/s.
 const TURN_ON_BIAS_MAX: f32 = 0.03;
-/// And the mean of the window's second half is that of its first, rad/s and m/s²: on a boat, rates are small but change.
+/// Greatest change of the means between the two halves of the window, rad/s and m/s²: on a boat rates are small, but
+/// they change.
 const GYRO_CHANGE_MAX: f32 = 5e-3;
 const ACCEL_CHANGE_MAX: f32 = 0.15;
-/// Jobs' means (4 ms) scatter at rest by noise alone, some 1e-3 rad/s: rad/s and m/s².
+/// Greatest scatter of the means per job (4 ms) at rest, rad/s and m/s². Noise alone makes some 1e-3 rad/s.
 const GYRO_SCATTER_MAX: f32 = 5e-3;
 const ACCEL_SCATTER_MAX: f32 = 0.8;
-/// How far the mean of the accelerometers may be off g, as a part of it.
+/// Greatest difference of the mean specific force from g, as a fraction of g.
 const GRAVITY_OFF_MAX: f32 = 0.05;
 
-/// What the first second has shown.
+/// Result of the alignment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alignment {
     /// Body to world.
     pub attitude: UnitQuaternion<f32>,
-    /// Mean of the gyroscopes, if the vehicle stood still, rad/s.
+    /// Mean rates, if the vehicle was at rest, rad/s.
     pub gyro_bias: Option<Vector3<f32>>,
-    /// How far that may be off because the vehicle did not stand quite still, rad/s.
+    /// Uncertainty of that mean because the vehicle was not perfectly still, rad/s.
     pub scatter: f32,
     /// Whether north is known.
     pub has_heading: bool,
@@ -55,8 +57,8 @@ pub struct Aligner {
 }
 
 impl Aligner {
-    /// One job's sums and samples. None until the window is full; then what it has shown, or nothing if the vehicle moved
-    /// and there is patience left.
+    /// Adds one job's sums and samples. Returns the alignment once the window is full; if the vehicle moved, the window
+    /// starts again until [`PATIENCE`] is used up.
     pub fn update(
         &mut self,
         span: &Span,
@@ -76,7 +78,7 @@ impl Aligner {
         let still = self.is_still(gravity);
         let has_heading = pose.is_some() || self.fields > 0.0;
         let patient = self.waited < PATIENCE;
-        // A pose need not come with the very job that ends the window.
+        // A pose need not arrive with the very job that ends the window.
         if patient && !(still && has_heading) {
             if !still {
                 *self = Self { waited: self.waited, ..Self::default() };
@@ -85,7 +87,7 @@ impl Aligner {
         }
         let attitude = pose.map_or_else(|| self.attitude(north), |pose| pose.attitude);
         let gyro_bias = still.then(|| self.gyro / self.samples);
-        // Noise of so many jobs' means averages out; a sway, of which a second holds one or two, does by half at best.
+        // Noise averages out over the window's jobs. A sway has one or two periods in it, so half of it may remain.
         let scatter = 0.5 * math::sqrt(self.gyro_scatter());
         Some(Alignment { attitude, gyro_bias, scatter, has_heading })
     }
@@ -153,13 +155,13 @@ fn about(axis: &Vector3<f32>, angle: f32) -> UnitQuaternion<f32> {
     UnitQuaternion::new_unchecked(nalgebra::Quaternion::from_parts(cos, axis * sin))
 }
 
-/// Standard deviation of a mean of accelerometers over the window while the vehicle is moved about by hand, as a tilt,
-/// rad; and of one that stands still, for an accelerometer whose bias has this deviation.
+/// Standard deviation of the aligned tilt, rad: from the accelerometer bias (`accel_bias_sigma`, m/s²) if the vehicle
+/// was still, else that of a vehicle moved by hand during the window.
 pub fn tilt_sigma(still: bool, accel_bias_sigma: f32, gravity: f32) -> f32 {
     if still { accel_bias_sigma / gravity } else { 0.15 }
 }
 
-/// How long the window is, s.
+/// Length of the averaging window, s.
 pub const WINDOW_S: f32 = WINDOW as f32 * TICK_S;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The covariance of the error state, by blocks of three, and the two things that happen to it.
+//! The covariance of the error state, in blocks of three: prediction and correction.
 //!
 //! ```text
 //!      θ        v        p        bg       ba       o                    m
@@ -6,16 +6,16 @@
 //! └ (world)                    bias     bias     height offset        wind x, y ┘
 //! ```
 //!
-//! The attitude's error is a small rotation in the world, `R = Exp(θ) R̂` (the "global" error of Solà 2017, §7): so its
-//! own dynamics hold no rotation, and those of velocity and position hold the integrated specific force alone. Over a
-//! step of T seconds in which that integral is S,
+//! The attitude error is a small rotation in the world, `R = Exp(θ) R̂` (the "global" error of Solà 2017, §7). Its own
+//! dynamics therefore contain no rotation, and those of velocity and position contain the integrated specific force
+//! only. Over a step of T seconds with that integral S:
 //!
 //! ```text
 //! θ ← θ − T R bg      v ← v − S × θ − T R ba      p ← p + T v      (Solà 2017, eq. 283–288, to first order)
 //! ```
 //!
-//! and the rest stands still. Each of the three is a shear of one block row by others, done in place on the upper
-//! triangle; that is the whole of F P Fᵀ.
+//! The other states are constant. Each of the three lines is a shear of one block row by others, done in place on the
+//! upper triangle; together they are F P Fᵀ.
 
 use nalgebra::{Matrix3, SVector, Vector3};
 
@@ -24,7 +24,7 @@ pub const STATES: usize = 21;
 /// Blocks of three.
 const BLOCKS: usize = STATES / 3;
 
-/// Where a state stands.
+/// Index of the first component of each state.
 pub mod index {
     /// Attitude error in the world, rad.
     pub const THETA: usize = 0;
@@ -36,18 +36,26 @@ pub mod index {
     pub const GYRO_BIAS: usize = 9;
     /// Bias of the accelerometer, m/s².
     pub const ACCEL_BIAS: usize = 12;
-    /// Where the satellites' frame is in the local one, x and y, m.
+    /// Origin of the GNSS frame in the local frame, x and y, m.
     pub const OFFSET: usize = 15;
-    /// What the source of height reads beyond the height, m.
+    /// Offset of the height source: its reading minus the height, m.
     pub const HEIGHT_OFFSET: usize = 17;
-    /// What the magnetic heading reads beyond the heading, rad.
+    /// Offset of the magnetic heading: its reading minus the heading, rad.
     pub const HEADING_OFFSET: usize = 18;
     /// Wind, x and y, m/s.
     pub const WIND: usize = 19;
 }
 
-/// An error state, or a row of numbers one a state.
+/// An error state, or another vector with one component per state.
 pub type ErrorState = SVector<f32, STATES>;
+
+/// Three components of an error state, from `first` on; zero if there are none.
+pub(super) fn triple(x: &ErrorState, first: usize) -> Vector3<f32> {
+    match x.as_slice().get(first..first + 3) {
+        Some([x, y, z]) => Vector3::new(*x, *y, *z),
+        _ => Vector3::zeros(),
+    }
+}
 
 const T: usize = index::THETA / 3;
 const V: usize = index::VELOCITY / 3;
@@ -57,12 +65,12 @@ const A: usize = index::ACCEL_BIAS / 3;
 const O: usize = index::OFFSET / 3;
 const M: usize = index::HEADING_OFFSET / 3;
 
-/// What a measurement of one number depends on: all of the attitude, and up to three other states.
+/// A row of H, for one component of a measurement: factors on the attitude error and on up to three other states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// By the attitude's error.
+    /// Factors on the attitude error.
     pub theta: Vector3<f32>,
-    /// State and factor; a factor of 0 for none.
+    /// State and factor of each other entry; a factor of 0 for an unused one.
     pub entries: [(usize, f32); 3],
 }
 
@@ -75,13 +83,13 @@ impl Row {
     }
 }
 
-/// A state's number; 0 for a state that is none.
+/// A component by its index; 0 beyond the last.
 #[inline]
 fn entry(x: &ErrorState, state: usize) -> f32 {
     x.as_slice().get(state).copied().unwrap_or(0.0)
 }
 
-/// Process noise of a step: variances that it adds.
+/// Process noise of a step: the variances that it adds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepNoise {
     /// θ, rad².
@@ -98,18 +106,18 @@ pub struct StepNoise {
     pub magnetic_wind: Vector3<f32>,
 }
 
-/// What moves the error over a step.
+/// The motion over a step, as the error dynamics need it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// T, s.
     pub step_s: f32,
-    /// R, body to world, of the step's end.
+    /// R, body to world, at the end of the step.
     pub rotation: Matrix3<f32>,
     /// S = ∫ R f dt over the step, m/s.
     pub velocity_change: Vector3<f32>,
 }
 
-/// A symmetric 21 × 21 matrix: the blocks on and above the diagonal count.
+/// A symmetric 21 × 21 matrix. Only the blocks on and above the diagonal are used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Covariance {
     blocks: [[Matrix3<f32>; BLOCKS]; BLOCKS],
@@ -135,7 +143,7 @@ impl Covariance {
         covariance
     }
 
-    /// The variance of a state; 0 for a state that is none.
+    /// The variance of a state; 0 beyond the last.
     #[inline]
     pub fn variance(&self, state: usize) -> f32 {
         let (block, axis) = (state / 3, state % 3);
@@ -148,7 +156,7 @@ impl Covariance {
         self.blocks.get(i / 3).and_then(|row| row.get(j / 3)).map_or(0.0, |b| b[(i % 3, j % 3)])
     }
 
-    /// Makes a state independent of all others, with this variance: for one that has been set anew.
+    /// Sets the variance of a state and clears its correlations with all others: for a state that has been reset.
     pub fn set_variance(&mut self, state: usize, variance: f32) {
         let (block, axis) = (state / 3, state % 3);
         for (i, row) in self.blocks.iter_mut().enumerate() {
@@ -174,7 +182,7 @@ impl Covariance {
         }
     }
 
-    /// A step: F P Fᵀ + Q.
+    /// Predicts over a step: F P Fᵀ + Q.
     pub fn predict(&mut self, motion: &Motion, noise: &StepNoise) {
         self.move_position(motion.step_s);
         self.turn_velocity(&motion.velocity_change, &(motion.rotation * -motion.step_s));
@@ -202,7 +210,7 @@ impl Covariance {
         let b = &mut self.blocks;
         let minus = -s;
         let (attitude, bias) = (b[T][V], b[V][A]);
-        // With the others first: what stands on the diagonal needs the rows before and after.
+        // The off-diagonal blocks first: the diagonal one needs the row before and after.
         for other in [P, G] {
             let change = cross(&minus, &b[T][other]) + by_bias * b[other][A].transpose();
             b[V][other] += change;
@@ -252,22 +260,22 @@ impl Covariance {
         add(M, noise.magnetic_wind);
     }
 
-    /// P Hᵀ, into `product`: its 84 bytes are dear to hand about.
+    /// Writes P Hᵀ to `product`, in place: returning its 84 bytes by value would cost a copy per measurement.
     pub fn times(&self, row: &Row, product: &mut ErrorState) {
-        let (parts, _) = product.as_mut_slice().as_chunks_mut::<3>();
+        let (triples, _) = product.as_mut_slice().as_chunks_mut::<3>();
         let [x, y, z] = row.theta.into();
-        for (to, block) in parts.iter_mut().zip(&self.blocks[T]) {
+        for (to, block) in triples.iter_mut().zip(&self.blocks[T]) {
             let columns: &[[f32; 3]; 3] = block.as_ref();
             *to = columns.map(|[a, b, c]| a * x + b * y + c * z);
         }
         for (state, factor) in row.entries {
             if factor != 0.0 {
-                self.add_column(state, factor, parts);
+                self.add_column(state, factor, triples);
             }
         }
     }
 
-    /// Adds a column's multiple: down to the diagonal the column itself, beyond it the row of the same number.
+    /// Adds a multiple of a column: above the diagonal from the column itself, below it from the row of the same index.
     #[inline]
     fn add_column(&self, state: usize, factor: f32, product: &mut [[f32; 3]]) {
         let (block, axis) = (state / 3, state % 3);
@@ -284,35 +292,35 @@ impl Covariance {
         }
     }
 
-    /// The correction by numbers measured, each independent of those before it: Joseph's form for gains K = c/s, with
-    /// c = P Hᵀ and s = H c + R,
+    /// Corrects by N measured components, each independent of those before it: Joseph's form for gains K = c/s, with c
+    /// = P Hᵀ and s = H c + R,
     ///
     /// ```text
     /// P ← (I − K H) P (I − K H)ᵀ + K R Kᵀ = P − K uᵀ − u Kᵀ,      u = c − s K/2
     /// ```
     ///
-    /// to second order indifferent to the gain's rounding. The diagonal is then kept symmetric, and its
-    /// variances above what no state is known better than.
+    /// which depends on the rounding of the gain to second order only. The diagonal blocks are then made symmetric and
+    /// their variances kept above a floor.
     pub fn correct<const N: usize>(&mut self, c: &[ErrorState; N], s: &[f32; N]) {
-        let mut parts = [Part::<N>::ZERO; BLOCKS];
+        let mut gains = [BlockGain::<N>::ZERO; BLOCKS];
         for (n, (c, s)) in c.iter().zip(s).enumerate() {
-            for (part, c) in parts.iter_mut().zip(threes(c)) {
-                part.set(n, c, *s);
+            for (gain, c) in gains.iter_mut().zip(triples(c)) {
+                gain.set(n, c, *s);
             }
         }
-        for (i, (row, one)) in self.blocks.iter_mut().zip(&parts).enumerate() {
-            for (block, other) in row.iter_mut().skip(i).zip(parts.iter().skip(i)) {
-                one.take_off(other, block);
+        for (i, (row, one)) in self.blocks.iter_mut().zip(&gains).enumerate() {
+            for (block, other) in row.iter_mut().skip(i).zip(gains.iter().skip(i)) {
+                one.subtract_from(other, block);
             }
         }
-        self.settle();
+        self.condition();
     }
 
-    /// Makes the diagonal's blocks symmetric again, which rounding may have made a little less so, and its variances not
-    /// less than what no state is known better than, in f32; one that is not a number is brought up to that too.
+    /// Makes the diagonal blocks symmetric, against rounding, and raises variances that are below the floor, or NaN.
     #[inline]
-    fn settle(&mut self) {
-        /// (1e-5 rad)², (1e-4 m/s)², (1e-4 m)², (1e-6 rad/s)², (1e-5 m/s²)², (1e-4 m)², (1e-5 rad or m/s)².
+    fn condition(&mut self) {
+        /// No state is ever known better than this, and f32 still resolves it: (1e-5 rad)², (1e-4 m/s)², (1e-4 m)²,
+        /// (1e-6 rad/s)², (1e-5 m/s²)², (1e-4 m)², (1e-5 rad or m/s)².
         const LEAST: [f32; BLOCKS] = [1e-10, 1e-8, 1e-8, 1e-12, 1e-10, 1e-10, 1e-10];
         for (i, (row, least)) in self.blocks.iter_mut().zip(LEAST).enumerate() {
             let Some(b) = row.get_mut(i) else { return };
@@ -323,9 +331,9 @@ impl Covariance {
     }
 }
 
-/// By blocks. (An iterator of nalgebra's looks for the end of a column at every number.)
+/// The blocks of a vector. (nalgebra's iterator would check for the end of a column at every element.)
 #[inline]
-fn threes(x: &ErrorState) -> &[[f32; 3]] {
+fn triples(x: &ErrorState) -> &[[f32; 3]] {
     x.as_slice().as_chunks().0
 }
 
@@ -337,17 +345,17 @@ pub(super) fn add_multiple(x: &mut ErrorState, a: f32, y: &ErrorState) {
     }
 }
 
-/// Three states' part of what a correction takes off: K and u of each number.
+/// K and u of one block of three states, for each measured component.
 #[derive(Clone, Copy)]
-struct Part<const N: usize> {
+struct BlockGain<const N: usize> {
     k: [[f32; 3]; N],
     u: [[f32; 3]; N],
 }
 
-impl<const N: usize> Part<N> {
+impl<const N: usize> BlockGain<N> {
     const ZERO: Self = Self { k: [[0.0; 3]; N], u: [[0.0; 3]; N] };
 
-    /// Of the number `n`, by c and s.
+    /// Sets those of component `n`, from c and s.
     #[inline]
     fn set(&mut self, n: usize, c: &[f32; 3], s: f32) {
         let k = c.map(|c| c * (1.0 / s));
@@ -355,9 +363,9 @@ impl<const N: usize> Part<N> {
         self.u[n] = core::array::from_fn(|axis| c[axis] - k[axis] * (0.5 * s));
     }
 
-    /// K uᵀ + u Kᵀ, rows from here and columns from there.
+    /// Subtracts K uᵀ + u Kᵀ from a block: rows of `self`, columns of `other`.
     #[inline]
-    fn take_off(&self, other: &Self, block: &mut Matrix3<f32>) {
+    fn subtract_from(&self, other: &Self, block: &mut Matrix3<f32>) {
         let columns: &mut [[f32; 3]; 3] = block.as_mut();
         for (column, numbers) in columns.iter_mut().enumerate() {
             *numbers = core::array::from_fn(|axis| {

@@ -1,14 +1,15 @@
-//! The outer half of the estimator: covariance, late readings, gates, and what is to be trusted.
+//! The outer half of the estimator: covariance, late readings, gates, and health.
 //!
-//! One job every 4 ms: the error state's covariance is moved to the newest snapshot, each reading that has come since
-//! the last job is fused at its own time, and the error found is handed back for the predictor to take off. Position and
-//! height have an offset a source ([`index::OFFSET`], [`index::HEIGHT_OFFSET`]): a receiver's slow wandering is not
-//! taken for motion, and a source that has jumped and stays there moves its offset, never the vehicle.
+//! One job every 4 ms predicts the covariance to the newest snapshot, fuses each reading that has arrived since the
+//! last job at its own time, and returns the error found as a correction for the predictor.
+//!
+//! Position and height have one offset per source ([`index::OFFSET`], [`index::HEIGHT_OFFSET`]), so that a receiver's
+//! slow drift is not taken for motion. If a source jumps and stays there, its offset moves and the vehicle does not.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::align::{self, Aligner, Alignment};
-use super::covariance::{self, Covariance, ErrorState, StepNoise, index};
+use super::covariance::{self, Covariance, ErrorState, StepNoise, index, triple};
 use super::fusion::{REST_NOISE, STILL_JOBS};
 use super::history::{History, Moved, Snapshot};
 use super::models::MagneticNorth;
@@ -21,7 +22,7 @@ use crate::math;
 use crate::sensors::{BaroSample, GnssSample, MagSample, PoseSample};
 use crate::signals::{NavHealth, TICK_S, Tick};
 
-/// Readings since the last job: of each sensor the newest.
+/// Readings since the last job: the newest of each sensor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Readings {
     /// Magnetometer.
@@ -37,7 +38,7 @@ pub struct Readings {
 /// Snapshot for the filter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilterInput {
-    /// The predictor's state, before the last job's correction if that has been lost.
+    /// The predictor's state. It lacks the last job's correction if that was lost.
     pub state: Nominal,
     /// Ω without bias, rad/s.
     pub rates: Vector3<f32>,
@@ -45,76 +46,76 @@ pub struct FilterInput {
     pub force: Vector3<f32>,
     /// Sums since the last job.
     pub span: Span,
-    /// Whether the last job's injection was taken in.
+    /// Whether the predictor applied the last job's injection.
     pub injected: bool,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
-    /// Whether it is known to stand there: disarmed.
+    /// Whether it is on the ground and disarmed, so that it may be at rest.
     pub at_rest: bool,
-    /// What has come.
+    /// Readings since the last job.
     pub readings: Readings,
 }
 
-/// What a reading was of.
+/// Kind of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// Magnetic heading: one number.
+    /// Magnetic heading: one component.
     Heading,
-    /// Height by pressure: one number.
+    /// Barometric height: one component.
     Baro,
-    /// Place by satellites: two numbers.
+    /// GNSS horizontal position: two components.
     GnssPosition,
-    /// Height by satellites: one number.
+    /// GNSS height: one component.
     GnssHeight,
-    /// Velocity by satellites: three numbers.
+    /// GNSS velocity: three components.
     GnssVelocity,
-    /// Position by motion capture: three numbers.
+    /// Motion-capture position: three components.
     PosePosition,
-    /// Attitude by motion capture: three numbers.
+    /// Motion-capture attitude: three components.
     PoseAttitude,
-    /// Drag, which tells the velocity through the air: two numbers.
+    /// Drag, which depends on the velocity through the air: two components.
     Drag,
-    /// Standing: three numbers.
+    /// Zero-velocity update at rest: three components.
     Rest,
 }
 
-/// One reading's consistency.
+/// Consistency of one measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Consistency {
-    /// Of what.
+    /// Its kind.
     pub source: Source,
-    /// Normalised innovation squared, and whether the reading was taken in.
+    /// Normalised innovation squared, and whether it was fused.
     pub verdict: Verdict,
 }
 
-/// What the predictor is to do.
+/// Instruction for the predictor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Injection {
     /// Nothing.
     None,
-    /// Take off an error.
+    /// Apply a correction.
     Correct(Correction),
     /// Start from this state.
     Start(Nominal),
 }
 
-/// What a job has found.
+/// Output of a job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FilterOutput {
     /// For the predictor.
     pub injection: Injection,
-    /// What of the motion is to be trusted.
+    /// Which components of the motion may be trusted.
     pub health: NavHealth,
-    /// Wind, x and y, m/s.
+    /// Estimated wind, x and y, m/s.
     pub wind: [f32; 2],
-    /// Standard deviations of attitude (rad), velocity (m/s) and position (m).
+    /// Standard deviations of attitude (rad), velocity (m/s) and position (m), three components each.
     pub sigma: [f32; 9],
-    /// Of each reading of this job.
+    /// One entry per measurement of this job.
     pub consistency: heapless::Vec<Consistency, 8>,
 }
 
 impl FilterOutput {
-    /// Before the first job.
+    /// Output before the first job: nothing is known.
     pub fn initial() -> Self {
         Self {
             injection: Injection::None,
@@ -126,24 +127,26 @@ impl FilterOutput {
     }
 }
 
-/// A source that has been at odds for this long, ticks, is taken to have jumped.
+/// A source whose readings have failed the gate for this long has jumped, ticks.
 pub(super) const JUMPED_AFTER: Tick = 2_500;
-/// A source that has been silent, or at odds, for this long is lost, ticks.
+/// A source that has been silent, or whose readings have failed the gate, for this long is lost, ticks.
 pub(super) const LOST_AFTER: Tick = 1_500;
-/// The heading needs no reading for this long, ticks.
+/// The heading stays trusted this long without a reading, ticks: the gyroscope bias is known by then.
 const HEADING_LOST_AFTER: Tick = 30_000;
-/// Beyond these nothing is trusted: tilt and heading (rad), velocity (m/s), position and height (m).
+/// Greatest trusted deviations: tilt and heading (rad), velocity (m/s), position and height (m). Chosen: a tilt of 0.2
+/// rad lets the vehicle accelerate sideways by g/5, and 10 m is the accuracy beyond which a GNSS fix is not used
+/// either.
 const TILT_SIGMA_MAX: f32 = 0.2;
 const HEADING_SIGMA_MAX: f32 = 0.4;
 const SPEED_SIGMA_MAX: f32 = 1.0;
 const POSITION_SIGMA_MAX: f32 = 10.0;
 const HEIGHT_SIGMA_MAX: f32 = 5.0;
-/// Part of the way in a job by which the force follows what is measured: 40 ms, some turns of the rotors.
-const FORCE_PART: f32 = 0.1;
-/// How long ago a motion capture's pose may be for an alignment, ticks.
+/// Gain per job of the low-pass on the specific force: a time constant of 40 ms, several rotor turns.
+const FORCE_GAIN: f32 = 0.1;
+/// Greatest age of a motion-capture pose used for alignment, ticks.
 const POSE_FRESH: Tick = 200;
 
-/// Values of the states that the filter alone knows.
+/// Values of the states that only the filter holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Offsets {
     pub(super) gnss: [f32; 2],
@@ -152,7 +155,19 @@ pub(super) struct Offsets {
     pub(super) wind: [f32; 2],
 }
 
-/// Which sensor the height is by.
+impl Offsets {
+    /// Adds the error found.
+    fn correct(&mut self, error: &ErrorState) {
+        let [gnss_x, gnss_y, height] = triple(error, index::OFFSET).into();
+        let [heading, wind_x, wind_y] = triple(error, index::HEADING_OFFSET).into();
+        self.gnss = [self.gnss[0] + gnss_x, self.gnss[1] + gnss_y];
+        self.height += height;
+        self.heading += heading;
+        self.wind = [self.wind[0] + wind_x, self.wind[1] + wind_y];
+    }
+}
+
+/// The sensor that provides the height.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum HeightSource {
     None,
@@ -178,12 +193,12 @@ pub struct Filter {
     pub(super) gravity: f32,
     /// k over m of the airframe along x and y, 1/s.
     pub(super) specific_drag: f32,
-    /// Where the vehicle stands before anything else is known, m.
+    /// Position at start-up, m.
     start: Vector3<f32>,
-    /// Ticks without a sample of the IMU until now.
+    /// Ticks since the last IMU sample.
     gap: u32,
     pub(super) north: Option<MagneticNorth>,
-    /// Until the vehicle is aligned.
+    /// Present until the vehicle is aligned.
     aligner: Option<Aligner>,
     pub(super) covariance: Covariance,
     pub(super) history: History,
@@ -194,36 +209,37 @@ pub struct Filter {
     pub(super) baro_scatter: Scatter,
     pub(super) mag_scatter: Scatter,
     last_pose: Option<PoseSample>,
-    /// Found but not known to have been taken in.
+    /// The last correction and start state: not yet confirmed by the predictor.
     ordered: Correction,
     started: Option<Nominal>,
     pub(super) jobs: u32,
-    /// For how many jobs it has been still.
+    /// Number of consecutive jobs during which the vehicle has been still.
     pub(super) still_jobs: u32,
-    /// Sum of the accelerometer's samples since drag was last fused, m/s², and how many.
+    /// Sum of the accelerometer's samples since drag was last fused, m/s², and their number.
     pub(super) force: (Vector3<f32>, u32),
-    /// How far the specific force in the body's frame is from that at rest, smoothed, m/s².
+    /// Low-passed difference of the specific force in the body frame from that at rest, m/s².
     force_off: Vector3<f32>,
 }
 
-/// What a job works with.
+/// Working data of a job.
 pub(super) struct Job<'a> {
     pub(super) now: Snapshot,
     pub(super) input: &'a FilterInput,
-    /// Found so far.
+    /// Error state found so far.
     pub(super) error: ErrorState,
     consistency: heapless::Vec<Consistency, 8>,
 }
 
 impl Job<'_> {
     pub(super) fn note(&mut self, source: Source, verdict: Verdict) {
-        // As many as there are sources.
+        // Its capacity is the number of sources that one job can have.
         let _ = self.consistency.push(Consistency { source, verdict });
     }
 }
 
 impl Filter {
-    /// Not yet aligned. `specific_drag` is the airframe's k/m, 1/s.
+    /// A filter that is not aligned yet, for a vehicle at `start` (m). `gravity` is g (m/s²), `specific_drag` the
+    /// airframe's k/m (1/s).
     pub fn new(settings: &EstimatorSettings, gravity: f32, specific_drag: f32, start: Vector3<f32>) -> Self {
         Self {
             settings: *settings,
@@ -275,17 +291,17 @@ impl Filter {
         &self.covariance
     }
 
-    /// Where satellites' places are in the local frame, once the first has come.
+    /// The conversion from WGS-84 to the local frame. `None` before the first GNSS fix.
     pub fn local_frame(&self) -> Option<&LocalFrame> {
         self.frame.as_ref()
     }
 
-    /// The predictor's state; the one it was to start from, if that has been lost.
+    /// The predictor's state, or the start state if its injection was lost.
     fn state(&self, input: &FilterInput) -> Nominal {
         self.started.filter(|_| !input.injected).unwrap_or(input.state)
     }
 
-    /// A correction that was lost is still to be made: it is the error already known.
+    /// The error that is already known because the last correction was lost.
     fn take_back(&mut self) -> ErrorState {
         self.history.order(Moved::default());
         let c = &self.ordered;
@@ -297,7 +313,7 @@ impl Filter {
         error
     }
 
-    // ---------------------------------------------------------------------------------------------- beginning
+    // ---------------------------------------------------------------------------------------------- alignment
 
     fn align(&mut self, now: Tick, input: &FilterInput) -> FilterOutput {
         let mag = input.readings.mag.filter(|mag| math::all_finite(mag.field_ut.as_slice()));
@@ -319,11 +335,11 @@ impl Filter {
         }
     }
 
-    /// The state to start from; the covariance is set to what is known of it.
+    /// The state to start from. Sets the covariance to match.
     fn begin(&mut self, alignment: &Alignment, pose: Option<&PoseSample>) -> Nominal {
         let settings = &self.settings;
         let still = alignment.gyro_bias.is_some();
-        // The window has shown it.
+        // Alignment has already observed a second of rest.
         self.still_jobs = if still { STILL_JOBS } else { 0 };
         let tilt = align::tilt_sigma(still, settings.accel_bias, self.gravity);
         let heading = match (alignment.has_heading, pose) {
@@ -342,11 +358,11 @@ impl Filter {
         }
     }
 
-    // ------------------------------------------------------------------------------------------------ a job
+    // ----------------------------------------------------------------------------------------- prediction, output
 
     fn predict(&mut self, input: &FilterInput, attitude: &UnitQuaternion<f32>) {
         let step_s = input.span.ticks as f32 * TICK_S;
-        self.force_off += (input.force - Vector3::z() * self.gravity - self.force_off) * FORCE_PART;
+        self.force_off += (input.force - Vector3::z() * self.gravity - self.force_off) * FORCE_GAIN;
         let off = &self.force_off;
         let mut noise = self.settings.step_noise(step_s, &(attitude * input.rates), math::sqrt(off.norm_squared()));
         self.add_gap(&input.span, &mut noise);
@@ -358,9 +374,9 @@ impl Filter {
         self.covariance.predict(&motion, &noise);
     }
 
-    /// Without samples the last one is integrated on: what the vehicle does meanwhile is not known.
+    /// Adds noise for missing IMU samples: the predictor repeats the last sample, and the true motion is unknown.
     fn add_gap(&mut self, span: &Span, noise: &mut StepNoise) {
-        /// A vehicle in a manoeuvre: rad/s² and m/s³.
+        /// Angular acceleration (rad/s²) and jerk (m/s³) of a brisk manoeuvre.
         const UNSEEN: (f32, f32) = (20.0, 50.0);
         let missing = span.ticks.saturating_sub(span.samples);
         self.gap = if span.samples == 0 { self.gap.saturating_add(missing) } else { missing };
@@ -370,33 +386,24 @@ impl Filter {
         noise.velocity += push * push;
     }
 
-    /// Orders the correction and says what is to be trusted.
+    /// Splits the error found into the predictor's correction and the filter's own offsets, and assesses the health.
     fn finish(&mut self, job: Job) -> FilterOutput {
         if !math::all_finite(job.error.as_slice()) {
             return self.give_up();
         }
-        let e = job.error.as_slice();
-        let three = |first: usize| match e.get(first..first + 3) {
-            Some([x, y, z]) => Vector3::new(*x, *y, *z),
-            _ => Vector3::zeros(),
-        };
+        let e = &job.error;
         let correction = Correction {
-            theta: three(index::THETA),
-            velocity: three(index::VELOCITY),
-            position: three(index::POSITION),
-            gyro_bias: three(index::GYRO_BIAS),
-            accel_bias: three(index::ACCEL_BIAS),
+            theta: triple(e, index::THETA),
+            velocity: triple(e, index::VELOCITY),
+            position: triple(e, index::POSITION),
+            gyro_bias: triple(e, index::GYRO_BIAS),
+            accel_bias: triple(e, index::ACCEL_BIAS),
         };
-        let [gnss, more, wind] = [three(index::OFFSET), three(index::HEADING_OFFSET), three(index::WIND - 1)];
-        let offsets = &mut self.offsets;
-        offsets.gnss = [offsets.gnss[0] + gnss.x, offsets.gnss[1] + gnss.y];
-        offsets.height += gnss.z;
-        offsets.heading += more.x;
-        offsets.wind = [offsets.wind[0] + wind.y, offsets.wind[1] + wind.z];
+        self.offsets.correct(e);
         let Correction { theta, velocity, position, .. } = correction;
         self.history.order(Moved { theta, velocity, position });
         self.ordered = correction;
-        // A start that was lost is ordered once more.
+        // A start that was lost is ordered again.
         self.started = self.started.filter(|_| !job.input.injected);
         let injection = self.started.map_or(Injection::Correct(correction), Injection::Start);
         FilterOutput {
@@ -408,7 +415,7 @@ impl Filter {
         }
     }
 
-    /// Nothing is left that could be corrected: from the beginning.
+    /// The error is not finite, so nothing can be corrected: aligns again.
     #[cold]
     fn give_up(&mut self) -> FilterOutput {
         self.aligner = Some(Aligner::default());
@@ -420,7 +427,7 @@ impl Filter {
     // ------------------------------------------------------------------------------------------------- health
 
     fn sigma(&self) -> [f32; 9] {
-        // What is no number is not known at all.
+        // A variance of NaN means unknown.
         let root = |variance: f32| if variance >= 0.0 { math::sqrt(variance) } else { f32::INFINITY };
         core::array::from_fn(|state| root(self.covariance.variance(state)))
     }

@@ -1,8 +1,8 @@
-//! The readings of each sensor: from a sample to a measurement, and what is made of one that disagrees.
+//! Fusion of each sensor: from a sample to a measurement, and recovery when a sensor persistently disagrees.
 
 use nalgebra::Vector3;
 
-use super::covariance::{ErrorState, Row, index};
+use super::covariance::{Row, index, triple};
 use super::filter::{Filter, FilterInput, HeightSource, JUMPED_AFTER, Job, LOST_AFTER, Source};
 use super::history::Snapshot;
 use super::models::{Age, NONE, attitude_row, pressure_height, turn_between};
@@ -12,30 +12,33 @@ use crate::math;
 use crate::sensors::{BaroSample, GnssSample, MagSample, PoseSample};
 use crate::signals::Tick;
 
-/// As many equal readings in a row are a sensor that has stopped.
+/// A sensor is stuck once it has repeated a reading this many times in a row.
 const STUCK_AFTER: u32 = 8;
-/// Drag is fused every so many jobs.
+/// The same for a GNSS position, which is counted in mm and 1e-7° (1 cm): its noise hardly repeats one even once.
+const GNSS_STUCK_AFTER: u32 = 2;
+/// Drag is fused once per this many jobs: a mean over 80 ms.
 const DRAG_EVERY: u32 = 20;
-/// And standing.
+/// The zero-velocity update is made once per this many jobs: every 100 ms.
 const REST_EVERY: u32 = 25;
-/// A vehicle stands once it has been still for so many jobs, 1 s: whatever is carried is still for a moment now and then.
+/// A vehicle is at rest once it has been still for this many jobs, 1 s: one carried by hand is still for a moment too.
 pub(super) const STILL_JOBS: u32 = 250;
-/// Still: below this, rad/s and m/s².
+/// Bounds of being still: rates (rad/s), within the greatest turn-on bias, and force beyond gravity (m/s²).
 const STILL_RAD_S: f32 = 0.03;
 const STILL_M_S2: f32 = 0.5;
-/// Noise of drag as a specific force, m/s²: what gusts, tilting and the model leave of a mean over as many jobs.
+/// Noise of drag as a specific force, m/s²: what gusts, tilt and the linear drag model leave in a mean over 80 ms.
 const DRAG_NOISE: f32 = 0.08;
-/// Deviation of a state that is forgotten: beyond any that is flown with, in any unit, and few enough for an f32.
-const FORGOTTEN: f32 = 10.0;
-/// And of a heading with which the field does not agree for long, rad.
+/// Deviation given to a state that is reset: larger than any in flight, in any unit, and small enough for f32
+/// precision.
+const RESET_SIGMA: f32 = 10.0;
+/// Deviation added to the heading when the magnetometer disagrees persistently, rad.
 const HEADING_IN_DOUBT: f32 = 0.2;
-/// A vehicle that turns faster, rad/s, feels its drag from all sides in the time of a mean.
+/// Above this rate, rad/s, the vehicle turns far enough during the mean of 80 ms for drag to average out.
 const SPINNING_RAD_S: f32 = 3.0;
-/// A vehicle at rest stands this still, m/s.
+/// Deviation of the velocity of a vehicle at rest, m/s.
 pub(super) const REST_NOISE: f32 = 0.02;
 
 impl Filter {
-    /// Fuses the readings of a job.
+    /// Fuses every reading that has arrived for this job.
     pub(super) fn fuse(&mut self, job: &mut Job) {
         let readings = &job.input.readings;
         if let Some(pose) = readings.pose.filter(PoseSample::is_valid) {
@@ -65,7 +68,7 @@ impl Filter {
         }
     }
 
-    /// The past of a reading; none if it is not remembered.
+    /// The motion since a reading, or `None` if it is older than the history.
     fn age(&self, at: Tick, now: &Snapshot) -> Option<Age> {
         self.history.at(at).map(|past| Age::new(&past, now, self.gravity))
     }
@@ -73,25 +76,26 @@ impl Filter {
     fn fuse_mag(&mut self, job: &mut Job, mag: &MagSample) {
         let Some((age, north)) = self.age(mag.at, &job.now).zip(self.north) else { return };
         let field = mag.field_ut;
-        if !self.watches.mag.admits(mag.at, field.into(), STUCK_AFTER) || !north.is_plausible(&field) {
+        let bits: [f32; 3] = field.into();
+        if !self.watches.mag.admits(mag.at, bits.map(f32::to_bits), STUCK_AFTER) || !north.is_plausible(&field) {
             return;
         }
         let reading = north.read(&field, &age.then.attitude);
         let sigma = self.settings.mag_noise_ut / reading.horizontal_ut;
-        let noisier = self.mag_scatter.noisier();
+        let factor = self.mag_scatter.noise_factor();
         let believed = self.offsets.heading + reading.row.dot(&age.since);
         let measurement = Measurement {
             rows: [reading.row],
             innovation: [math::wrap_angle(reading.turn - believed)],
-            variance: [sigma * sigma * noisier],
+            variance: [sigma * sigma * factor],
         };
         let verdict = measurement.apply(&mut self.covariance, &mut job.error, gate::<1>());
-        self.mag_scatter.note(verdict.nis * noisier);
+        self.mag_scatter.note(verdict.nis * factor);
         job.note(Source::Heading, verdict);
         self.watches.mag.note(job.now.at, verdict.accepted);
         if self.watches.mag.is_at_odds(job.now.at, 2 * JUMPED_AFTER) {
             self.offsets.heading += measurement.innovation[0] - reading.row.dot(&job.error);
-            // Which of the two is wrong the field cannot tell: satellites shall be able to.
+            // The field cannot tell whether the heading or the magnetometer is wrong: let GNSS velocities decide.
             self.covariance.add_variance(index::THETA + 2, HEADING_IN_DOUBT * HEADING_IN_DOUBT);
             self.realign_offset(job, &measurement, index::HEADING_OFFSET);
             self.watches.mag.note(job.now.at, true);
@@ -100,15 +104,15 @@ impl Filter {
 
     fn fuse_baro(&mut self, job: &mut Job, baro: BaroSample) {
         let Some(age) = self.age(baro.at, &job.now) else { return };
-        if !self.watches.baro.admits(baro.at, [baro.pressure_pa, 0.0, 0.0], STUCK_AFTER) {
+        if !self.watches.baro.admits(baro.at, [baro.pressure_pa.to_bits(), 0, 0], STUCK_AFTER) {
             return;
         }
         let height = pressure_height(baro.pressure_pa);
         let noise = self.settings.baro_noise_m;
         if self.height_by == HeightSource::Baro || !self.watches.baro.is_live(job.now.at, LOST_AFTER) {
-            let noisier = self.baro_scatter.noisier();
-            let verdict = self.fuse_height(job, &age, height, noise * noise * noisier, HeightSource::Baro);
-            self.baro_scatter.note(verdict.nis * noisier);
+            let factor = self.baro_scatter.noise_factor();
+            let verdict = self.fuse_height(job, &age, height, noise * noise * factor, HeightSource::Baro);
+            self.baro_scatter.note(verdict.nis * factor);
             job.note(Source::Baro, verdict);
             self.watches.baro.note(job.now.at, verdict.accepted);
             if self.watches.baro.is_at_odds(job.now.at, JUMPED_AFTER) {
@@ -117,7 +121,8 @@ impl Filter {
         }
     }
 
-    /// A height by a source whose offset is known, or is set so that the source reads the height believed.
+    /// Fuses a height. If the height source changes, the new source's offset is set so that it reads the estimated
+    /// height.
     fn fuse_height(&mut self, job: &mut Job, age: &Age, height: f32, variance: f32, by: HeightSource) -> Verdict {
         let row = age.position(2, (index::HEIGHT_OFFSET, 1.0));
         let beyond = height - age.then.position.z - row.dot(&age.since) - row.dot(&job.error);
@@ -136,18 +141,18 @@ impl Filter {
     fn fuse_gnss(&mut self, job: &mut Job, gnss: &GnssSample) {
         let Some(age) = self.age(gnss.at, &job.now) else { return };
         let place = gnss.place;
-        let value = [place.latitude_e7, place.longitude_e7, place.height_mm].map(|v| f32::from_bits(v as u32));
-        if !self.watches.gnss.admits(gnss.at, value, 2) {
+        let bits = [place.latitude_e7, place.longitude_e7, place.height_mm].map(i32::cast_unsigned);
+        if !self.watches.gnss.admits(gnss.at, bits, GNSS_STUCK_AFTER) {
             return;
         }
         self.fuse_gnss_velocity(job, &age, gnss);
         let believed = age.then.position;
-        let reference = believed + axes_of(&age.since, index::POSITION);
+        let here = believed + triple(&age.since, index::POSITION);
         let frame = *self.frame.get_or_insert_with(|| LocalFrame::new(place));
         let local = frame.to_local(&place);
         if !self.watches.gnss.is_live(job.now.at, Tick::MAX / 4) {
-            // The first: its frame is where the vehicle is.
-            self.offsets.gnss = [local.x - reference.x, local.y - reference.y];
+            // The first fix: the receiver's frame is placed where the vehicle is.
+            self.offsets.gnss = [local.x - here.x, local.y - here.y];
         }
         let [noise, noise_up] = self.settings.gnss_noise_m;
         let rows = [age.position(0, (index::OFFSET, 1.0)), age.position(1, (index::OFFSET + 1, 1.0))];
@@ -170,7 +175,7 @@ impl Filter {
         }
     }
 
-    /// The receiver has jumped and stays there: its frame has moved, not the vehicle.
+    /// The receiver has jumped and stays there: its frame has moved, not the vehicle. Moves the offset.
     fn move_gnss_offset(&mut self, job: &mut Job, measurement: &Measurement<2>) {
         for ((offset, row), innovation) in
             self.offsets.gnss.iter_mut().zip(&measurement.rows).zip(measurement.innovation)
@@ -181,18 +186,19 @@ impl Filter {
         self.watches.gnss.note(job.now.at, true);
     }
 
-    /// Offsets from `first` on have been set so that a reading agrees: nothing is left of its innovation, and what the
-    /// offsets are known by is the reading and what else it depends on.
+    /// Makes the covariance agree with N offsets, from state `first` on, that have been set so that a reading's
+    /// innovation is zero: they are now known by that reading and by the other states that it depends on.
     fn realign_offset<const N: usize>(&mut self, job: &mut Job, measurement: &Measurement<N>, first: usize) {
         let error = job.error;
         let agrees = Measurement { innovation: measurement.rows.map(|row| row.dot(&error)), ..*measurement };
         self.reset_states_from(job, &agrees, first);
     }
 
-    /// States from `first` on are forgotten, and learnt from a reading whatever was believed.
+    /// Resets N states, from `first` on, to what a reading says: their old variance and correlations are discarded, and
+    /// the reading is fused without a gate.
     fn reset_states_from<const N: usize>(&mut self, job: &mut Job, measurement: &Measurement<N>, first: usize) {
         for state in first..first + N {
-            self.covariance.set_variance(state, FORGOTTEN * FORGOTTEN);
+            self.covariance.set_variance(state, RESET_SIGMA * RESET_SIGMA);
         }
         measurement.apply(&mut self.covariance, &mut job.error, f32::INFINITY);
     }
@@ -215,7 +221,8 @@ impl Filter {
 
     fn fuse_pose(&mut self, job: &mut Job, pose: &PoseSample) {
         let Some(age) = self.age(pose.at, &job.now) else { return };
-        if !self.watches.pose.admits(pose.at, pose.position.into(), STUCK_AFTER) {
+        let bits: [f32; 3] = pose.position.into();
+        if !self.watches.pose.admits(pose.at, bits.map(f32::to_bits), STUCK_AFTER) {
             return;
         }
         let sigma = self.settings.pose_position_m;
@@ -228,7 +235,7 @@ impl Filter {
         job.note(Source::PosePosition, verdict);
         self.watches.pose.note(job.now.at, verdict.accepted);
         if self.watches.pose.is_at_odds(job.now.at, JUMPED_AFTER / 2) {
-            // A position that is that wrong has come by a velocity that is too.
+            // A position that far off was reached with a wrong velocity.
             for axis in 0..3 {
                 self.covariance.set_variance(index::VELOCITY + axis, 1.0);
             }
@@ -253,13 +260,13 @@ impl Filter {
         }
     }
 
-    /// Whether a vehicle that ought to stand neither turns nor is pushed.
+    /// Whether a disarmed, landed vehicle neither turns nor accelerates.
     fn is_still(&self, input: &FilterInput) -> bool {
         let off = math::sqrt(input.force.norm_squared()) - self.gravity;
         input.at_rest && input.rates.norm_squared() < STILL_RAD_S * STILL_RAD_S && math::abs(off) < STILL_M_S2
     }
 
-    /// A vehicle that stands does not move; one that is carried about, or stands on a boat, is not taken to stand.
+    /// Zero-velocity update of a vehicle at rest. Not made while it is carried, or on a moving boat.
     fn fuse_rest(&mut self, job: &mut Job) {
         let rows =
             [0, 1, 2].map(|axis| Row { theta: Vector3::zeros(), entries: [(index::VELOCITY + axis, 1.0), NONE, NONE] });
@@ -269,8 +276,8 @@ impl Filter {
         job.note(Source::Rest, verdict);
     }
 
-    /// Across the thrust axis nothing accelerates the vehicle but drag, −k/m (v − w). A mean over some turns of the rotors:
-    /// they shake the accelerometer harder than any wind.
+    /// Fuses drag: perpendicular to the thrust axis, the specific force is −k/m (v − w) alone. `force` is a mean over
+    /// several rotor turns, because rotor vibration is larger than the drag of any wind.
     fn fuse_drag(&mut self, job: &mut Job, force: &Vector3<f32>) {
         let horizontal_force = job.now.attitude * Vector3::new(force.x, force.y, 0.0);
         let k = self.specific_drag;
@@ -287,9 +294,4 @@ impl Filter {
         let verdict = measurement.apply(&mut self.covariance, &mut job.error, gate::<2>());
         job.note(Source::Drag, verdict);
     }
-}
-
-/// Three numbers of an error state.
-fn axes_of(error: &ErrorState, first: usize) -> Vector3<f32> {
-    Vector3::from_iterator((first..first + 3).map(|i| error.get(i).copied().unwrap_or(0.0)))
 }

@@ -1,13 +1,13 @@
-//! What was believed of the motion a while ago, for measurements that come late.
+//! The estimated motion of the last 256 ms, so that late measurements are fused at the time they were taken.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::signals::Tick;
 
-/// Jobs of the filter that are remembered: 256 ms.
+/// Filter jobs kept: 256 ms, more than the latency of any GNSS receiver (200 ms).
 const ENTRIES: usize = 64;
 
-/// What a correction moves: attitude error (rad, world), velocity (m/s) and position (m).
+/// The kinematic components of a correction: attitude error (rad, world), velocity (m/s) and position (m).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moved {
     /// θ.
@@ -19,7 +19,7 @@ pub struct Moved {
 }
 
 impl Moved {
-    /// A part of it.
+    /// A fraction of the correction.
     fn scaled(&self, fraction: f32) -> Self {
         Self { theta: self.theta * fraction, velocity: self.velocity * fraction, position: self.position * fraction }
     }
@@ -33,7 +33,7 @@ impl core::ops::AddAssign for Moved {
     }
 }
 
-/// The motion as it was believed at a job.
+/// The estimated motion at a job.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Snapshot {
     /// When.
@@ -49,26 +49,26 @@ pub struct Snapshot {
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     snapshot: Snapshot,
-    /// The correction that its job ordered: the next snapshot is the first to hold it.
+    /// The correction found by this job. The next snapshot is the first to include it.
     ordered: Moved,
 }
 
 /// The motion at a measurement's own time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Past {
-    /// What was believed then, between two jobs interpolated.
+    /// The estimate of that time, interpolated between two jobs.
     pub snapshot: Snapshot,
-    /// Corrections that the motion has had since.
+    /// Sum of the corrections made since then.
     pub since: Moved,
 }
 
-/// A ring of the last jobs.
+/// Ring buffer of the last jobs.
 #[derive(Clone, Debug)]
 pub struct History {
     entries: [Entry; ENTRIES],
-    /// How many are filled.
+    /// Number of valid entries.
     filled: usize,
-    /// Where the newest is.
+    /// Index of the newest entry.
     newest: usize,
 }
 
@@ -85,7 +85,7 @@ impl History {
         self.filled = 0;
     }
 
-    /// Takes in the newest snapshot.
+    /// Appends the newest snapshot.
     pub fn push(&mut self, snapshot: Snapshot) {
         self.newest = (self.newest + 1) % ENTRIES;
         if let Some(entry) = self.entries.get_mut(self.newest) {
@@ -94,7 +94,7 @@ impl History {
         self.filled = (self.filled + 1).min(ENTRIES);
     }
 
-    /// Notes the correction that the newest snapshot's job orders.
+    /// Records the correction found by the newest snapshot's job.
     pub fn order(&mut self, moved: Moved) {
         if let Some(entry) = self.entries.get_mut(self.newest) {
             entry.ordered = moved;
@@ -107,8 +107,7 @@ impl History {
         (0..self.filled).filter_map(move |age| self.entries.get((newest + ENTRIES - age) % ENTRIES))
     }
 
-    /// The motion at a time; none if that is not within what is remembered. Times after the newest snapshot, of which
-    /// there are none among sound ones, are refused too.
+    /// The motion at a time, or `None` if it is older than the history or later than the newest snapshot.
     pub fn at(&self, tick: Tick) -> Option<Past> {
         let mut since = Moved::default();
         let mut after: Option<&Entry> = None;
@@ -120,7 +119,7 @@ impl History {
                     None => return None,
                     Some(after) => between(&entry.snapshot, &after.snapshot, tick),
                 };
-                // The part of it that the later of the two snapshots does not bring in.
+                // The fraction that interpolation towards the later snapshot does not already include.
                 since += entry.ordered.scaled(1.0 - held);
                 return Some(Past { snapshot, since });
             }
@@ -137,12 +136,12 @@ impl Default for History {
     }
 }
 
-/// The motion at `tick`, between two snapshots a few ms apart, and the part of the later one in it.
+/// The motion at `tick`, interpolated between two snapshots a few ms apart, and the weight of the later one.
 fn between(before: &Snapshot, after: &Snapshot, tick: Tick) -> (Snapshot, f32) {
     let fraction = tick.wrapping_sub(before.at) as f32 / after.at.wrapping_sub(before.at).max(1) as f32;
     let (a, b) = (before.attitude.quaternion(), after.attitude.quaternion());
     let mixed: Quaternion<f32> = a * (1.0 - fraction) + b * fraction;
-    // Of two unit quaternions a small turn apart the mean is nearly one: a Newton step of 1/√n² makes it so.
+    // The mean of two unit quaternions a small turn apart is nearly of unit size: one Newton step of 1/√n² makes it so.
     let size = 1.5 - 0.5 * mixed.norm_squared();
     let snapshot = Snapshot {
         at: tick,

@@ -1,7 +1,7 @@
-//! The estimator: what moves how, from sensors that are noisy, biased, late and sometimes wrong.
+//! The estimator: attitude, velocity and position from sensors that are noisy, biased, late and sometimes wrong.
 //!
-//! An error-state Kalman filter in two halves (Solà 2017, "Quaternion kinematics for the error-state Kalman filter", with
-//! the error in the world):
+//! An error-state Kalman filter in two halves (Solà 2017, "Quaternion kinematics for the error-state Kalman filter",
+//! with the attitude error in the world frame):
 //!
 //! ```text
 //! ImuSample ─► predictor ─► NavState                                              inner, every tick
@@ -10,12 +10,21 @@
 //!               filter ◄─ magnetometer, barometer, GNSS, motion capture           outer rate, 250 Hz
 //! ```
 //!
-//! [`predictor`] owns the nominal state, and integrates it. [`filter`] owns the [`covariance`] and the [`history`] of
-//! the last quarter of a second, in which a late reading is fused at its own time (`fusion`, by [`models`]); what it finds goes back
-//! as a correction. [`align`] is how it begins, [`update`] the gate and the correction, [`watch`] what is made of a
-//! sensor that goes wrong, [`settings`] what it is told of the sensors,
-//! [`status`] what it says of itself. Local frame: the world's axes, through the place
-//! where the vehicle was aligned.
+//! | module | owns |
+//! |---|---|
+//! | [`predictor`] | the nominal state: strapdown integration of the IMU at 1 kHz |
+//! | [`filter`] | the filter job: covariance, history, offsets, health |
+//! | [`covariance`] | the 21 × 21 error covariance: prediction and correction |
+//! | [`history`] | the last 256 ms of motion, so that a late reading is fused at its own time |
+//! | `fusion`, [`models`] | one measurement model per sensor |
+//! | [`update`] | innovation, gate and correction of one measurement |
+//! | [`watch`] | detection of stuck, silent and jumping sensors |
+//! | [`align`] | initial alignment |
+//! | [`settings`] | noise parameters |
+//! | [`status`] | the estimator's report to pilots |
+//!
+//! The filter's correction goes back to the predictor as an [`Injection`]. The local frame has the world's axes and its
+//! origin at the place where the vehicle was aligned.
 
 pub mod align;
 pub mod covariance;

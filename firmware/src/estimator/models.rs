@@ -1,13 +1,14 @@
-//! How each sensor's reading depends on the error state, at the time it was true.
+//! Measurement models: the rows H by which each sensor's reading depends on the error state.
 //!
-//! With d the age of a reading, S1 and S2 the first and second integrals of R f from then to now, and the attitude's
-//! error constant in the world over so short a time, what was wrong then follows from what is wrong now:
+//! Let d be the age of a reading, and S1 and S2 the first and second integrals of R f from then to now. The attitude
+//! error is constant in the world over so short a time, so the error state at the time of the reading follows from the
+//! present one:
 //!
 //! ```text
 //! θ(t−d) = θ      v(t−d) = v + S1 × θ      p(t−d) = p − d v − (d S1 − S2) × θ
 //! ```
 //!
-//! so a reading of the past is a reading of the present state with a row of its own, and nothing has to be run again.
+//! A late reading is therefore a measurement of the present error state with a row of its own; nothing is re-run.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -16,12 +17,12 @@ use super::history::{Moved, Past, Snapshot};
 use crate::math;
 use crate::signals::TICK_S;
 
-/// A reading's past, as the rows need it.
+/// The motion between a reading and now, as its rows need it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Age {
-    /// What was believed then.
+    /// The estimate at the time of the reading.
     pub then: Snapshot,
-    /// Corrections since, as an error state.
+    /// Corrections made since, as an error state.
     pub since: ErrorState,
     /// d, s.
     old_s: f32,
@@ -32,7 +33,7 @@ pub struct Age {
 }
 
 impl Age {
-    /// Of a reading's past, seen from the newest snapshot.
+    /// From the motion at the time of the reading to the newest snapshot.
     pub fn new(past: &Past, now: &Snapshot, gravity: f32) -> Self {
         let Past { snapshot: then, since } = past;
         let old_s = now.at.wrapping_sub(then.at) as f32 * TICK_S;
@@ -43,22 +44,22 @@ impl Age {
         Self { then: *then, since: error_of(since), old_s, first, lever: first * old_s - second }
     }
 
-    /// Row of the velocity along an axis (0 to 2).
+    /// Row of the velocity along a world axis (0 to 2).
     pub fn velocity(&self, axis: usize) -> Row {
         Row { theta: cross_row(axis, &self.first), entries: [(index::VELOCITY + axis, 1.0), NONE, NONE] }
     }
 
-    /// Row of the position along an axis, read with `offset` of another state in it.
+    /// Row of the position along a world axis (0 to 2), plus `offset`: a state and its factor, [`NONE`] for none.
     pub fn position(&self, axis: usize, offset: (usize, f32)) -> Row {
         let entries = [(index::POSITION + axis, 1.0), (index::VELOCITY + axis, -self.old_s), offset];
         Row { theta: -cross_row(axis, &self.lever), entries }
     }
 }
 
-/// No third or second state.
+/// An unused entry of a [`Row`].
 pub const NONE: (usize, f32) = (0, 0.0);
 
-/// The unit vector along an axis.
+/// The unit vector along a world axis (0 to 2).
 pub fn axis_vector(axis: usize) -> Vector3<f32> {
     match axis {
         0 => Vector3::x(),
@@ -67,12 +68,12 @@ pub fn axis_vector(axis: usize) -> Vector3<f32> {
     }
 }
 
-/// e × v, with which (v × θ) along e is (e × v)·θ.
+/// e × v for the unit vector e of an axis: the component of v × θ along e is (e × v)·θ.
 fn cross_row(axis: usize, v: &Vector3<f32>) -> Vector3<f32> {
     axis_vector(axis).cross(v)
 }
 
-/// Row of the attitude's error about an axis of the world.
+/// Row of the attitude error about a world axis (0 to 2).
 pub fn attitude_row(axis: usize) -> Row {
     Row { theta: axis_vector(axis), entries: [NONE; 3] }
 }
@@ -89,35 +90,36 @@ fn error_of(moved: &Moved) -> ErrorState {
     error
 }
 
-/// The earth's magnetic field where the vehicle flies.
+/// The Earth's magnetic field where the vehicle flies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MagneticNorth {
-    /// Unit vector to magnetic north, and the one to the left of it.
+    /// Horizontal unit vectors to magnetic north, and to the left of it.
     north: Vector3<f32>,
     left: Vector3<f32>,
-    /// Horizontal part, µT.
+    /// Horizontal component, µT.
     horizontal_ut: f32,
-    /// Upward over horizontal part: minus the tangent of the inclination.
+    /// Upward over horizontal component: minus the tangent of the inclination.
     slope: f32,
-    /// Size, µT.
+    /// Total strength, µT.
     strength_ut: f32,
 }
 
 /// A magnetic heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeadingReading {
-    /// How far the heading is to the left of the believed one by it, rad.
+    /// Measured heading minus estimated heading, positive to the left, rad.
     pub turn: f32,
-    /// How it depends on the error.
+    /// H: how it depends on the error state.
     pub row: Row,
-    /// Horizontal part of the field that was measured, µT.
+    /// Horizontal component of the expected field, µT: the noise of the heading is that of the field over this.
     pub horizontal_ut: f32,
 }
 
 impl MagneticNorth {
-    /// Of a field in the world, µT; none if it has no horizontal part by which to tell north.
+    /// From the field in the world (NWU), µT. `None` if it is not finite, or if its horizontal component is too small
+    /// to tell north.
     pub fn new(field_ut: Vector3<f32>) -> Option<Self> {
-        /// Within some 5° of a pole.
+        /// Less than this within some 5° of a magnetic pole.
         const LEAST_UT: f32 = 4.0;
         let horizontal_ut = math::sqrt(field_ut.x * field_ut.x + field_ut.y * field_ut.y);
         if horizontal_ut < LEAST_UT || !math::all_finite(field_ut.as_slice()) {
@@ -129,24 +131,26 @@ impl MagneticNorth {
         Some(Self { north, left, horizontal_ut, slope: field_ut.z / horizontal_ut, strength_ut })
     }
 
-    /// How much of a tilt towards north reads as a heading: the tangent of the inclination, or 1 if it is less.
+    /// By how much a tilt error towards north turns the heading: the tangent of the inclination, 1 at least.
     pub fn slope(self) -> f32 {
         math::max(math::abs(self.slope), 1.0)
     }
 
-    /// Whether a field can be the earth's: within 35 % of its size.
+    /// Whether a measured field can be the Earth's: its strength is within 35 % of the expected one.
     pub fn is_plausible(&self, field_ut: &Vector3<f32>) -> bool {
         let ratio = math::sqrt(field_ut.norm_squared()) / self.strength_ut;
         ratio > 0.65 && ratio < 1.35
     }
 
-    /// The heading ψ in which a field, measured level at heading 0, is the earth's.
+    /// The heading ψ, from a field in a frame that is level and turned with the vehicle.
     pub fn heading(&self, level_ut: &Vector3<f32>) -> f32 {
         math::wrap_angle(math::atan2(self.north.y, self.north.x) - math::atan2(level_ut.y, level_ut.x))
     }
 
-    /// The heading by a field (body, µT) in the believed attitude. With m the field in the world, what is measured turns
-    /// to R̂ Rᵀ m = m − θ × m: left of north by −(θz − (mz/mh) θn), so a tilt towards north reads as a heading too.
+    /// The heading measured by a field (body frame, µT) at the estimated attitude.
+    ///
+    /// With m the field in the world, the measurement turned by R̂ is R̂ Rᵀ m = m − θ × m, which lies left of north by
+    /// −(θz − (mz/mh) θn). A tilt error towards north therefore changes the heading too.
     pub fn read(&self, field_ut: &Vector3<f32>, attitude: &UnitQuaternion<f32>) -> HeadingReading {
         let m = attitude * field_ut;
         let (north, left) = (m.dot(&self.north), m.dot(&self.left));
@@ -169,8 +173,8 @@ pub fn turn_between(from: &UnitQuaternion<f32>, to: &UnitQuaternion<f32>) -> Vec
     if sine < 1e-4 { vector * 2.0 } else { vector * (2.0 * math::atan2(sine, q.w * sign) / sine) }
 }
 
-/// Height of a pressure (Pa) in the standard atmosphere's troposphere (ISO 2533), m above its sea level. Good for
-/// differences: a day that is 10 K warmer makes them 3.5 % too small.
+/// Height of a pressure (Pa) in the standard atmosphere's troposphere (ISO 2533), m above its sea level. Use it for
+/// differences: they are 3.5 % too small on a day that is 10 K warmer.
 pub fn pressure_height(pressure_pa: f32) -> f32 {
     44_330.77 * (1.0 - math::powf(pressure_pa / 101_325.0, 0.190_263))
 }

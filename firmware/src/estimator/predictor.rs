@@ -1,9 +1,33 @@
-//! The inner half of the estimator, every tick: the nominal state, integrated from the IMU.
+//! The inner half of the estimator, every tick: integrates the nominal state from the IMU.
 //!
-//! Strapdown integration by trapezoids: `q ← q ⊗ exp(½ (ω₋ + ω) T)`, `v ← v + ½ (R₋f₋ + R f) T − g T e3`,
-//! `p ← p + ½ (v₋ + v) T` (Titterton and Weston 2004, §11; at 1 kHz coning between two samples is below the gyroscope's
-//! noise). A missing sample is the last one again. What the outer half needs of the time between two of its jobs is
-//! summed up in a [`Span`]; what it finds out comes back as a [`Correction`].
+//! Strapdown integration by the trapezoidal rule: `q ← q ⊗ exp(½ (ω₋ + ω) T)`, `v ← v + ½ (R₋f₋ + R f) T − g T e3`, `p
+//! ← p + ½ (v₋ + v) T` (Titterton and Weston 2004, §11; at 1 kHz coning between two samples is below the gyroscope's
+//! noise). A missing sample is replaced by the last one. The filter gets the sums between two of its jobs as a [`Span`]
+//! and returns a [`Correction`].
+//!
+//! ```
+//! use firmware::estimator::Predictor;
+//! use firmware::sensors::ImuSample;
+//! use nalgebra::Vector3;
+//!
+//! // A vehicle at rest measures +g upwards: nothing moves. One that measures 1 m/s² more climbs.
+//! let g = 9.81;
+//! let mut predictor = Predictor::new(Vector3::zeros(), g);
+//! for at in 1..=1_000 {
+//!     // With noise: samples that repeat themselves would be those of a stuck sensor.
+//!     let noise = if at % 2 == 0 { 0.01 } else { -0.01 };
+//!     let sample = ImuSample { at, gyro: Vector3::zeros(), accel: Vector3::new(0.0, 0.0, g + 1.0 + noise) };
+//!     assert!(predictor.predict(Some(&sample)));
+//! }
+//! // After 1 s: v = 1 m/s and z = 0.5 m.
+//! assert!((predictor.state().velocity.z - 1.0).abs() < 1e-3);
+//! assert!((predictor.state().position.z - 0.5).abs() < 1e-3);
+//!
+//! // A sample with NaN is refused, and the last one is integrated again.
+//! let bad = ImuSample { at: 1_001, gyro: Vector3::repeat(f32::NAN), accel: Vector3::zeros() };
+//! assert!(!predictor.predict(Some(&bad)));
+//! assert!(predictor.state().velocity.z.is_finite());
+//! ```
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -15,9 +39,9 @@ use crate::signals::{TICK_S, Tick};
 /// Sums over the ticks between two jobs of the filter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Span {
-    /// Ticks.
+    /// Number of ticks.
     pub ticks: u32,
-    /// Ticks of them with a sample.
+    /// Number of ticks with a sample.
     pub samples: u32,
     /// ∫ R f dt, m/s.
     pub velocity_change: Vector3<f32>,
@@ -27,7 +51,7 @@ pub struct Span {
     pub accel: Vector3<f32>,
 }
 
-/// An error state found by the filter, to be taken off.
+/// The error that the filter has found, to be added to the nominal state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Correction {
     /// θ in the world, rad.
@@ -65,20 +89,20 @@ impl Nominal {
     }
 }
 
-/// The predictor and the nominal state.
+/// The predictor: owns the nominal state.
 #[derive(Clone, Debug)]
 pub struct Predictor {
     state: Nominal,
-    /// What adding to the position in f32 has lost, m (Kahan 1965): 1 kHz steps of mm at a distance of km.
+    /// Rounding error of the position sum, m (Kahan 1965): steps of millimetres at distances of kilometres.
     position_rest: Vector3<f32>,
     gravity: f32,
-    /// Ω, and f in the body's and in the world's frame, of the tick before.
+    /// Ω, and f in the body frame and in the world frame, of the previous tick.
     rates: Vector3<f32>,
     force: Vector3<f32>,
     force_in_world: Vector3<f32>,
     span: Span,
     last: Option<Tick>,
-    /// The last sample's numbers, and how often they have come in a row.
+    /// Gyroscope and accelerometer of the last sample, and how many times in a row they have been repeated.
     repeated: (Vector3<f32>, Vector3<f32>, u32),
 }
 
@@ -99,8 +123,8 @@ impl Predictor {
         }
     }
 
-    /// One tick, with the IMU's sample if a sound one has come. True if it was taken in: a sample that holds a number
-    /// which no sensor can read, or is no newer than the last, is as good as none.
+    /// Integrates one tick, with the IMU's sample if one has arrived. Returns whether it was used: a sample that is
+    /// implausible, stuck, or not newer than the last is treated as missing.
     #[inline]
     pub fn predict(&mut self, sample: Option<&ImuSample>) -> bool {
         let fresh = sample.filter(|sample| self.is_new(sample.at) && sample.is_plausible() && self.moves(sample));
@@ -120,9 +144,11 @@ impl Predictor {
         fresh.is_some()
     }
 
-    /// Time stamps go forward, but for samples that come in the wrong order; a clock that goes back by more has jumped.
+    /// Whether a time stamp is later than the last. A stamp more than `JUMP` ticks back is accepted too: that is no
+    /// sample out of order but a clock that was set back.
     #[inline]
     fn is_new(&self, at: Tick) -> bool {
+        /// Chosen: longer than any reordering on a bus, shorter than what a reset clock goes back.
         const JUMP: Tick = 20;
         self.last.is_none_or(|last| {
             let ahead = at.wrapping_sub(last);
@@ -130,10 +156,11 @@ impl Predictor {
         })
     }
 
-    /// Noise moves every sound sensor: one whose six numbers stand still has stopped, whatever its stamps say.
+    /// False for a stuck sensor: noise moves every working one, so six equal values in a row mean that it has stopped,
+    /// whatever its time stamps say.
     #[inline]
     fn moves(&mut self, sample: &ImuSample) -> bool {
-        /// In a row: by chance never.
+        /// Equal samples in a row, 20 ms. Chosen: quantised noise repeats a sample now and then, never twenty times.
         const STUCK_AFTER: u32 = 20;
         let (gyro, accel, count) = self.repeated;
         let same = gyro == sample.gyro && accel == sample.accel;
@@ -171,7 +198,7 @@ impl Predictor {
         &self.rates
     }
 
-    /// f in the body's frame without its bias, m/s².
+    /// f in the body frame without its bias, m/s².
     #[inline]
     pub fn specific_force(&self) -> &Vector3<f32> {
         &self.force
@@ -183,12 +210,12 @@ impl Predictor {
         Snapshot { at, attitude, velocity, position }
     }
 
-    /// The sums since the last call.
+    /// Returns the sums since the last call, and clears them.
     pub fn take_span(&mut self) -> Span {
         core::mem::take(&mut self.span)
     }
 
-    /// Takes off an error that the filter has found.
+    /// Applies the filter's correction.
     pub fn correct(&mut self, c: &Correction) {
         let state = &mut self.state;
         state.attitude = turned_in_world(&state.attitude, &c.theta);
@@ -201,7 +228,7 @@ impl Predictor {
         self.force_in_world = state.attitude * self.force;
     }
 
-    /// Starts from another state.
+    /// Continues from another state.
     pub fn start(&mut self, state: &Nominal) {
         self.rates -= state.gyro_bias - self.state.gyro_bias;
         self.force -= state.accel_bias - self.state.accel_bias;
@@ -211,7 +238,7 @@ impl Predictor {
     }
 }
 
-/// exp of half a rotation vector of a few degrees, to fourth order in its size.
+/// The quaternion of a rotation vector of a few degrees, to fourth order in its size.
 #[inline]
 fn small_turn(turn: &Vector3<f32>) -> Quaternion<f32> {
     let half = turn * 0.5;
@@ -220,19 +247,19 @@ fn small_turn(turn: &Vector3<f32>) -> Quaternion<f32> {
     Quaternion::new(1.0 - square * (0.5 - square * (1.0 / 24.0)), half.x * sinc, half.y * sinc, half.z * sinc)
 }
 
-/// An attitude brought back to unit size by one Newton step of 1/√n².
+/// Normalises a quaternion of nearly unit size by one Newton step of 1/√n².
 #[inline]
 fn unit(q: Quaternion<f32>) -> UnitQuaternion<f32> {
     UnitQuaternion::new_unchecked(q * (1.5 - 0.5 * q.norm_squared()))
 }
 
-/// Turned by a small rotation vector in the body's frame, rad.
+/// Turned by a small rotation vector in the body frame, rad.
 #[inline]
 fn turned(attitude: &UnitQuaternion<f32>, turn: &Vector3<f32>) -> UnitQuaternion<f32> {
     unit(attitude.quaternion() * small_turn(turn))
 }
 
-/// Turned by a rotation vector in the world, rad: of any size, for corrections of an attitude that was far off.
+/// Turned by a rotation vector in the world, rad, of any size: an attitude that was far off is corrected at once.
 pub(super) fn turned_in_world(attitude: &UnitQuaternion<f32>, turn: &Vector3<f32>) -> UnitQuaternion<f32> {
     let angle = math::sqrt(turn.norm_squared());
     if angle < 0.1 {
@@ -254,7 +281,7 @@ mod tests {
         ImuSample { at, gyro, accel }
     }
 
-    /// A circle of 5 m at 1 rad/s, turning with it: constant rates and, in the body, constant force.
+    /// A circle of 5 m radius at 1 rad/s with the heading along it: rates and force in the body frame are constant.
     #[test]
     fn a_circle_closes() {
         let (radius, rate) = (5.0_f32, 1.0_f32);
@@ -287,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_that_is_missing_repeated_late_or_no_number_is_the_last_one_again() {
+    fn a_sample_that_is_missing_repeated_late_or_nan_is_replaced_by_the_last_one() {
         let turning = Vector3::new(0.3, -0.2, 0.5);
         let force = Vector3::new(0.1, 0.2, 9.0);
         let (mut sound, mut lossy) = (Predictor::new(Vector3::zeros(), G), Predictor::new(Vector3::zeros(), G));
@@ -307,7 +334,7 @@ mod tests {
         assert_eq!((lossy.take_span().samples, lossy.take_span().ticks), (4, 0));
     }
 
-    /// Spikes of a bus rather than of a motion: what is refused leaves no trace, what is let through leaves a motion.
+    /// Spikes from a bus error, not from a motion: a refused one leaves no trace, an accepted one a finite motion.
     #[test]
     fn a_sample_beyond_any_sensors_range_does_not_end_the_attitude() {
         let still = (Vector3::zeros(), Vector3::new(0.0, 0.0, G));

@@ -1,48 +1,48 @@
-//! What the filter is told of its sensors.
+//! Noise parameters of the filter.
 
 use nalgebra::Vector3;
 
 use super::covariance::{ErrorState, StepNoise, index};
 use crate::validate::ConfigError;
 
-/// Noise of the sensors and of what they stand in, one standard deviation; the defaults are those of an ICM-42688-P, an
+/// Noise of the sensors and of their environment, as standard deviations (1σ). The defaults describe an ICM-42688-P, an
 /// IST8310, a BMP388 and a u-blox M9, each after calibration (data sheets; see docs/estimator.md).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields, default))]
 pub struct EstimatorSettings {
-    /// White noise of the gyroscope, rad/s/√Hz.
+    /// White noise density of the gyroscope, rad/s/√Hz.
     pub gyro_noise: f32,
-    /// How fast its bias wanders, rad/s/√s.
+    /// Random walk of the gyroscope bias, rad/s/√s.
     pub gyro_bias_walk: f32,
-    /// Its bias when turned on, rad/s.
+    /// Turn-on bias of the gyroscope, rad/s.
     pub gyro_bias: f32,
-    /// What its scale and axes are off by.
+    /// Scale and misalignment error of the gyroscope, as a fraction.
     pub gyro_scale: f32,
-    /// White noise of the accelerometer, with what vibration leaves, m/s²/√Hz.
+    /// White noise density of the accelerometer, including residual vibration, m/s²/√Hz.
     pub accel_noise: f32,
-    /// How fast its bias wanders, m/s²/√s.
+    /// Random walk of the accelerometer bias, m/s²/√s.
     pub accel_bias_walk: f32,
-    /// Its bias when turned on, m/s².
+    /// Turn-on bias of the accelerometer, m/s².
     pub accel_bias: f32,
-    /// What its scale and axes are off by.
+    /// Scale and misalignment error of the accelerometer, as a fraction.
     pub accel_scale: f32,
     /// Noise of the magnetometer, µT.
     pub mag_noise_ut: f32,
-    /// What calibration leaves of the magnetic heading's error, rad.
+    /// Error of the magnetic heading that calibration leaves, rad.
     pub heading_offset: f32,
     /// Noise of the barometer, m.
     pub baro_noise_m: f32,
-    /// How fast its reading wanders, m/√s.
+    /// Random walk of the barometric height, m/√s.
     pub baro_walk: f32,
     /// White noise of a GNSS position, horizontal and vertical, m.
     pub gnss_noise_m: [f32; 2],
-    /// How fast its position wanders beyond that, m/√s.
+    /// Random walk of the GNSS position error on top of the white noise, m/√s.
     pub gnss_walk: f32,
     /// Noise of a GNSS velocity, horizontal and vertical, m/s.
     pub gnss_speed_m_s: [f32; 2],
-    /// Noise of a motion capture's position, m.
+    /// Noise of a motion-capture position, m.
     pub pose_position_m: f32,
-    /// And attitude, rad.
+    /// Noise of a motion-capture attitude, rad.
     pub pose_attitude_rad: f32,
     /// Earth's magnetic field in the world (NWU), µT.
     pub magnetic_field_ut: [f32; 3],
@@ -73,19 +73,30 @@ impl Default for EstimatorSettings {
     }
 }
 
-/// Wind of a calm to fresh day, one component, m/s, and how fast it changes, m/s/√s.
+/// Initial deviation of each horizontal wind component, m/s: a calm to fresh day.
 const WIND_SIGMA: f32 = 5.0;
+/// Random walk of each wind component, m/s/√s.
 const WIND_WALK: f32 = 0.7;
-/// How fast the magnetic heading's error changes as the vehicle turns and draws current, rad/√s.
+/// Random walk of the magnetic heading's error as the vehicle turns and draws current, rad/√s.
 const HEADING_WALK: f32 = 3e-5;
-/// A scale's error acts as noise of this correlation time, s: about as long as a manoeuvre turns one way.
+/// A scale error acts as noise of this correlation time, s: about as long as a manoeuvre turns one way.
 const MANOEUVRE_S: f32 = 0.9;
+/// Sensor noise densities are one-sided: n unit/√Hz gives a variance of n²T/2 after integration over T.
+const ONE_SIDED: f32 = 0.5;
+/// Share of the scale-error noise that every axis takes from the other axes' rates. Chosen: misalignments are smaller
+/// than scale errors, and a turn about one axis must still widen the other two.
+const CROSS_AXIS: f32 = 0.1;
+/// Initial deviation of the position, m: the local frame is defined to start there, so it is exact up to this.
+const START_POSITION_SIGMA_M: f32 = 0.01;
+/// Initial deviation of the GNSS and height offsets, m. Chosen: the first reading of each source sets its offset and
+/// replaces this (see `fusion`), so it only has to be finite and larger than that reading's noise.
+const START_OFFSET_SIGMA_M: f32 = 1.0;
 
 impl EstimatorSettings {
-    /// Refuses settings with which the filter is not defined.
+    /// Checks every setting against its range.
     ///
     /// # Errors
-    /// The first that is out of its range.
+    /// The first setting that is out of range.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let [gnss_horizontal, gnss_vertical] = self.gnss_noise_m;
         let [speed_horizontal, speed_vertical] = self.gnss_speed_m_s;
@@ -123,18 +134,19 @@ impl EstimatorSettings {
         }
     }
 
-    /// Process noise of a step of `step_s`, turning at rates in the world (rad/s), with a specific force that is so much
-    /// off that at rest (m/s²): what scales make of that at rest are biases.
+    /// Process noise of a step of `step_s` seconds.
+    ///
+    /// `rates_in_world` are the body rates in the world frame, rad/s. `force_off` is how far the specific force is from
+    /// that at rest, m/s²: a scale error times the force at rest is constant, hence part of the bias.
     pub(super) fn step_noise(&self, step_s: f32, rates_in_world: &Vector3<f32>, force_off: f32) -> StepNoise {
         let square = |walk: f32| walk * walk * step_s;
         let scale = square(self.gyro_scale) * MANOEUVRE_S;
-        let gyro = 0.5 * square(self.gyro_noise);
+        let gyro = ONE_SIDED * square(self.gyro_noise);
         let gnss = square(self.gnss_walk);
-        // A tenth for axes that see each other's rates.
-        let skew = 0.1 * scale * rates_in_world.norm_squared();
+        let skew = CROSS_AXIS * scale * rates_in_world.norm_squared();
         StepNoise {
             theta: rates_in_world.map(|rate| gyro + scale * rate * rate + skew),
-            velocity: 0.5 * square(self.accel_noise) + square(self.accel_scale * force_off) * MANOEUVRE_S,
+            velocity: ONE_SIDED * square(self.accel_noise) + square(self.accel_scale * force_off) * MANOEUVRE_S,
             gyro_bias: square(self.gyro_bias_walk),
             accel_bias: square(self.accel_bias_walk),
             offset: Vector3::new(gnss, gnss, square(self.baro_walk)),
@@ -142,8 +154,10 @@ impl EstimatorSettings {
         }
     }
 
-    /// Variances at the start, given those of the attitude (rad: tilt, heading) and of the velocity (m/s), and whether the
-    /// gyroscopes' bias has been seen at rest for `averaged_s`, and how far that may be off by a sway, rad/s.
+    /// Initial variances of the error state.
+    ///
+    /// `tilt` and `heading` (rad) and `speed` (m/s) are standard deviations. `averaged` is given if the gyroscope bias
+    /// was averaged at rest: for how long (s), and how far the mean may be off because the vehicle swayed (rad/s).
     pub(super) fn initial(&self, tilt: f32, heading: f32, speed: f32, averaged: Option<(f32, f32)>) -> ErrorState {
         let square = |x: f32| x * x;
         let mut p = ErrorState::zeros();
@@ -152,15 +166,15 @@ impl EstimatorSettings {
                 *to = square(from);
             }
         };
-        // A mean of white noise over a time, with what the bias itself wanders meanwhile.
+        // The mean of white noise over the window, plus the walk of the bias itself meanwhile.
         let seen =
             |(time, sway): (f32, f32)| self.gyro_noise / crate::math::sqrt(2.0 * time) + self.gyro_bias_walk + sway;
         set(index::THETA, [tilt, tilt, heading]);
         set(index::VELOCITY, [speed; 3]);
-        set(index::POSITION, [0.01; 3]);
+        set(index::POSITION, [START_POSITION_SIGMA_M; 3]);
         set(index::GYRO_BIAS, [averaged.map_or(self.gyro_bias, seen); 3]);
         set(index::ACCEL_BIAS, [self.accel_bias; 3]);
-        set(index::OFFSET, [1.0, 1.0, 1.0]);
+        set(index::OFFSET, [START_OFFSET_SIGMA_M; 3]);
         set(index::HEADING_OFFSET, [self.heading_offset, WIND_SIGMA, WIND_SIGMA]);
         p
     }

@@ -1,43 +1,43 @@
-//! What the estimator says of itself to pilots: which sensors it hears, and how well their readings agree with it.
+//! The estimator's report to pilots: which sensors are present and healthy, and how consistent their readings are.
 
 use super::filter::{Consistency, FilterOutput, Source};
 use super::update::gate;
 use crate::sensors::BatterySample;
 use crate::signals::{NavHealth, Tick};
 
-/// A sensor whose readings have not been taken in for this long, ticks, is not well.
+/// A sensor is unhealthy if none of its readings has been fused for this long, ticks.
 const SILENT_AFTER: Tick = 1_500;
 /// Number of [`Source`]s.
 const SOURCES: usize = Source::Rest as usize + 1;
 
-/// What has become of the readings of one kind.
+/// Record of one kind of measurement.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Kind {
-    /// When one was last taken in.
+    /// When one was last fused.
     accepted: Option<Tick>,
-    /// The newest one's normalised innovation squared, in units of the gate.
+    /// NIS of the newest one over the gate.
     ratio: f32,
 }
 
-/// What has become of the readings of each kind.
+/// Record of every kind of measurement.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fusion {
     kinds: [Kind; SOURCES],
 }
 
-/// Whether a sensor is on board, and whether it is well.
+/// Whether a sensor is present and healthy.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sensor {
-    /// A reading of it was taken in once.
+    /// A reading of it has been fused since boot.
     pub present: bool,
-    /// A reading of it was taken in lately.
+    /// A reading of it has been fused within the last 1.5 s.
     pub healthy: bool,
 }
 
 /// The estimator's report.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Status {
-    /// What of the motion is to be trusted.
+    /// Which components of the motion may be trusted.
     pub health: NavHealth,
     /// Magnetometer.
     pub mag: Sensor,
@@ -49,17 +49,17 @@ pub struct Status {
     pub pose: Sensor,
     /// Battery monitor.
     pub battery: Sensor,
-    /// What the battery monitor has measured last.
+    /// The last sample of the battery monitor.
     pub battery_sample: Option<BatterySample>,
-    /// Normalised innovations squared in units of their gates: of velocity, horizontal position, height, heading. Beyond 1
-    /// a reading was refused.
+    /// Ratio of the normalised innovation squared to its gate, for velocity, horizontal position, height and heading.
+    /// Above 1 the reading was refused.
     pub ratios: [f32; 4],
     /// Standard deviations of horizontal position and height, m.
     pub accuracy_m: [f32; 2],
 }
 
 impl Fusion {
-    /// Takes in what a job has found, which came into effect at `now`.
+    /// Records the measurements of a job whose output took effect at `now`.
     pub fn note(&mut self, now: Tick, readings: &[Consistency]) {
         for reading in readings {
             if let Some(kind) = self.kinds.get_mut(reading.source as usize) {
@@ -80,15 +80,15 @@ impl Fusion {
         Sensor { present: accepted.is_some(), healthy: accepted.is_some_and(|at| now.wrapping_sub(at) <= SILENT_AFTER) }
     }
 
-    /// The ratio of whichever of two kinds was taken in last.
+    /// The ratio of whichever of two kinds was fused last.
     fn newer(&self, now: Tick, one: Source, other: Source) -> f32 {
         let age = |kind: &Kind| kind.accepted.map_or(Tick::MAX, |at| now.wrapping_sub(at));
         let (one, other) = (self.kind(one), self.kind(other));
         if age(&other) < age(&one) { other.ratio } else { one.ratio }
     }
 
-    /// The report at `now`: with the filter's last output, what of it may be trusted, and the battery as last measured so
-    /// many ticks ago.
+    /// The report at `now`, from the filter's last output, the health, and the last battery sample with its age in
+    /// ticks.
     pub fn status(
         &self,
         now: Tick,
@@ -119,7 +119,7 @@ impl Fusion {
     }
 }
 
-/// The gate of a kind of reading.
+/// The gate of a kind of measurement.
 fn gate_of(source: Source) -> f32 {
     match source {
         Source::Heading | Source::Baro | Source::GnssHeight => gate::<1>(),

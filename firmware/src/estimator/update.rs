@@ -1,28 +1,28 @@
-//! A measurement of one to three numbers: innovation, gate, correction.
+//! Update by a measurement of one to three components: innovation, gate, correction.
 
 use super::covariance::{Covariance, ErrorState, Row, add_multiple};
 
-/// A measurement made linear about what is believed.
+/// A measurement of N components, linearised about the nominal state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement<const N: usize> {
-    /// H, a row a number.
+    /// H: one row per component.
     pub rows: [Row; N],
-    /// y = z − h(x̂), the error state taken as zero.
+    /// y = z − h(x̂), for an error state of zero.
     pub innovation: [f32; N],
-    /// R, its diagonal.
+    /// Diagonal of R.
     pub variance: [f32; N],
 }
 
-/// What came of a measurement.
+/// Result of gating a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
-    /// Normalised innovation squared yᵀ S⁻¹ y: χ² with as many degrees of freedom as numbers, if all is as believed.
+    /// Normalised innovation squared yᵀ S⁻¹ y: χ² with N degrees of freedom if the filter is consistent.
     pub nis: f32,
-    /// Whether it was within the gate, and taken in.
+    /// Whether it was within the gate, and fused.
     pub accepted: bool,
 }
 
-/// χ² beyond which a measurement of N numbers is refused: exceeded by chance once in 1.7 million (5σ of one number).
+/// Gate on the NIS of a measurement of N components: exceeded by chance once in 1.7 million (5σ of one component).
 pub const fn gate<const N: usize>() -> f32 {
     match N {
         1 => 25.0,
@@ -32,11 +32,11 @@ pub const fn gate<const N: usize>() -> f32 {
 }
 
 impl<const N: usize> Measurement<N> {
-    /// Takes the measurement in if it is within the gate: corrects `error`, the error state found so far, and its
+    /// Fuses the measurement if its NIS is within `gate`: corrects `error`, the error state found so far, and the
     /// covariance.
     ///
-    /// The numbers are taken one after the other, each with what is left of the innovation and of P Hᵀ by those before:
-    /// the sum of their squares over s is yᵀ S⁻¹ y, without an inverse, and known before the covariance is touched.
+    /// The components are processed one after the other, each with the innovation and the P Hᵀ that those before it
+    /// leave. The sum of y²/s is then yᵀ S⁻¹ y without a matrix inverse, and known before the covariance is touched.
     pub fn apply(&self, covariance: &mut Covariance, error: &mut ErrorState, gate: f32) -> Verdict {
         let mut c = [ErrorState::zeros(); N];
         for (c, row) in c.iter_mut().zip(&self.rows) {
@@ -47,7 +47,7 @@ impl<const N: usize> Measurement<N> {
         let mut nis = 0.0;
         for n in 0..N {
             let s = self.rows[n].dot(&c[n]) + self.variance[n];
-            // P is positive but for rounding, and R is not small: only what is no number can fail here.
+            // P is positive but for rounding, and R is not small: only NaN can fail here.
             if s <= 0.0 || s.is_nan() {
                 return Verdict { nis: f32::INFINITY, accepted: false };
             }

@@ -1,31 +1,31 @@
-//! Whether a sensor is to be listened to: time stamps, values that stand still, innovations that are too large.
+//! Supervision of a sensor: time stamps out of order, values that are stuck, innovations beyond the gate.
 
 use crate::signals::Tick;
 
-/// What has become of a sensor's samples.
+/// Record of one sensor's samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Watch {
     /// Stamp of the newest sample.
     newest: Option<Tick>,
-    /// The numbers of the newest sample, as bits.
-    value: [u32; 3],
-    /// How often they have come in a row.
+    /// Bit pattern of the newest sample.
+    bits: [u32; 3],
+    /// How many times in a row that pattern has been repeated.
     repeats: u32,
-    /// When a sample was last taken in.
+    /// When a sample last passed the gate.
     accepted: Option<Tick>,
-    /// Since when all have been refused by their innovation, and how many.
+    /// Since when every sample has failed the gate, and how many.
     refused_since: Option<Tick>,
     refused_in_row: u32,
-    /// When the gate was last asked.
+    /// When a sample was last gated.
     noted: Option<Tick>,
-    /// Samples since boot that were not taken in.
+    /// Samples refused since boot.
     refused: u32,
 }
 
 impl Watch {
-    /// Whether a sample may be used at all: newer than the last, and not the same numbers for the `most`th time in a
-    /// row. A sensor's noise is never that quiet; one that is has stopped measuring.
-    pub fn admits(&mut self, at: Tick, value: [f32; 3], most: u32) -> bool {
+    /// Whether a sample may be fused: it is newer than the last, and its bits have been repeated fewer than `most`
+    /// times in a row. Noise moves every working sensor; one that repeats itself is stuck.
+    pub fn admits(&mut self, at: Tick, bits: [u32; 3], most: u32) -> bool {
         let is_new = self.newest.is_none_or(|newest| {
             let ahead = at.wrapping_sub(newest);
             ahead != 0 && ahead < Tick::MAX / 2
@@ -35,9 +35,8 @@ impl Watch {
             return false;
         }
         self.newest = Some(at);
-        let bits = value.map(f32::to_bits);
-        self.repeats = if bits == self.value { self.repeats.saturating_add(1) } else { 0 };
-        self.value = bits;
+        self.repeats = if bits == self.bits { self.repeats.saturating_add(1) } else { 0 };
+        self.bits = bits;
         if self.repeats >= most {
             self.count();
             return false;
@@ -49,9 +48,9 @@ impl Watch {
         self.refused = self.refused.saturating_add(1);
     }
 
-    /// Notes what the gate said of a sample, at the job released at `now`.
+    /// Records whether a sample passed the gate, at the job released at `now`.
     pub fn note(&mut self, now: Tick, accepted: bool) {
-        /// What was said before a silence of as many ticks says nothing about now.
+        /// A gap of this many ticks ends a run of refusals. Chosen: 1 s, five samples of the slowest receiver (5 Hz).
         const SILENCE: Tick = 1_000;
         let after_silence = self.noted.is_none_or(|at| now.wrapping_sub(at) > SILENCE);
         self.noted = Some(now);
@@ -67,25 +66,25 @@ impl Watch {
         }
     }
 
-    /// Whether samples have been refused by their innovation, and only that, for this many ticks.
+    /// Whether every sample has failed the gate for this many ticks, three samples at least.
     pub fn is_at_odds(&self, now: Tick, ticks: Tick) -> bool {
-        /// One or two may be strays.
+        /// One or two refused samples may be outliers; the third in a row is not.
         const FEW: u32 = 3;
         self.refused_in_row >= FEW && self.refused_since.is_some_and(|since| now.wrapping_sub(since) >= ticks)
     }
 
-    /// Whether a sample was taken in within these ticks.
+    /// Whether a sample passed the gate within these ticks.
     pub fn is_live(&self, now: Tick, ticks: Tick) -> bool {
         self.accepted.is_some_and(|at| now.wrapping_sub(at) <= ticks)
     }
 
-    /// Samples since boot that were not taken in.
+    /// Samples refused since boot.
     pub fn refused(&self) -> u32 {
         self.refused
     }
 }
 
-/// How far a sensor's readings scatter, in units of the variance that they are said to have: a mean over some hundred.
+/// Running mean of a sensor's normalised innovation squared: 1 if its noise is what the settings say.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scatter(f32);
 
@@ -96,17 +95,21 @@ impl Default for Scatter {
 }
 
 impl Scatter {
-    /// Takes in a normalised innovation squared, in units of the variance that is said.
+    /// Adds a normalised innovation squared, in units of the configured variance.
     pub fn note(&mut self, square: f32) {
-        /// No reading counts for more, and each for so much.
+        /// A single reading counts as 20σ at most (20² = 400), so that one outlier cannot dominate the mean. NaN does
+        /// too.
         const MOST: f32 = 400.0;
-        const PART: f32 = 0.01;
+        /// Averages over 100 readings: 2 s of a barometer or magnetometer at 50 Hz.
+        const AVERAGING_GAIN: f32 = 0.01;
         let square = if square < MOST { square } else { MOST };
-        self.0 += (square - self.0) * PART;
+        self.0 += (square - self.0) * AVERAGING_GAIN;
     }
 
-    /// By how much the variance is larger than said: 1 within what chance does to a sound sensor, whose mean is 1 ± 0.14.
-    pub fn noisier(self) -> f32 {
+    /// Factor on the configured variance: 1 unless the readings scatter by more than chance explains.
+    pub fn noise_factor(self) -> f32 {
+        /// The mean of a sound sensor is 1 with a deviation of √(2 · 0.01/1.99) = 0.10; this is ten of those above it,
+        /// so that correlated noise within a data sheet's tolerance does not count as a fault.
         const BEYOND_CHANCE: f32 = 2.0;
         if self.0 > BEYOND_CHANCE { self.0 } else { 1.0 }
     }
@@ -122,7 +125,7 @@ mod tests {
         let mut value = 0.0;
         let mut admits = |at| {
             value += 1.0;
-            watch.admits(at, [value; 3], 5)
+            watch.admits(at, [f32::to_bits(value); 3], 5)
         };
         assert!(admits(10) && admits(20) && !admits(20) && !admits(15) && admits(21));
         assert_eq!(watch.refused(), 2);
@@ -131,9 +134,9 @@ mod tests {
     #[test]
     fn a_value_that_stands_still_is_refused_until_it_moves() {
         let mut watch = Watch::default();
-        assert!((0..5).all(|k| watch.admits(k, [1.0, 2.0, 3.0], 5)));
-        assert!((5..9).all(|k| !watch.admits(k, [1.0, 2.0, 3.0], 5)));
-        assert!(watch.admits(9, [1.0, 2.0, 3.5], 5));
+        assert!((0..5).all(|k| watch.admits(k, [1, 2, 3], 5)));
+        assert!((5..9).all(|k| !watch.admits(k, [1, 2, 3], 5)));
+        assert!(watch.admits(9, [1, 2, 4], 5));
     }
 
     #[test]
@@ -157,11 +160,11 @@ mod tests {
         let mut scatter = Scatter::default();
         for k in 0..300 {
             scatter.note([0.0, 0.5, 2.5][k % 3]);
-            assert_eq!(scatter.noisier(), 1.0);
+            assert_eq!(scatter.noise_factor(), 1.0);
         }
         (0..500).for_each(|_| scatter.note(100.0));
-        assert!(scatter.noisier() > 90.0 && scatter.noisier() < 101.0);
+        assert!(scatter.noise_factor() > 90.0 && scatter.noise_factor() < 101.0);
         scatter.note(f32::NAN);
-        assert!(scatter.noisier() < 110.0);
+        assert!(scatter.noise_factor() < 110.0);
     }
 }

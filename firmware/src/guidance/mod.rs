@@ -7,8 +7,10 @@
 
 mod join;
 pub mod setpoint;
+mod spline;
 
 pub use join::{JoinPath, JoinPlan, MIDDLE_POINTS};
+pub use spline::{CONTROL_POINTS, DEGREE, DURATION_MAX_MS, Spline};
 
 use nalgebra::Vector3;
 
@@ -18,12 +20,13 @@ use crate::signals::{FlatReference, TICK_S_EXACT, Tick};
 use crate::validate::ConfigError;
 
 /// A reference trajectory; t is the flight time in s. World frame NWU, m and rad.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(rename_all = "kebab-case", deny_unknown_fields)
 )]
+#[expect(clippy::large_enum_variant, reason = "a vehicle has one, and nowhere else to keep a path's points")]
 pub enum Trajectory {
     /// Stand still.
     Hold {
@@ -67,6 +70,8 @@ pub enum Trajectory {
         /// Heading ψd, rad.
         yaw_rad: f32,
     },
+    /// A path of any shape, which the desktop fits to waypoints or to a file.
+    Spline(Spline),
 }
 
 impl Trajectory {
@@ -97,6 +102,7 @@ impl Trajectory {
                     && math::all_finite(amplitude_m)
                     && math::all_finite(&[*rate_rad_s, *yaw_rad]),
             ),
+            Self::Spline(path) => return path.validate(),
         };
         if finite { Ok(()) } else { Err(ConfigError::NonFinite(name)) }
     }
@@ -158,12 +164,13 @@ fn flat(x: [f32; 5], y: [f32; 5], z: [f32; 5], yaw: f32) -> FlatReference {
 /// A trajectory made ready for the loop, with the path that joins it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guidance {
-    trajectory: Trajectory,
     phase: Phase,
     tick_s: f32,
+    ticks_per_ms: u32,
     join: Option<JoinPath>,
     /// The path from elsewhere, in place of the configured one.
     detour: Option<JoinPath>,
+    trajectory: Trajectory,
 }
 
 impl Guidance {
@@ -189,9 +196,16 @@ impl Guidance {
         trajectory.validate()?;
         let rate = match trajectory {
             Trajectory::Helix { rate_rad_s, .. } | Trajectory::FigureEight { rate_rad_s, .. } => rate_rad_s,
-            Trajectory::Hold { .. } | Trajectory::Step { .. } => 0.0,
+            Trajectory::Hold { .. } | Trajectory::Step { .. } | Trajectory::Spline(_) => 0.0,
         };
-        Ok(Self { trajectory, phase: Phase::new(rate, tick_s), tick_s: tick_s as f32, join: None, detour: None })
+        Ok(Self {
+            phase: Phase::new(rate, tick_s),
+            tick_s: tick_s as f32,
+            ticks_per_ms: (1e-3 / tick_s + 0.5) as u32,
+            join: None,
+            detour: None,
+            trajectory,
+        })
     }
 
     /// What to fly `ticks` after the start of the flight: the joining path first, then the trajectory.
@@ -252,6 +266,7 @@ impl Guidance {
                 reference.position += Vector3::from(center_m);
                 reference
             }
+            Trajectory::Spline(ref path) => path.at(ticks, self.ticks_per_ms),
         }
     }
 }
@@ -261,7 +276,7 @@ mod tests {
     use super::*;
     use crate::signals::TICK_S;
 
-    fn trajectories() -> [Trajectory; 2] {
+    fn trajectories() -> [Trajectory; 3] {
         [
             Trajectory::PAPER_HELIX,
             Trajectory::FigureEight {
@@ -270,6 +285,13 @@ mod tests {
                 rate_rad_s: 1.3,
                 yaw_rad: 0.2,
             },
+            Trajectory::Spline(Spline {
+                begin_ms: 0,
+                duration_ms: 9_000,
+                repeat: true,
+                turn_rad: 0.0,
+                control_points: (0..12_u8).map(|i| [f32::from(i % 5), f32::from(i % 3), 2.0, 0.1]).collect(),
+            }),
         ]
     }
 

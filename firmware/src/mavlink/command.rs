@@ -1,7 +1,8 @@
 //! Commands: what each one does, and how it is answered.
 //!
-//! What concerns the flight goes to the commander, which answers through a [`Reply`](crate::commander::Reply); the rest
-//! is answered here. Nothing remembers earlier commands: a repeated one is carried out and answered again, which does no harm for any of them.
+//! Flight commands go to the commander, which answers with a [`Reply`](crate::commander::Reply); the others are
+//! answered here. Earlier commands are not remembered: a repeated one is executed and answered again, which is harmless
+//! for all of them.
 
 use glissade_dialect::num_traits::FromPrimitive;
 use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavModeFlag, MavResult};
@@ -14,15 +15,15 @@ use crate::commander::{Command, Commands, Origin, Outcome, Request, TAKE_OFF_HEI
 use crate::failure::{Failure, Failures, Injectable, Manner, Unit};
 use crate::signals::Tick;
 
-/// `param2` of arming and disarming that skips the checks: MAVLink's and QGroundControl's.
+/// Values of `param2` that force arming or disarming: MAVLink's and QGroundControl's.
 const FORCE: [f32; 2] = [21_196.0, 2_989.0];
 
-/// What the sender of a command gets.
+/// Answer to the sender of a command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Answer {
     /// For `COMMAND_ACK`.
     pub(super) result: MavResult,
-    /// A message that it has asked for.
+    /// A requested message.
     pub(super) report: Option<Report>,
 }
 
@@ -32,7 +33,7 @@ impl From<MavResult> for Answer {
     }
 }
 
-/// Carries out a command. `None` if it has been passed on to the commander, who will answer.
+/// Executes a command. `None` if it was passed to the commander, which will answer.
 pub(super) fn carry_out(
     message: &CommandMessage,
     sender: Sender,
@@ -58,7 +59,7 @@ pub(super) fn carry_out(
     }
 }
 
-/// A request goes to the commander; where there is none, the command has made no sense.
+/// Passes a request to the commander; denies the command if there is none.
 fn pass_on(
     request: Option<Request>,
     message: &CommandMessage,
@@ -73,7 +74,7 @@ fn pass_on(
     }
 }
 
-/// `None` if it is neither arming nor disarming; a NaN is neither.
+/// `None` if `param1` is neither 1 (arm) nor 0 (disarm), as for NaN.
 fn arm_request(message: &CommandMessage) -> Option<Request> {
     let force = FORCE.contains(&message.param2);
     if message.param1 == 1.0 {
@@ -85,12 +86,12 @@ fn arm_request(message: &CommandMessage) -> Option<Request> {
     }
 }
 
-/// The height is over the ground: there is no height over the sea yet. NaN asks for the usual one.
+/// The height is above the ground (above mean sea level is not supported). NaN selects the default height.
 fn take_off(message: &CommandMessage) -> Request {
     Request::TakeOff { height_m: if message.param7.is_nan() { TAKE_OFF_HEIGHT_M } else { message.param7 } }
 }
 
-/// `None` unless it is a mode of PX4's coding, with the flag that says so, into which the vehicle can be told to go.
+/// `None` unless it is a PX4 custom mode, flagged as such, that can be set.
 fn mode_request(message: &CommandMessage) -> Option<Request> {
     let flags = MavModeFlag::from_bits_truncate(message.param1 as u8);
     if flags.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) {
@@ -100,8 +101,8 @@ fn mode_request(message: &CommandMessage) -> Option<Request> {
     }
 }
 
-/// Accepts what the board can do, and hands it on. A board that can do nothing has it switched off, as PX4 calls it:
-/// denied.
+/// Accepts a failure that the board supports, and passes it on. Denied if the board supports none, as PX4 does while
+/// `SYS_FAILURE_EN` is off.
 fn inject(message: &CommandMessage, injectable: &Injectable, failures: &mut Failures) -> Result<MavResult, MavResult> {
     if injectable.is_none() {
         return Err(MavResult::MAV_RESULT_DENIED);
@@ -113,7 +114,7 @@ fn inject(message: &CommandMessage, injectable: &Injectable, failures: &mut Fail
     if !injectable.allows(unit, manner) {
         return Err(MavResult::MAV_RESULT_UNSUPPORTED);
     }
-    // The first is number 1; 0, and no number, are all of them.
+    // Instances are counted from 1; 0 and NaN mean all of them.
     let number = if message.param3.is_nan() { Some(0) } else { whole(message.param3) };
     let number = number.filter(|n| *n <= injectable.count(unit)).ok_or(MavResult::MAV_RESULT_DENIED)?;
     let failure = Failure { unit, manner, instance: number.checked_sub(1) };
@@ -121,13 +122,13 @@ fn inject(message: &CommandMessage, injectable: &Injectable, failures: &mut Fail
     Ok(MavResult::MAV_RESULT_ACCEPTED)
 }
 
-/// A parameter that is a whole number up to 255.
+/// A parameter as an integer from 0 to 255.
 fn whole(parameter: f32) -> Option<u8> {
     let number = parameter as u8;
     (f32::from(number) == parameter).then_some(number)
 }
 
-/// A unit by MAVLink's `FAILURE_UNIT`.
+/// The unit of a MAVLink `FAILURE_UNIT`.
 fn unit_of(number: u8) -> Option<Unit> {
     Some(match number {
         0 => Unit::Gyro,
@@ -167,7 +168,7 @@ fn request_capabilities(message: &CommandMessage) -> Answer {
     }
 }
 
-/// MAVLink's name for how a command ended that the commander has decided.
+/// The `MAV_RESULT` of the commander's outcome.
 pub(super) fn result_of(outcome: Outcome) -> MavResult {
     match outcome {
         Outcome::Accepted => MavResult::MAV_RESULT_ACCEPTED,

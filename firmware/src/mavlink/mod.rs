@@ -1,10 +1,38 @@
 //! The ground partition, 100 Hz: MAVLink.
 //!
-//! Bytes in, bytes out; the board or the host only carries them. `parser` makes received bytes into messages,
-//! `command` carries out what they ask, `mode`
-//! codes the modes as PX4 does, `text` tells pilots, `telemetry` says when what is sent, `status` how the vehicle is, `writer`
-//! makes it into bytes.
-//! Answers wait in a queue until they fit into a job's bytes. Knows NED/FRD through `frames` alone.
+//! Bytes in, bytes out; the board or the host only carries them. `parser` decodes received bytes, `command` executes
+//! commands, `mode` encodes modes as PX4 does, `text` sends texts to pilots, `telemetry` schedules periodic messages,
+//! `status` fills in the health messages, and `writer` encodes messages. Answers wait in a queue until they fit into a
+//! job's bytes. NED/FRD is converted in `frames` only.
+//!
+//! ```
+//! use firmware::autopilot::Autopilot;
+//! use firmware::config::FlightConfig;
+//! use firmware::signals::{NavState, SensorFrame};
+//!
+//! // `COMMAND_LONG` to system 1: request `AUTOPILOT_VERSION` (MAVLink 2 frames, from any MAVLink library).
+//! use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MessageData};
+//! use glissade_dialect::{AUTOPILOT_VERSION_DATA, COMMAND_ACK_DATA, COMMAND_LONG_DATA, MavCmd};
+//! let request = COMMAND_LONG_DATA {
+//!     command: MavCmd::MAV_CMD_REQUEST_MESSAGE as u16,
+//!     param1: AUTOPILOT_VERSION_DATA::ID as f32,
+//!     target_system: 1,
+//!     ..COMMAND_LONG_DATA::DEFAULT
+//! };
+//! let mut frame = MAVLinkV2MessageRaw::new();
+//! frame.serialize_message_data(MavHeader { system_id: 255, component_id: 190, sequence: 0 }, &request);
+//!
+//! let mut autopilot = Autopilot::new(&FlightConfig::default()).expect("valid");
+//! autopilot.inner.receive(frame.raw_bytes());
+//! let mut sent = Vec::new();
+//! for _ in 0..100 {
+//!     autopilot.tick(Some(&SensorFrame::Motion(NavState::at_rest())));
+//!     sent.extend_from_slice(&autopilot.inner.take_transmit());
+//! }
+//! // Frames start with 0xfd, and carry the message's number in bytes 7 to 9.
+//! let has = |id: u32| sent.windows(10).any(|w| w[0] == 0xfd && w[7..10] == id.to_le_bytes()[..3]);
+//! assert!(has(COMMAND_ACK_DATA::ID) && has(AUTOPILOT_VERSION_DATA::ID));
+//! ```
 
 mod command;
 mod mode;
@@ -41,7 +69,7 @@ pub type RxBytes = heapless::Vec<u8, RX_CAPACITY>;
 /// Bytes to send.
 pub type TxBytes = heapless::Vec<u8, TX_CAPACITY>;
 
-/// What a board has measured of its two control loops over the last second, with a clock of its own.
+/// Rates of the two control loops over the last second, as a board measures them with an independent clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LoopTiming {
@@ -53,18 +81,18 @@ pub struct LoopTiming {
     pub inner_period_us: (u16, u16),
 }
 
-/// How the firmware itself is doing.
+/// Health of the firmware itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Health {
-    /// Whether the motion is to be trusted.
+    /// Whether sensor samples are arriving.
     pub nav_fresh: bool,
     /// Sensor samples refused since boot.
     pub refused_samples: u32,
-    /// Bytes of the ground station that did not fit, since boot.
+    /// Received bytes that were dropped for lack of space, since boot.
     pub dropped_bytes: u32,
     /// Jobs of the outer, commander and ground partitions that overran since boot.
     pub overruns: [u32; 3],
-    /// The loops' rates, where a board measures them.
+    /// Rates of the loops, if the board measures them.
     pub timing: Option<LoopTiming>,
 }
 
@@ -75,56 +103,56 @@ pub struct GroundInput {
     pub nav: NavState,
     /// Whether the rotors may turn.
     pub armed: bool,
-    /// What the vehicle is doing.
+    /// The mode that pilots see.
     pub mode: Mode,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
     /// Whether an arm request would be accepted.
     pub armable: bool,
-    /// How the firmware itself is doing.
+    /// Health of the firmware itself.
     pub health: Health,
-    /// How the estimator is doing; none on ideal state.
+    /// The estimator's report; `None` on ideal state.
     pub estimator: Option<Status>,
-    /// What the board can make fail on request.
+    /// Failures that the board can inject.
     pub injectable: Injectable,
-    /// Answers of the commander since the last job.
+    /// Replies of the commander since the last job.
     pub replies: Replies,
-    /// What the pilot is to know, since the last job.
+    /// Failsafe events since the last job.
     pub events: Events,
-    /// What the ground station has sent since the last job.
+    /// Bytes received since the last job.
     pub received: RxBytes,
 }
 
-/// What the ground partition has to say.
+/// Output of the ground partition.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GroundOutput {
     /// For the ground station.
     pub transmit: TxBytes,
     /// For the commander.
     pub commands: Commands,
-    /// Accepted, for the board.
+    /// Accepted failure injections, for the board.
     pub failures: Failures,
 }
 
-/// Answers that wait for room.
+/// Greatest number of queued answers.
 const OUTBOX_CAPACITY: usize = 16;
-/// Bytes of a job that answers may take, so that many questions do not silence the telemetry.
+/// Bytes of a job that answers may take, so that many requests do not silence the telemetry.
 const OUTBOX_SHARE: usize = TX_CAPACITY / 2;
 
-/// Something to be sent once.
+/// A message to be sent once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Outgoing {
-    /// How a command ended.
+    /// Acknowledgement of a command.
     Ack { command: u16, result: MavResult, to: Sender },
-    /// Why a command was refused, for the pilot.
+    /// Why a command was refused, as a text for the pilot.
     Refusal(Request, Refusal),
-    /// What has happened, for the pilot.
+    /// A failsafe event, as a text for the pilot.
     Event(Event),
-    /// A message that was asked for.
+    /// A requested message.
     Report(Report),
-    /// There are no missions of any type yet; ground stations want to be told.
+    /// An empty mission list: missions are not supported, but ground stations wait for the answer.
     NoMission { mission_type: u8, to: Sender },
-    /// The time at which a question for the time was read, and the time in the question.
+    /// Answer to a time request: the time at which it was read, and the time in it.
     Timesync { tc1: i64, ts1: i64, to: Sender },
 }
 
@@ -195,7 +223,7 @@ impl Ground {
     }
 
     fn post(&mut self, outgoing: Outgoing) {
-        // With a full queue the answer is lost; whoever gets none asks again.
+        // With a full queue the answer is lost; the sender repeats its request.
         let _ = self.outbox.push_back(outgoing);
     }
 
@@ -214,7 +242,7 @@ impl Ground {
     }
 }
 
-/// Appends an answer; false, and nothing done, if it does not fit.
+/// Appends an answer; false, with nothing written, if it does not fit.
 fn write(outgoing: &Outgoing, now: Tick, input: &GroundInput, bad_checksums: u32, out: &mut Writer) -> bool {
     match *outgoing {
         Outgoing::Ack { command, result, to } => command::write_ack(command, result, to, out),

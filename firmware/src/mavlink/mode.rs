@@ -1,4 +1,4 @@
-//! The vehicle's modes in PX4's coding: a main and a sub mode, in the third and fourth byte of `custom_mode`.
+//! Modes in PX4's encoding: main mode and sub mode in the third and fourth byte of `custom_mode`.
 
 use crate::commander::{Mode, Request, TAKE_OFF_HEIGHT_M};
 
@@ -10,7 +10,7 @@ const MISSION: u8 = 4;
 const RETURN: u8 = 5;
 const LAND: u8 = 6;
 
-/// `custom_mode` of a mode. PX4 has none for a descent that a failure has caused which clients know: it lands.
+/// `custom_mode` of a mode. Clients know no PX4 mode for a descent after a failure, so it is reported as landing.
 pub(super) fn custom_mode(mode: Mode) -> u32 {
     let (main, sub) = match mode {
         Mode::Disarmed | Mode::Idle | Mode::Hold => (AUTO, LOITER),
@@ -23,7 +23,7 @@ pub(super) fn custom_mode(mode: Mode) -> u32 {
     u32::from(main) << 16 | u32::from(sub) << 24
 }
 
-/// What a mode asks for that a pilot sets; `None` for one that cannot be set.
+/// The request that corresponds to setting a mode; `None` if it cannot be set.
 pub(super) fn request(main: f32, sub: f32) -> Option<Request> {
     if main != f32::from(AUTO) {
         return None;

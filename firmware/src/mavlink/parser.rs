@@ -1,12 +1,12 @@
-//! Received bytes to messages: finds frames in a stream that may hold anything, and decodes those that are for us.
+//! Parser: finds frames in an arbitrary byte stream, and decodes the messages addressed to this vehicle.
 //!
-//! MAVLink 1 and 2. A frame counts if its message is one that is understood here, its incompatibility flags are
-//! known and its checksum is right. Signed frames are accepted, their signature is not checked.
+//! MAVLink 1 and 2. A frame is accepted if its message is supported, its incompatibility flags are known and its
+//! checksum is right. Signed frames are accepted; their signature is not checked.
 //!
-//! A frame that is not understood is skipped as a whole while the stream is in step, that is, as long as each
-//! frame begins where the last one ended: what it carries (a file, say) may itself look like commands. Once out
-//! of step, every byte may begin a frame until a checksum is right. A frame that does not become complete within
-//! [`PATIENCE_JOBS`] was none.
+//! While the stream is synchronised, that is, as long as each frame begins where the last one ended, an unsupported
+//! frame is skipped as a whole: its payload (a file, for example) may itself look like a command. Once synchronisation
+//! is lost, any byte may begin a frame until a checksum is right. A frame that is not complete within [`PATIENCE_JOBS`]
+//! is discarded.
 
 use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData, calculate_crc, consts};
 use glissade_dialect::{COMMAND_INT_DATA, COMMAND_LONG_DATA, MISSION_REQUEST_LIST_DATA, TIMESYNC_DATA};
@@ -19,21 +19,21 @@ const HEADER_V1: usize = consts::STX_SIZE + consts::v1::HEADER_SIZE;
 const HEADER_V2: usize = consts::STX_SIZE + consts::v2::MIN_HEADER_SIZE;
 const FRAME_MAX: usize = HEADER_V2 + consts::MAX_PAYLOAD_LEN + consts::CHECKSUM_SIZE + consts::v2::SIGNATURE_SIZE;
 
-/// Longest payload of a message that is understood: those known today have 35 bytes at most, the rest is for fields
-/// to come. Bounds the bytes that a hostile stream can have checked in one job: 64 for every 3 received.
+/// Longest payload of a supported message: those known today have 35 bytes at most, the rest is for future fields.
+/// Bounds the work that a hostile stream can cause in one job: 64 checked bytes for every 3 received.
 const PAYLOAD_MAX: usize = 64;
 
-/// Jobs of the ground partition that an incomplete frame is waited for: 100 ms, twice what the longest frame takes
-/// on the slowest usual radio (57.6 kBd).
+/// Number of ground partition jobs to wait for the rest of a frame: 100 ms, twice what the longest frame takes on the
+/// slowest usual radio (57.6 kBd).
 const PATIENCE_JOBS: u8 = 10;
 
 /// Who sent a message: MAVLink system and component.
 pub(super) type Sender = (u8, u8);
 
-/// A command, whichever form it came in, with the parameters that some command here needs.
+/// A command from `COMMAND_LONG` or `COMMAND_INT`, with the parameters that the supported commands use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CommandMessage {
-    /// Number in `MAV_CMD`; may be any.
+    /// Number in `MAV_CMD`; any value.
     pub(super) command: u16,
     /// Parameter 1; may be NaN.
     pub(super) param1: f32,
@@ -56,10 +56,10 @@ pub(super) enum Incoming {
     Timesync { ts1: i64 },
 }
 
-/// The stream's parser: what has not been made into messages yet, and whether it is in step.
+/// The stream parser: the bytes not decoded yet, and whether the stream is synchronised.
 #[derive(Clone, Debug)]
 pub(super) struct Parser {
-    /// At most an incomplete frame of the last job, and what this job received.
+    /// At most an incomplete frame from the last job, and the bytes received in this job.
     buffer: heapless::Vec<u8, { FRAME_MAX + RX_CAPACITY }>,
     position: usize,
     in_step: bool,
@@ -74,7 +74,8 @@ impl Default for Parser {
 }
 
 impl Parser {
-    /// Takes what one job has received. Once a job, also with nothing; then [`next`](Self::next) until it is `None`.
+    /// Appends the bytes received in one job. Call it once per job, even without bytes, and then [`next`](Self::next)
+    /// until that returns `None`.
     pub(super) fn push(&mut self, received: &[u8]) {
         if !self.buffer.is_empty() {
             self.waited_jobs = self.waited_jobs.saturating_add(1);
@@ -90,7 +91,7 @@ impl Parser {
     /// The next message for this vehicle.
     pub(super) fn next(&mut self) -> Option<(Sender, Incoming)> {
         loop {
-            // Every turn goes forward by a byte at least, so the bytes received bound the turns.
+            // Every iteration advances by a byte at least, so it is bounded by the bytes received.
             match scan(self.buffer.get(self.position..).unwrap_or_default()) {
                 Scan::Incomplete => break,
                 Scan::BadChecksum => {
@@ -114,11 +115,11 @@ impl Parser {
                 }
             }
         }
-        self.forget();
+        self.discard_scanned();
         None
     }
 
-    /// Frames whose checksum was wrong, since boot.
+    /// Number of frames with a wrong checksum since boot.
     pub(super) fn bad_checksums(&self) -> u32 {
         self.bad_checksums
     }
@@ -128,8 +129,8 @@ impl Parser {
         self.in_step = false;
     }
 
-    /// Drops what has been looked at.
-    fn forget(&mut self) {
+    /// Drops the bytes already scanned.
+    fn discard_scanned(&mut self) {
         if self.position > 0 {
             let position = self.position.min(self.buffer.len());
             let left = self.buffer.len() - position;
@@ -141,15 +142,15 @@ impl Parser {
     }
 }
 
-/// What a stream begins with.
+/// What is found at the beginning of a stream.
 enum Scan<'a> {
-    /// Perhaps a frame, more bytes will tell; or nothing at all.
+    /// An incomplete frame, or nothing.
     Incomplete,
     /// Not a frame.
     Nothing,
     /// Not a frame, or a damaged one.
     BadChecksum,
-    /// If it is a frame, one that is not understood; it may be incomplete.
+    /// Possibly an unsupported frame, perhaps incomplete.
     Foreign { length: usize },
     /// A frame.
     Frame { length: usize, frame: Frame<'a> },
@@ -186,7 +187,7 @@ fn scan_v2(bytes: &[u8]) -> Scan<'_> {
     check(bytes, &layout, MavlinkVersion::V2, (system, component), u32::from_le_bytes([id0, id1, id2, 0]))
 }
 
-/// Lengths of a frame's parts.
+/// Lengths of a frame's sections.
 struct Layout {
     header: usize,
     payload: usize,
@@ -220,7 +221,7 @@ fn check<'a>(bytes: &'a [u8], layout: &Layout, version: MavlinkVersion, sender: 
     }
 }
 
-/// The messages that are understood, by the seed of their checksum.
+/// The checksum seed of a supported message; `None` for an unsupported one.
 fn extra_crc(id: u32) -> Option<u8> {
     match id {
         COMMAND_LONG_DATA::ID => Some(COMMAND_LONG_DATA::EXTRA_CRC),
@@ -231,7 +232,7 @@ fn extra_crc(id: u32) -> Option<u8> {
     }
 }
 
-/// A frame whose checksum is right.
+/// A frame with a correct checksum.
 struct Frame<'a> {
     version: MavlinkVersion,
     sender: Sender,

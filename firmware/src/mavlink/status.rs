@@ -1,4 +1,4 @@
-//! How the vehicle is: `SYS_STATUS` and `ESTIMATOR_STATUS`.
+//! Health messages: `SYS_STATUS` and `ESTIMATOR_STATUS`.
 
 use glissade_dialect::{ESTIMATOR_STATUS_DATA, EstimatorStatusFlags, MavSysStatusSensor, SYS_STATUS_DATA};
 
@@ -15,13 +15,13 @@ const CONTROLLERS: MavSysStatusSensor = MavSysStatusSensor::MAV_SYS_STATUS_SENSO
     .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL)
     .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS);
 
-/// The message of that name.
+/// Fills in `SYS_STATUS`.
 pub(super) fn sys_status(input: &GroundInput, bad_checksums: u32) -> SYS_STATUS_DATA {
     let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
-    let (sensors, well) = sensors(input);
+    let (sensors, healthy) = sensors(input);
     let present = CONTROLLERS | prearm | sensors;
-    // There is no fence; a station takes its bit's absence for a breach.
-    let mut health = CONTROLLERS | well | MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE;
+    // There is no geofence, but a ground station takes a missing health bit for a breach.
+    let mut health = CONTROLLERS | healthy | MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE;
     health.set(prearm, input.armable);
     let sample = input.estimator.filter(|status| status.battery.healthy).and_then(|status| status.battery_sample);
     let [outer, commander, ground] = input.health.overruns.map(saturate);
@@ -41,7 +41,8 @@ pub(super) fn sys_status(input: &GroundInput, bad_checksums: u32) -> SYS_STATUS_
     }
 }
 
-/// The sensors on board, and those that are well: of a vehicle that is given its motion, that alone.
+/// Bits of the sensors that are present, and of those that are healthy. On ideal state only the ground truth is
+/// present.
 fn sensors(input: &GroundInput) -> (MavSysStatusSensor, MavSysStatusSensor) {
     use MavSysStatusSensor as Bit;
     let fresh = input.health.nav_fresh;
@@ -62,17 +63,17 @@ fn sensors(input: &GroundInput) -> (MavSysStatusSensor, MavSysStatusSensor) {
     ])
 }
 
-/// Bits of what is there and of what is well.
+/// Bits of present and of healthy sensors.
 fn bits(sensors: &[(MavSysStatusSensor, Sensor)]) -> (MavSysStatusSensor, MavSysStatusSensor) {
-    sensors.iter().fold((MavSysStatusSensor::empty(), MavSysStatusSensor::empty()), |(mut there, mut well), one| {
-        let (bit, sensor) = *one;
-        there.set(bit, sensor.present);
-        well.set(bit, sensor.present && sensor.healthy);
-        (there, well)
+    let none = MavSysStatusSensor::empty();
+    sensors.iter().fold((none, none), |(mut present, mut healthy), (bit, sensor)| {
+        present.set(*bit, sensor.present);
+        healthy.set(*bit, sensor.present && sensor.healthy);
+        (present, healthy)
     })
 }
 
-/// Up to 65.534 V: the greatest number means that it is not known.
+/// Up to 65.534 V: the greatest value means unknown.
 fn millivolts(sample: BatterySample) -> u16 {
     math::clamp(sample.voltage_v * 1e3, 0.0, f32::from(u16::MAX - 1)) as u16
 }
@@ -86,7 +87,7 @@ fn saturate(count: u32) -> u16 {
     u16::try_from(count).unwrap_or(u16::MAX)
 }
 
-/// The message of that name. Heights are known over the start alone, neither over the sea nor over the ground.
+/// Fills in `ESTIMATOR_STATUS`. Heights are relative to the start, neither above mean sea level nor above ground.
 pub(super) fn estimator_status(now: Tick, status: &Status) -> ESTIMATOR_STATUS_DATA {
     use EstimatorStatusFlags as Flag;
     let mut flags = Flag::empty();

@@ -1,7 +1,7 @@
-//! What is sent without being asked: one table of messages and periods, and how each message is filled in.
+//! Periodic telemetry: one table of messages and periods, and how each message is filled in.
 //!
-//! Owns when each message is next due; a ground station may change the periods (`MAV_CMD_SET_MESSAGE_INTERVAL`).
-//! A message that does not fit into a job's bytes is sent by a later job.
+//! Owns when each message is next due; a ground station may change the intervals (`MAV_CMD_SET_MESSAGE_INTERVAL`). A
+//! message that does not fit into a job's bytes is sent by a later job.
 
 use glissade_dialect::mavlink_core::{MessageData, types::CharArray};
 use glissade_dialect::{
@@ -31,14 +31,14 @@ pub(super) enum Report {
     AutopilotVersion,
 }
 
-/// A row of the table of telemetry.
+/// A row of the telemetry table.
 struct Stream {
     report: Report,
-    /// MAVLink's number of the message.
+    /// MAVLink message number.
     id: u32,
     /// Default, in ticks; 0 for never.
     period: Tick,
-    /// First due at this tick, so that not everything comes in one job.
+    /// First due at this tick, so that messages are spread over jobs.
     phase: Tick,
 }
 
@@ -48,8 +48,8 @@ const fn stream<D: MessageData>(report: Report, period: Tick, phase: Tick) -> St
 
 const STREAM_COUNT: usize = 8;
 
-/// Every message that can be sent, its default period and first tick. The motion comes at 20 Hz, which leaves a
-/// radio of 57,600 baud two thirds free; a ground station that wants more asks for it.
+/// Every message that can be sent, its default period and first tick. The motion is sent at 20 Hz, which leaves two
+/// thirds of a 57,600 baud radio free; a ground station can set a shorter interval.
 const STREAMS: [Stream; STREAM_COUNT] = [
     stream::<HEARTBEAT_DATA>(Report::Heartbeat, 1000, 0),
     stream::<ATTITUDE_DATA>(Report::Attitude, 50, 0),
@@ -61,12 +61,12 @@ const STREAMS: [Stream; STREAM_COUNT] = [
     stream::<AUTOPILOT_VERSION_DATA>(Report::AutopilotVersion, 0, 0),
 ];
 
-/// Why an interval is not set.
+/// Error of setting an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum IntervalError {
-    /// Not a message that can be sent.
+    /// The message is not in the table.
     UnknownMessage,
-    /// Not an interval, or one that this message must not have.
+    /// The interval is invalid, or not allowed for this message.
     Refused,
 }
 
@@ -108,7 +108,7 @@ impl Telemetry {
 
     /// Sets a message's interval, µs: 0 for its default, −1 for never.
     ///
-    /// The heartbeat's is fixed: others take its absence for the loss of the vehicle.
+    /// The heartbeat's interval is fixed: ground stations take its absence for the loss of the vehicle.
     pub(super) fn set_interval(&mut self, now: Tick, id: f32, interval_us: f32) -> Result<(), IntervalError> {
         let (slot, stream) = self
             .slots
@@ -130,9 +130,9 @@ impl Telemetry {
     }
 }
 
-/// The nearest period that can be kept.
+/// The nearest period that can be scheduled.
 fn keepable(period: Tick) -> Tick {
-    // A quarter of the clock's range at most, or "due" could not be told from "not yet due".
+    // At most a quarter of the clock's range, or "due" could not be distinguished from "not yet due".
     period.clamp(GROUND.period, Tick::MAX / 4)
 }
 
@@ -141,7 +141,7 @@ pub(super) fn report_by_id(id: f32) -> Option<Report> {
     STREAMS.iter().find(|stream| stream.id as f32 == id).map(|stream| stream.report)
 }
 
-/// True if there is something to fill the report with.
+/// True if the report's data is available.
 pub(super) fn is_available(report: Report, input: &GroundInput) -> bool {
     match report {
         Report::LoopTiming => input.health.timing.is_some(),
@@ -150,14 +150,14 @@ pub(super) fn is_available(report: Report, input: &GroundInput) -> bool {
     }
 }
 
-/// Appends a report; false, and nothing done, if it does not fit.
+/// Appends a report; false, with nothing written, if it does not fit.
 pub(super) fn write(report: Report, now: Tick, input: &GroundInput, bad_checksums: u32, out: &mut Writer) -> bool {
     match report {
         Report::Heartbeat => out.write(&heartbeat(input)),
         Report::Attitude => out.write(&attitude(now, input)),
         Report::LocalPosition => out.write(&local_position(now, input)),
         Report::SysStatus => out.write(&status::sys_status(input, bad_checksums)),
-        // On ideal state nothing is estimated, and nothing said.
+        // On ideal state there is no estimator, and no message.
         Report::EstimatorStatus => {
             input.estimator.is_none_or(|estimator| out.write(&status::estimator_status(now, &estimator)))
         }
@@ -169,7 +169,7 @@ pub(super) fn write(report: Report, now: Tick, input: &GroundInput, bad_checksum
 
 /// A tick as MAVLink's time since boot.
 fn boot_ms(tick: Tick) -> u32 {
-    // A tick is a millisecond; spelt out for the day it is not.
+    // A tick is a millisecond now; this holds for other lengths too.
     (u64::from(tick) * u64::from(TICK_US) / 1000) as u32
 }
 
@@ -233,7 +233,7 @@ fn extended_sys_state(input: &GroundInput) -> EXTENDED_SYS_STATE_DATA {
     EXTENDED_SYS_STATE_DATA { landed_state, ..EXTENDED_SYS_STATE_DATA::DEFAULT }
 }
 
-/// All four numbers or none.
+/// All four values or none.
 fn write_timing(now: Tick, timing: LoopTiming, out: &mut Writer) -> bool {
     let (shortest, longest) = timing.inner_period_us;
     let values: [(&[u8; 10], u16); 4] = [

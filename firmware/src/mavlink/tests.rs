@@ -39,7 +39,7 @@ fn command(command: u16, param1: f32, param2: f32) -> Vec<u8> {
     command_to((1, 1), command, param1, param2)
 }
 
-/// What was sent, each frame checked on the way: version, identity, running number, checksum, no trailing zeros.
+/// The messages sent. Checks each frame: version, identity, sequence number, checksum, no trailing zeros.
 fn parse(mut bytes: &[u8], sequence: &mut u8) -> Vec<MavMessage> {
     let mut messages = Vec::new();
     while !bytes.is_empty() {
@@ -214,11 +214,11 @@ fn arming_goes_to_the_commander_and_its_reply_back_to_the_sender() {
     };
     assert_eq!((ack.command, ack.result), (ARM, MavResult::MAV_RESULT_TEMPORARILY_REJECTED));
     assert_eq!((ack.target_system, ack.target_component), (255, 190));
-    assert_eq!(text.text.to_str(), Ok("Disarming refused: in the air"));
+    assert_eq!(text.text.to_str(), Ok("Disarming refused: vehicle in the air"));
 }
 
 #[test]
-fn neither_arming_nor_disarming_is_denied_and_too_many_at_once_are_put_off() {
+fn an_invalid_arm_parameter_is_denied_and_too_many_commands_at_once_are_temporarily_rejected() {
     let mut bench = Bench::silent();
     for param1 in [f32::NAN, 0.5, 2.0, -1.0, f32::INFINITY] {
         assert_eq!(bench.result_of(&command(ARM, param1, 0.0)), Some(MavResult::MAV_RESULT_DENIED), "{param1}");
@@ -314,7 +314,7 @@ fn all_streams_at_once_are_deferred_not_cut() {
 }
 
 #[test]
-fn missions_are_none_and_the_time_is_told() {
+fn mission_lists_are_empty_and_time_requests_are_answered() {
     let mut bench = Bench::silent();
     let list = MISSION_REQUEST_LIST_DATA { target_system: 1, target_component: 1, mission_type: 2 };
     let messages = bench.job(&frame(&list));
@@ -454,7 +454,7 @@ proptest! {
     }
 }
 
-/// Bytes in which frames seem to begin more often than by chance.
+/// Bytes with more start markers of frames than chance gives.
 fn any_byte() -> impl Strategy<Value = u8> {
     prop_oneof![4 => any::<u8>(), 1 => Just(0xfd), 1 => Just(0xfe), 1 => Just(76), 1 => Just(0), 1 => Just(1)]
 }

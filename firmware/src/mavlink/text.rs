@@ -1,4 +1,4 @@
-//! What is told to pilots in words: why a command was refused, and what has happened.
+//! Texts for pilots (`STATUSTEXT`): why a command was refused, and failsafe events.
 
 use glissade_dialect::mavlink_core::types::CharArray;
 use glissade_dialect::{MavSeverity, STATUSTEXT_DATA};
@@ -14,12 +14,12 @@ pub(super) fn write_refusal(request: &Request, refusal: Refusal, out: &mut Write
     write(&[request.name(), " refused: ", refusal.reason()], MavSeverity::MAV_SEVERITY_WARNING, out)
 }
 
-/// Sends what has happened; false if it does not fit.
+/// Sends an event; false if it does not fit.
 pub(super) fn write_event(event: Event, out: &mut Writer) -> bool {
     write(&[event.text()], MavSeverity::MAV_SEVERITY_CRITICAL, out)
 }
 
-/// What does not fit is cut.
+/// Sends the concatenated text, truncated to [`LENGTH`]; false if the message does not fit.
 fn write(pieces: &[&str], severity: MavSeverity, out: &mut Writer) -> bool {
     let mut text = [0; LENGTH];
     for (to, from) in text.iter_mut().zip(pieces.iter().flat_map(|piece| piece.bytes())) {

@@ -1,21 +1,21 @@
-//! Messages to bytes: frames of MAVLink 2 for one job, as many as fit.
+//! Encodes messages as MAVLink 2 frames, as many as fit into one job.
 
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MessageData};
 
 use super::{COMPONENT_ID, SYSTEM_ID, TxBytes};
 
-/// Bytes of a frame besides its payload, unsigned.
+/// Bytes of an unsigned frame besides its payload.
 const OVERHEAD: usize = 12;
 
-/// Longest frame of a message.
+/// Length of a message's longest frame.
 pub(super) const fn frame_len<D: MessageData>() -> usize {
     D::ENCODED_LEN + OVERHEAD
 }
 
-/// What one job sends.
+/// The frames that one job sends.
 pub(super) struct Writer<'a> {
     bytes: &'a mut TxBytes,
-    /// One counter for everything that is sent.
+    /// Sequence number, counted over all frames.
     sequence: &'a mut u8,
     limit: usize,
 }
@@ -27,17 +27,17 @@ impl<'a> Writer<'a> {
         Self { bytes, sequence, limit }
     }
 
-    /// From now on, no more than this many bytes altogether.
+    /// Limits the total number of bytes from now on.
     pub(super) fn set_limit(&mut self, limit: usize) {
         self.limit = limit;
     }
 
-    /// True if so many more bytes fit.
+    /// True if `count` more bytes fit.
     pub(super) fn has_room(&self, count: usize) -> bool {
         self.bytes.len() + count <= self.limit
     }
 
-    /// Appends a frame; false, and nothing done, if its longest form does not fit.
+    /// Appends a frame; false, with nothing written, if its longest form does not fit.
     pub(super) fn write<D: MessageData>(&mut self, message: &D) -> bool {
         if !self.has_room(frame_len::<D>()) {
             return false;

@@ -1,56 +1,57 @@
-//! The one frame each way before a flight: what to fly, and whether the image will.
+//! The handshake before a flight: the configuration, and whether the image accepts it.
 
 use serde::{Deserialize, Serialize};
 
 use super::{REPLY_BYTES, VERSION};
 use crate::config::FlightConfig;
+use crate::guidance::CONTROL_POINTS;
 use crate::signals::Tick;
 
 /// Bytes of an encoded [`Hello`]: version, length, content, zeros.
-pub const HELLO_BYTES: usize = 2048;
+pub const HELLO_BYTES: usize = 2048 + 16 * CONTROL_POINTS;
 const TEXT_BYTES: usize = REPLY_BYTES - 4;
 
-/// What to fly, and what to disturb.
+/// The host's first frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hello {
-    /// What to fly.
+    /// Configuration of the flight.
     pub config: FlightConfig,
-    /// Work that the partitions pretend to have.
+    /// Busy-waits added to the partitions' jobs.
     pub busy: BusyWait,
-    /// What the outer partition's job at that tick does to the image.
+    /// A fault that the outer partition's job provokes from this tick on.
     pub fault: Option<(Tick, Fault)>,
 }
 
-/// Time by which a partition's jobs are made longer, µs of the image's time.
+/// Busy-wait added to each job of a partition, µs of the image's time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BusyWait {
-    /// Of guidance and position control.
+    /// Outer partition.
     pub outer_us: u32,
-    /// Of the commander.
+    /// Commander.
     pub commander_us: u32,
-    /// Of MAVLink.
+    /// Ground partition.
     pub ground_us: u32,
 }
 
-/// Ways to end an image, to show that it stops the rotors.
+/// Faults to provoke, to test that the image stops the rotors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Fault {
     /// A panic.
     Panic,
-    /// An instruction that the core does not have.
+    /// An undefined instruction.
     UndefinedInstruction,
-    /// A recursion without end.
+    /// An infinite recursion.
     StackOverflow,
 }
 
-/// Why a hello cannot be written or read.
+/// Error of encoding or decoding a hello.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HelloError {
-    /// It does not fit.
+    /// Too long for its frame.
     TooLong,
-    /// It is of another version.
+    /// Of another protocol version.
     Version,
-    /// It is not a hello.
+    /// Not a hello.
     Malformed,
 }
 
@@ -58,7 +59,7 @@ impl Hello {
     /// As bytes.
     ///
     /// # Errors
-    /// [`HelloError::TooLong`] if they are more than [`HELLO_BYTES`].
+    /// [`HelloError::TooLong`] if it needs more than [`HELLO_BYTES`].
     pub fn encode(&self) -> Result<[u8; HELLO_BYTES], HelloError> {
         let mut bytes = [0; HELLO_BYTES];
         let (head, content) = bytes.split_at_mut(8);
@@ -72,7 +73,7 @@ impl Hello {
     /// From bytes.
     ///
     /// # Errors
-    /// What is wrong with them. The configuration is not yet validated.
+    /// [`HelloError::Version`] or [`HelloError::Malformed`]. The configuration is not validated here.
     pub fn decode(bytes: &[u8; HELLO_BYTES]) -> Result<Self, HelloError> {
         let (version, rest) = bytes.split_first_chunk().ok_or(HelloError::Malformed)?;
         if u32::from_le_bytes(*version) != VERSION {
@@ -87,9 +88,9 @@ impl Hello {
 impl core::fmt::Display for HelloError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
-            Self::TooLong => "the flight does not fit into its frame",
-            Self::Version => "host and image are of different versions",
-            Self::Malformed => "the flight's frame cannot be read",
+            Self::TooLong => "the flight's configuration does not fit into its frame",
+            Self::Version => "host and image have different protocol versions",
+            Self::Malformed => "the frame with the flight's configuration is malformed",
         })
     }
 }
@@ -97,14 +98,14 @@ impl core::fmt::Display for HelloError {
 /// The image's answer to a hello.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// The first request may come.
+    /// Ready for the first request.
     Ready,
-    /// It will not fly, for that reason.
+    /// Refused, with the reason.
     Refused(heapless::String<TEXT_BYTES>),
 }
 
 impl Answer {
-    /// A refusal with its reason, cut short if it is long.
+    /// A refusal with its reason, truncated to the frame.
     pub fn refused(reason: &impl core::fmt::Display) -> Self {
         let mut text = Cut(heapless::String::new());
         // `Cut` does not fail.
@@ -112,7 +113,7 @@ impl Answer {
         Self::Refused(text.0)
     }
 
-    /// As bytes, as many as a reply has.
+    /// As bytes, in the size of a reply.
     pub fn encode(&self) -> [u8; REPLY_BYTES] {
         let mut bytes = [0; REPLY_BYTES];
         if let (Self::Refused(text), Some((refused, rest))) = (self, bytes.split_first_mut()) {
@@ -124,7 +125,7 @@ impl Answer {
         bytes
     }
 
-    /// From bytes; none if they are not an answer.
+    /// From bytes; `None` if they are not an answer.
     pub fn decode(bytes: &[u8; REPLY_BYTES]) -> Option<Self> {
         let (refused, text) = bytes.split_first_chunk::<4>()?;
         match refused {
@@ -139,7 +140,7 @@ impl Answer {
     }
 }
 
-/// Takes as much of a text as fits.
+/// Truncates a text to its capacity.
 struct Cut(heapless::String<TEXT_BYTES>);
 
 impl core::fmt::Write for Cut {

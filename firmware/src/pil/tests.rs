@@ -150,11 +150,15 @@ fn a_reply_survives_its_bytes() {
 /// Every option there, and every list full.
 #[cfg(feature = "pil-wire")]
 fn longest_config() -> crate::config::FlightConfig {
-    use crate::guidance::JoinPlan;
+    use crate::guidance::{JoinPlan, Spline, Trajectory};
 
     let mut join = JoinPlan { duration_s: 3.0, start_acceleration_m_s2: [0.1; 3], middle_m: heapless::Vec::new() };
     while join.middle_m.push([1.0; 3]).is_ok() {}
+    let mut control_points = heapless::Vec::new();
+    while control_points.push([1.0; 4]).is_ok() {}
+    let path = Spline { begin_ms: u32::MAX, duration_ms: u32::MAX, repeat: true, turn_rad: 1.0, control_points };
     crate::config::FlightConfig {
+        trajectory: Trajectory::Spline(path),
         join: Some(join),
         estimator: Some(crate::estimator::EstimatorSettings::default()),
         ..crate::config::FlightConfig::default()
@@ -171,7 +175,7 @@ fn a_hello_survives_its_bytes_and_a_bad_one_is_refused() {
     };
     let bytes = hello.encode().expect("fits");
     let length = u32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]]);
-    assert!(length as usize + 8 < HELLO_BYTES * 3 / 4, "room for settings to come: {length} bytes");
+    assert!(length as usize + 8 < HELLO_BYTES - 512, "room for settings to come: {length} bytes");
     assert_eq!(Hello::decode(&bytes), Ok(hello));
     let mut other = bytes;
     other[0] ^= 1;

@@ -1,6 +1,6 @@
-//! What is written as a fixed number of 32-bit words at most: the frames' parts, one after the other.
+//! Encoding of the frames' fields as 32-bit words, with a fixed upper bound on their number.
 //!
-//! A number keeps its bits, also where it is none.
+//! A float keeps its bit pattern, NaN included.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -10,38 +10,38 @@ use crate::inner::InnerOutput;
 use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, Measurements, PoseSample};
 use crate::signals::{ControlInput, MotorCommand, NavState, Tick};
 
-/// Something that goes over the wire.
+/// A type that is encoded as words.
 pub(super) trait Words: Sized {
-    /// Words that it takes at most.
+    /// Greatest number of words.
     const WORDS: usize;
 
-    /// Appends its words.
+    /// Appends the words.
     fn write(&self, to: &mut Writer);
 
-    /// Takes its words off; none if they are none of its.
+    /// Reads the words; `None` if they encode no value of this type.
     fn read(from: &mut Reader) -> Option<Self>;
 }
 
-/// As the bytes of a frame, the rest of it zero.
+/// Encodes a value as the bytes of a frame, padded with zeros.
 pub(super) fn encode<T: Words, const BYTES: usize>(what: &T) -> [u8; BYTES] {
-    const { assert!(BYTES == 4 * T::WORDS, "a frame as long as what goes into it") };
+    const { assert!(BYTES == 4 * T::WORDS, "the frame must have the size of its value") };
     let mut bytes = [0; BYTES];
     what.write(&mut Writer { rest: &mut bytes });
     bytes
 }
 
-/// The larger of two numbers of words.
+/// The larger of two word counts.
 pub(super) const fn larger(one: usize, other: usize) -> usize {
     if one > other { one } else { other }
 }
 
-/// What of a frame is still to be written.
+/// Writes words to the rest of a frame.
 pub(super) struct Writer<'a> {
     rest: &'a mut [u8],
 }
 
 impl Writer<'_> {
-    /// Appends a word; [`encode`] has made room for all of them.
+    /// Appends a word; [`encode`] has reserved room for all of them.
     pub(super) fn word(&mut self, word: u32) {
         if let Some((slot, rest)) = core::mem::take(&mut self.rest).split_first_chunk_mut() {
             *slot = word.to_le_bytes();
@@ -50,7 +50,7 @@ impl Writer<'_> {
     }
 }
 
-/// What of a frame is still to be read.
+/// Reads words from the rest of a frame.
 pub(super) struct Reader<'a> {
     rest: &'a [u8],
 }
@@ -138,7 +138,7 @@ impl<T: Words + Copy + Default, const N: usize> Words for [T; N] {
     }
 }
 
-/// Whether there is one, and the one.
+/// A flag, then the value if there is one.
 impl<T: Words> Words for Option<T> {
     const WORDS: usize = 1 + T::WORDS;
 

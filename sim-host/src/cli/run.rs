@@ -12,7 +12,7 @@ use crate::flight;
 use crate::record::{Recorder, Row};
 use crate::report::estimate::Belief;
 use crate::report::{Figures, Flight, Metrics, OutFolder, Progress, Summary, TruthWriter};
-use crate::report::{Sensed, SensedRecorder, progress, summary, table};
+use crate::report::{Sensed, SensedRecorder, TimelineRecorder, progress, summary, table};
 use crate::scenario::Scenario;
 use crate::sil::Outcome;
 
@@ -74,15 +74,17 @@ pub(super) fn fly(scenario: &Scenario, seed: u64, out: Option<&Path>, visible: b
         Some(recorder) => Some(recorder.writing(folder.estimate()?, is_drawn(scenario))),
         None => None,
     };
-    let mut recorder = ((((Metrics::new(), folder.truth()?), bar), Rows::new(scenario)), sensed);
+    let course = TimelineRecorder::new(&scenario.file.command);
+    let mut recorder = (((((Metrics::new(), folder.truth()?), bar), Rows::new(scenario)), sensed), course);
     let flown = timed(scenario, seed, &mut recorder)?;
-    let ((((metrics, truth), bar), rows), sensed) = recorder;
+    let (((((metrics, truth), bar), rows), sensed), course) = recorder;
+    let timeline = course.finish(&scenario.file.fault);
     bar.finish();
     let (sensed, beliefs) = finish(sensed)?;
     let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics).with_sensed(sensed);
     folder.summary(&summary)?;
     if !rows.kept.is_empty() {
-        folder.figures(&Figures::new(scenario, seed, &rows.kept, &beliefs))?;
+        folder.figures(&Figures::new(scenario, seed, &rows.kept, &beliefs, &timeline))?;
     }
     Ok(summary)
 }

@@ -226,7 +226,7 @@ impl Flown {
     }
 
     fn guidance(&self) -> Result<Guidance> {
-        Guidance::with_tick(self.scenario.file.trajectory, STEP_S).map_err(|error| anyhow::anyhow!("{error}"))
+        Guidance::with_tick(self.scenario.file.trajectory.clone(), STEP_S).map_err(|error| anyhow::anyhow!("{error}"))
     }
 }
 

@@ -89,23 +89,6 @@ impl Sampler {
     }
 }
 
-/// A mode as the file writes it.
-pub(super) fn name(mode: Mode) -> &'static str {
-    match mode {
-        Mode::Disarmed => "disarmed",
-        Mode::Idle => "idle",
-        Mode::TakeOff => "take-off",
-        Mode::Hold => "hold",
-        Mode::GoTo => "go-to",
-        Mode::Velocity => "velocity",
-        Mode::Follow => "follow",
-        Mode::Return => "return",
-        Mode::Land => "land",
-        Mode::Descent => "descent",
-        Mode::MotorOut => "motor-out",
-    }
-}
-
 /// Writes beliefs as CSV. An I/O error does not stop the flight: [`finish`](Self::finish) returns the first.
 #[derive(Debug)]
 pub struct EstimateWriter<W: Write> {
@@ -174,7 +157,7 @@ fn push_row(line: &mut String, belief: &Belief) {
     for flag in [health.attitude, health.heading, health.velocity, health.position, health.height] {
         let _ = write!(line, ",{}", u8::from(flag));
     }
-    let _ = write!(line, ",{},{},{}", name(belief.mode), u8::from(belief.armed), u8::from(belief.landed));
+    let _ = write!(line, ",{},{},{}", belief.mode.name(), u8::from(belief.armed), u8::from(belief.landed));
     for reading in &belief.readings {
         line.push(',');
         if let Some(verdict) = reading {

@@ -36,6 +36,7 @@ pub mod progress;
 pub mod sensed;
 pub mod summary;
 pub mod table;
+pub mod timeline;
 pub mod touchdown;
 pub mod truth;
 
@@ -54,6 +55,7 @@ pub use plots::Figures;
 pub use progress::Progress;
 pub use sensed::{Sensed, SensedRecorder};
 pub use summary::{Flight, Summary};
+pub use timeline::{Timeline, TimelineRecorder};
 pub use touchdown::Touchdown;
 pub use truth::TruthWriter;
 

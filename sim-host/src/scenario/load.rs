@@ -1,9 +1,11 @@
 //! Reading a scenario: its file, its airframe's and its tuning's, with settings from the command line laid over them.
 
+use std::path::Path;
+
 use anyhow::{Context, Result, bail};
 
 use super::settings::{set, split_setting};
-use super::{AIRFRAMES, SCENARIOS, Scenario, ScenarioFile, TUNINGS};
+use super::{AIRFRAMES, SCENARIOS, Scenario, ScenarioFile, TUNINGS, trajectory};
 use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
 use crate::files::{one_line, parse, read, source};
@@ -25,6 +27,8 @@ impl Scenario {
                 None => set(&mut table, key, value).with_context(|| format!("--set {setting}"))?,
             }
         }
+        let folder = Path::new(name).parent().unwrap_or(Path::new(""));
+        trajectory::resolve(&mut table, folder).with_context(context)?;
         let mut file: ScenarioFile = table.try_into().map_err(|error| one_line(&error)).with_context(context)?;
         if settings.iter().any(|setting| moves_the_bound(setting)) {
             file.time_optimal_s = None;

@@ -3,6 +3,7 @@
 use anyhow::{Result, anyhow, ensure};
 use firmware::guidance::Trajectory;
 
+use super::trajectory::flyable;
 use super::{AttitudeWave, Disturbance, Gust, PlantKind, Scenario, ScenarioFile, ScheduledPush, Truth, Wind, World};
 use crate::airframe::AirframeFile;
 use crate::plant::air::ALTITUDE_M;
@@ -58,7 +59,11 @@ impl Scenario {
         if f.plant == PlantKind::PaperDecoupled {
             self.controller.require_smc("the plant `paper-decoupled`")?;
         }
-        firmware::autopilot::Autopilot::new(&self.flight_config()).map_err(|error| anyhow!("{error}"))?;
+        let config = self.flight_config();
+        firmware::autopilot::Autopilot::new(&config).map_err(|error| anyhow!("{error}"))?;
+        if let (Trajectory::Spline(path), true) = (&f.trajectory, f.plant != PlantKind::PaperDecoupled) {
+            flyable(path, &config)?;
+        }
         Ok(())
     }
 }
@@ -226,6 +231,9 @@ fn trajectory(trajectory: &Trajectory) -> Result<()> {
             lengths("trajectory.figure-eight.amplitude_m", &amplitude_m)?;
             rate("trajectory.figure-eight.rate_rad_s", rate_rad_s)?;
             yaw("trajectory.figure-eight.yaw_rad", yaw_rad)
+        }
+        Trajectory::Spline(ref path) => {
+            path.control_points.iter().try_for_each(|point| lengths("trajectory.spline.control_points", point))
         }
     }
 }

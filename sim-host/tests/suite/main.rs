@@ -22,5 +22,6 @@ mod physics;
 mod pil;
 mod sensor_flights;
 mod sensor_streams;
+mod trajectories;
 mod tune;
 mod world;

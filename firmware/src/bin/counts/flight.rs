@@ -145,7 +145,7 @@ impl Flight {
             counts: Counts::default(),
             inner: Inner::new(&config, SlidingAttitude::new(&config.airframe, &config.attitude))?,
             outer: Outer::new(&config, SlidingPosition::new(airframe, &config.position))?,
-            guidance: Guidance::new(config.trajectory, config.join.as_ref(), config.start_position())?,
+            guidance: Guidance::new(config.trajectory.clone(), config.join.as_ref(), config.start_position())?,
             navigation: Navigation::new(counter, &config, &plant.nav),
             sensors: Sensors::new(),
             mixer: Mixer::new(&airframe.geometry.rows(), airframe.omega_max_rad_s)

@@ -1,4 +1,4 @@
-//! Whatever is asked for and whatever fails: directives are finite, and nothing stops the rotors in the air.
+//! For any requests and failures: directives are finite, and nothing stops the rotors in the air.
 
 use proptest::prelude::*;
 

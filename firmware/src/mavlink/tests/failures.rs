@@ -1,4 +1,4 @@
-//! Failures on request: accepted if the board has said that it can, and then handed on.
+//! Failure injection: accepted if the board supports the failure, and then passed to it.
 
 use super::*;
 use crate::failure::{Failure, Injectable, Manner, Unit};
@@ -28,13 +28,13 @@ fn gnss_and_motors() -> Injectable {
 }
 
 #[test]
-fn a_board_that_cannot_denies() {
+fn a_board_without_failure_injection_denies() {
     let result = bench(Injectable::NONE).result_of(&request(4.0, 1.0, 0.0));
     assert_eq!(result, Some(MavResult::MAV_RESULT_DENIED));
 }
 
 #[test]
-fn what_is_accepted_is_handed_on_and_nothing_else() {
+fn accepted_failures_are_passed_to_the_board_and_nothing_else() {
     let accepted = MavResult::MAV_RESULT_ACCEPTED;
     let (denied, unsupported) = (MavResult::MAV_RESULT_DENIED, MavResult::MAV_RESULT_UNSUPPORTED);
     let gnss = |manner| Failure { unit: Unit::Gnss, manner, instance: None };
@@ -67,7 +67,7 @@ fn what_is_accepted_is_handed_on_and_nothing_else() {
 }
 
 #[test]
-fn too_many_at_once_are_put_off() {
+fn too_many_at_once_are_temporarily_rejected() {
     let five: Vec<u8> = (0..5).flat_map(|_| request(4.0, 1.0, 0.0)).collect();
     let mut bench = bench(gnss_and_motors());
     let results: Vec<_> = bench

@@ -1,4 +1,4 @@
-//! Modes: what is heard of them, and the commands that ask for them.
+//! Modes as telemetry reports them, and the commands that set them.
 
 use super::*;
 use crate::commander::TAKE_OFF_HEIGHT_M;
@@ -106,7 +106,7 @@ fn modes_that_cannot_be_set_are_denied() {
 }
 
 #[test]
-fn requests_of_programs_on_board_are_not_acknowledged_and_numbers_without_sense_are_denied() {
+fn requests_of_programs_on_board_are_not_acknowledged_and_invalid_parameters_are_denied() {
     let mut bench = Bench::silent();
     let outcome = Outcome::TemporarilyRejected(Refusal::OnGround);
     let _ = bench
@@ -122,18 +122,18 @@ fn requests_of_programs_on_board_are_not_acknowledged_and_numbers_without_sense_
 }
 
 #[test]
-fn what_fails_is_told_in_words() {
+fn failsafe_events_are_sent_as_text() {
     let mut bench = Bench::silent();
     for (event, words) in [
-        (Event::SensorsLost, "Sensors lost: descending blind"),
-        (Event::SensorsGone, "Sensors lost: rotors stopped"),
-        (Event::AttitudeLost, "Attitude lost: descending blind"),
-        (Event::HeightLost, "Height lost: descending blind"),
-        (Event::VelocityLost, "Velocity lost: descending level"),
-        (Event::PositionLost, "Position lost: descending"),
-        (Event::BatteryLow, "Battery low: returning"),
+        (Event::SensorsLost, "Sensor data lost: blind descent"),
+        (Event::SensorsGone, "No sensor data for 2 s: motors stopped"),
+        (Event::AttitudeLost, "Attitude estimate lost: blind descent"),
+        (Event::HeightLost, "Height estimate lost: level descent"),
+        (Event::VelocityLost, "Velocity estimate lost: level descent"),
+        (Event::PositionLost, "Position estimate lost: descending"),
+        (Event::BatteryLow, "Battery low: returning home"),
         (Event::BatteryCritical, "Battery critical: landing"),
-        (Event::RotorFailed { rotor: 2 }, "Rotor 3 failed: descending, turning"),
+        (Event::RotorFailed { rotor: 2 }, "Motor 3 failed: descending without yaw control"),
     ] {
         let _ = bench.input.events.push(event);
         let messages = bench.job(&[]);

@@ -1,4 +1,4 @@
-//! What is told of sensors, battery and estimator.
+//! Telemetry of sensors, battery and estimator.
 
 use super::*;
 use crate::estimator::status::{Sensor, Status};
@@ -36,7 +36,7 @@ fn sys_status(estimator: Status) -> glissade_dialect::SYS_STATUS_DATA {
 }
 
 #[test]
-fn sensors_on_board_and_those_that_are_well_show_in_sys_status() {
+fn sys_status_reports_present_and_healthy_sensors() {
     const SENSORS: u32 = 1 | 2 | 4 | 8 | 0x20 | 0x200 | 0x20_0000 | 0x200_0000;
     let told = sys_status(Status { gnss: SILENT, ..status() });
     assert_eq!(told.onboard_control_sensors_present.bits() & SENSORS, SENSORS & !0x200, "no motion capture");
@@ -46,7 +46,7 @@ fn sensors_on_board_and_those_that_are_well_show_in_sys_status() {
 }
 
 #[test]
-fn the_battery_is_told_as_it_is_measured_and_only_while_it_is() {
+fn sys_status_reports_the_battery_while_it_is_measured() {
     let told = sys_status(status());
     assert_eq!((told.voltage_battery, told.current_battery, told.battery_remaining), (15_250, 1_250, -1));
     let told = sys_status(Status { battery: SILENT, ..status() });
@@ -57,7 +57,7 @@ fn the_battery_is_told_as_it_is_measured_and_only_while_it_is() {
 }
 
 #[test]
-fn the_estimator_tells_what_it_knows_once_a_second() {
+fn estimator_status_is_sent_once_per_second() {
     let found: Vec<_> = heard(status())
         .into_iter()
         .filter_map(|m| if let MavMessage::ESTIMATOR_STATUS(m) = m { Some(m) } else { None })
@@ -70,7 +70,7 @@ fn the_estimator_tells_what_it_knows_once_a_second() {
 }
 
 #[test]
-fn what_is_not_known_is_not_told() {
+fn unknown_states_are_not_flagged() {
     let lost = Status { gnss: SILENT, health: NavHealth { position: false, ..NavHealth::ALL }, ..status() };
     let flags =
         heard(lost).into_iter().find_map(|m| if let MavMessage::ESTIMATOR_STATUS(m) = m { Some(m) } else { None });

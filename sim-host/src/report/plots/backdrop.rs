@@ -6,6 +6,8 @@ use super::svg::{Anchor, Area, Font, Stroke, text_width};
 /// Height of the strip of one kind's names.
 const STRIP: f64 = 17.0;
 const SIZE: f64 = 11.5;
+/// The event that ends a flight.
+pub(super) const DISARMED: &str = "disarmed";
 /// How strong a phase's colour is behind its name, and behind the lines.
 const STRIP_TINT: f64 = 0.45;
 const SHADE_TINT: f64 = 0.16;
@@ -21,10 +23,14 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// Its name without a number: `go-to 2` is a `go-to`.
     fn kind(&self) -> &str {
-        self.name.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ')
+        kind_of(&self.name)
     }
+}
+
+/// A phase's name without its number: `go-to 2` is a `go-to`.
+fn kind_of(name: &str) -> &str {
+    name.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ')
 }
 
 /// Phases, faults and events of a flight, drawn behind a panel over time.
@@ -67,9 +73,10 @@ impl Backdrop {
         seen.into_iter().map(|span| (span.kind(), span.color))
     }
 
-    /// When all is over, s: it was disarmed for the last time. Infinite, if it was not.
+    /// When all is over, s: it was disarmed, and did not fly again. Infinite, if it was not.
     pub(super) fn end(&self) -> f64 {
-        self.events.iter().filter(|(_, name)| name == "disarmed").map(|(t, _)| *t).next_back().unwrap_or(f64::INFINITY)
+        let flown = self.phases.last().map_or(f64::INFINITY, |phase| phase.to);
+        time_of(&self.events, DISARMED).filter(|t| *t >= flown).unwrap_or(f64::INFINITY)
     }
 
     /// Whether the vehicle flies at `t`, s: always, where nothing is known of phases. What it is to do before and after
@@ -158,10 +165,16 @@ fn draw_phase(chart: &Area, range: (f64, f64), span: &Span, strip: Option<f64>) 
     }
     chart.rectangle((left, 0.0), (right, chart.height), span.color.tint(SHADE_TINT));
     let Some(middle) = strip else { return };
-    chart.rectangle((left, middle - 0.5 * STRIP), (right, middle + 0.5 * STRIP), span.color.tint(STRIP_TINT));
+    // A gap shows where one of a kind follows another.
+    chart.rectangle((left + 0.5, middle - 0.5 * STRIP), (right - 0.5, middle + 0.5 * STRIP), span.color.tint(STRIP_TINT));
     if text_width(&span.name, SIZE) < right - left {
         chart.text((f64::midpoint(left, right), middle), &span.name, Font::new(SIZE, Anchor::Middle));
     }
+}
+
+/// When something happened, s.
+pub(super) fn time_of(events: &[(f64, String)], name: &str) -> Option<f64> {
+    events.iter().find(|(_, known)| known == name).map(|(t, _)| *t)
 }
 
 /// Pixels from the left, within the panel.
@@ -171,11 +184,11 @@ fn place(chart: &Area, (from, to): (f64, f64), t: f64) -> f64 {
 
 /// The colour of a mode, the same in every figure.
 pub(super) fn phase_color(name: &str) -> Color {
-    match name {
+    match kind_of(name) {
         "take-off" => palette::GREEN,
         "hold" => palette::SKY,
         "go-to" | "velocity" => palette::BLUE,
-        "follow" | "trajectory" => palette::ORANGE,
+        "trajectory" => palette::ORANGE,
         "return" => palette::PURPLE,
         "land" | "descent" | "motor-out" => palette::VERMILION,
         _ => palette::GREY,

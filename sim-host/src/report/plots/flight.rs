@@ -12,6 +12,7 @@ use crate::noise::Noise;
 use crate::pilot::Order;
 use crate::record::Row;
 use crate::report::estimate::Belief;
+use crate::report::timeline::Timeline;
 use crate::scenario::Scenario;
 
 /// How a vehicle flew, hence what is worth drawing.
@@ -60,7 +61,7 @@ pub struct Figures<'a> {
 
 impl<'a> Figures<'a> {
     /// Of a scenario flown under `seed`.
-    pub fn new(scenario: &Scenario, seed: u64, rows: &'a [Row], beliefs: &'a [Belief]) -> Self {
+    pub fn new(scenario: &Scenario, seed: u64, rows: &'a [Row], beliefs: &'a [Belief], timeline: &Timeline) -> Self {
         let file = &scenario.file;
         let kind = match () {
             () if !file.command.is_empty() || file.start == Start::OnGround => Kind::Piloted,
@@ -71,7 +72,7 @@ impl<'a> Figures<'a> {
             Order::GoTo { position_m, .. } => Some(position_m.map(f64::from)),
             _ => None,
         };
-        let backdrop = phases::backdrop(scenario, rows, beliefs);
+        let backdrop = if kind == Kind::Piloted { phases::backdrop(scenario, rows, timeline) } else { Backdrop::default() };
         let end = backdrop.end() + AFTERWARDS_S;
         Self {
             of: format!("{}, seed {seed}", scenario.name),

@@ -6,7 +6,7 @@ use anyhow::Result;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::axis::{Quantity, Unit};
-use super::backdrop::{Backdrop, Span, phase_color};
+use super::backdrop::{Backdrop, DISARMED, Span, phase_color, time_of};
 use super::flight::Figures;
 use super::page::{grid, save, size_of};
 use super::panel::Panel;
@@ -15,30 +15,57 @@ use super::style::{INK, Key, Role, palette};
 use super::tracking::{while_flying, with_new_reference};
 use crate::flight;
 use crate::record::{Recorder as _, Row};
-use crate::report::estimate::{self, Belief};
 use crate::report::metrics::errors;
+use crate::report::timeline::{Event, EventKind, Phase, Timeline};
 use crate::report::touchdown::Touchdown;
 use crate::scenario::Scenario;
-use crate::sensors::Fault;
-use crate::sensors::faults::{Kind, Sensor};
 
-/// From one belief to the next, s.
-const BELIEF_S: f64 = estimate::EVERY as f64 / 1e3;
+/// Phases in which it stands.
+const ON_THE_GROUND: [&str; 3] = ["before arming", "on the ground", "disarmed"];
+const TOUCHDOWN: &str = "touchdown";
 
-/// Phases, faults and events of a flight on sensors; nothing of one on ideal state.
-pub(super) fn backdrop(scenario: &Scenario, rows: &[Row], beliefs: &[Belief]) -> Backdrop {
-    let Some(end) = beliefs.last().map(|belief| belief.t) else { return Backdrop::default() };
-    let fault = |fault: &Fault| Span {
-        name: name_of(fault),
-        from: fault.from_s,
-        to: fault.to_s.unwrap_or(f64::INFINITY),
-        color: INK,
+/// Phases, faults and events of a pilot's flight.
+pub(super) fn backdrop(scenario: &Scenario, rows: &[Row], timeline: &Timeline) -> Backdrop {
+    let phases: Vec<Span> = timeline.phases.iter().filter(|phase| flies(&phase.name)).map(span).collect();
+    let events = events(scenario, rows, timeline);
+    let landed = if phases.is_empty() { Some(f64::NEG_INFINITY) } else { time_of(&events, TOUCHDOWN) };
+    Backdrop { phases, faults: faults(timeline), events, landed, named: false }
+}
+
+fn flies(phase: &str) -> bool {
+    !ON_THE_GROUND.contains(&phase)
+}
+
+fn span(phase: &Phase) -> Span {
+    Span { name: phase.name.clone(), from: phase.from_s, to: phase.to_s, color: phase_color(&phase.name) }
+}
+
+/// From each fault's begin to its end; without one, for good.
+fn faults(timeline: &Timeline) -> Vec<Span> {
+    let of = |kind: EventKind| timeline.events.iter().filter(move |event| event.kind == kind);
+    let name = |event: &Event| event.text.split_once(": ").map_or(event.text.clone(), |(_, name)| name.to_owned());
+    let fault = |begin: &Event| {
+        let name_of_begin = name(begin);
+        let end = of(EventKind::FaultEnds).find(|end| end.t_s >= begin.t_s && name(end) == name_of_begin);
+        Span { name: name_of_begin, from: begin.t_s, to: end.map_or(f64::INFINITY, |end| end.t_s), color: INK }
     };
-    let faults = scenario.file.fault.iter().filter(|fault| fault.from_s < end).map(fault).collect();
-    let landed = touchdown(scenario, rows);
-    let never_armed = beliefs.iter().all(|belief| !belief.armed);
-    let landed = if never_armed { Some(f64::NEG_INFINITY) } else { landed };
-    Backdrop { phases: phases(beliefs), faults, events: events(landed, rows, beliefs), landed, named: false }
+    of(EventKind::FaultBegins).map(fault).collect()
+}
+
+/// The first touchdown, crash and disarming, and the loss of the vehicle, s.
+fn events(scenario: &Scenario, rows: &[Row], timeline: &Timeline) -> Vec<(f64, String)> {
+    let of = |kind: EventKind| timeline.events.iter().find(|event| event.kind == kind).map(|event| event.t_s);
+    let landed = of(EventKind::Touchdown).or_else(|| touchdown(scenario, rows));
+    let lost = rows.last().filter(|row| !row.is_tracking()).map(|row| row.t);
+    let named = [
+        (landed, TOUCHDOWN),
+        (of(EventKind::Crash), "crash"),
+        (of(EventKind::Disarmed), DISARMED),
+        (lost, "lost"),
+    ];
+    let mut events: Vec<_> = named.into_iter().filter_map(|(t, name)| Some((t?, name.to_owned()))).collect();
+    events.sort_by(|a, b| a.0.total_cmp(&b.0));
+    events
 }
 
 /// When it touched down, s.
@@ -46,61 +73,6 @@ fn touchdown(scenario: &Scenario, rows: &[Row]) -> Option<f64> {
     let mut touchdown = Touchdown::new(flight::ground(scenario)?);
     rows.iter().for_each(|row| touchdown.record(row));
     touchdown.first().map(|contact| contact.t_s)
-}
-
-/// Stretches of one mode while the vehicle is armed. A short one between two of the same mode is a stop on the way.
-fn phases(beliefs: &[Belief]) -> Vec<Span> {
-    let mut phases: Vec<Span> = Vec::new();
-    for belief in beliefs.iter().filter(|belief| belief.armed) {
-        let name = estimate::name(belief.mode);
-        match phases.last_mut().filter(|phase| phase.name == name && belief.t - phase.to < 2.0 * BELIEF_S) {
-            Some(phase) => phase.to = belief.t,
-            None => {
-                if let Some(before) = phases.last_mut() {
-                    before.to = belief.t;
-                }
-                phases.push(Span { name: name.into(), from: belief.t, to: belief.t, color: phase_color(name) });
-            }
-        }
-    }
-    phases.retain(|phase| phase.to > phase.from && phase.name != "idle" && phase.name != "disarmed");
-    phases
-}
-
-/// Touchdown, disarming and loss of the vehicle, s.
-fn events(landed: Option<f64>, rows: &[Row], beliefs: &[Belief]) -> Vec<(f64, String)> {
-    let disarmed = beliefs.windows(2).find(|pair| pair[0].armed && !pair[1].armed).map(|pair| pair[1].t);
-    let lost = rows.last().filter(|row| !row.is_tracking()).map(|row| row.t);
-    let named = [(landed, "touchdown"), (disarmed, "disarmed"), (lost, "lost")];
-    let mut events: Vec<_> = named.into_iter().filter_map(|(t, name)| Some((t?, name.to_owned()))).collect();
-    events.sort_by(|a, b| a.0.total_cmp(&b.0));
-    events
-}
-
-/// What fails, and how.
-fn name_of(fault: &Fault) -> String {
-    let sensor = fault.sensor.map_or("", Sensor::name);
-    let how = match fault.kind {
-        Kind::Off {} => "off",
-        Kind::Stuck {} => "stuck",
-        Kind::Drift { .. } => "drifts",
-        Kind::Noise { .. } => "noisy",
-        Kind::Spikes { .. } => "spikes",
-        Kind::Delayed { .. } => "delayed",
-        Kind::Nan {} => "NaN",
-        Kind::Glitch { .. } => "glitch",
-        Kind::NoFix {} => "no fix",
-        Kind::Loss { .. } => "loses samples",
-        Kind::Duplicate { .. } => "repeats samples",
-        Kind::Disorder {} => "out of order",
-        Kind::TimeJump { .. } => "wrong stamps",
-        Kind::Rotor { index, effectiveness: 0.0 } => return format!("rotor {} lost", index + 1),
-        Kind::Rotor { index, effectiveness } => {
-            return format!("rotor {} at {:.0} % of its thrust", index + 1, 100.0 * effectiveness);
-        }
-        Kind::Collapse { factor } => return format!("battery at {:.0} % of its voltage", 100.0 * factor),
-    };
-    format!("{sensor} {how}")
 }
 
 /// Height, distance from the reference, speed, tilt and rotors, one above the other. Returns the file written.

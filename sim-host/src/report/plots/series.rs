@@ -202,6 +202,28 @@ mod tests {
     }
 
     #[test]
+    fn a_jump_of_the_reference_has_no_rate() {
+        let row = |k: u32| {
+            let t = f64::from(k) * 1e-3;
+            Row { t, reference: [if k < 100 { 0.0 } else { 5.0 }, 0.0, 0.0, 0.0], ..Row::default() }
+        };
+        let rows: Vec<_> = (0..200).map(row).collect();
+        let points = phase(&rows, 0);
+        assert_eq!(points.iter().filter(|p| p.0.is_nan()).count(), 1, "{points:?}");
+        assert!(points.iter().all(|p| p.0.is_nan() || p.1.abs() < 1e-9), "{points:?}");
+    }
+
+    #[test]
+    fn an_angle_that_passes_180_degrees_is_interrupted() {
+        let row = |k: u32| Row { t: f64::from(k), ..Row::default() };
+        let rows: Vec<_> = (0..40_000).map(row).collect();
+        let spins = |row: &Row| (row.t * 0.1 + 180.0).rem_euclid(360.0) - 180.0;
+        let points = angle_over_time(&rows, spins);
+        assert!(points.len() < 2 * MOST_POINTS);
+        assert!(points.windows(2).all(|pair| !((pair[1].1 - pair[0].1).abs() > 180.0)));
+    }
+
+    #[test]
     fn nothing_gives_nothing() {
         assert_eq!(phase(&[], 0), []);
         assert_eq!(thin_series(vec![]), []);

@@ -196,6 +196,47 @@ fn a_vehicle_that_never_moves_has_axes_of_their_least_span() {
     assert!(drawn[0].1.contains(">x error, mm<") && drawn[0].1.contains(">−0.5<"));
 }
 
+/// A flight with a fault, to places: phases of 3 s each.
+fn piloted(rows: &[Row]) -> Figures<'_> {
+    let names = ["take-off", "hold", "go-to 1", "go-to 2", "return", "land"];
+    let span = |(i, name): (usize, &str)| {
+        let color = backdrop::phase_color(name);
+        backdrop::Span { name: name.into(), from: 1.0 + 3.0 * i as f64, to: 4.0 + 3.0 * i as f64, color }
+    };
+    let fault = |from: f64, to: f64| backdrop::Span { name: "gnss off".into(), from, to, color: style::INK };
+    let backdrop = backdrop::Backdrop {
+        phases: names.into_iter().enumerate().map(span).collect(),
+        faults: vec![fault(8.0, 8.2), fault(17.0, f64::INFINITY)],
+        events: vec![(18.5, "touchdown".into()), (19.0, "disarmed".into()), (19.1, "lost".into())],
+        landed: Some(18.5),
+        named: false,
+    };
+    let places = vec![[3.0, 0.0, 5.0], [3.0, 0.1, 5.0], [-1.0, 2.0, 9.0]];
+    Figures { kind: Kind::Piloted, disturbance: None, places, backdrop, ..figures(rows) }
+}
+
+#[test]
+fn a_pilot_s_flight_names_phases_faults_and_landing() {
+    let rows = made_up(20.0);
+    let drawn = draw_all("piloted", &piloted(&rows));
+    let names: Vec<_> = drawn.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["flight.svg", "position.svg", "attitude.svg", "rotors.svg", "path.svg"]);
+    for word in ["take-off", "hold", "go-to 1", "go-to 2", "return", "land", "gnss off", "touchdown", "disarmed"] {
+        assert!(drawn[0].1.contains(&format!(">{word}<")), "{word} is not named");
+    }
+    let color = backdrop::phase_color("return");
+    assert_eq!(color, backdrop::phase_color("return 2"));
+    assert!(drawn[4].1.contains(&color.to_string()), "the path has the colours of the phases");
+}
+
+#[test]
+fn a_reference_counts_only_while_the_vehicle_flies() {
+    let rows = made_up(20.0);
+    let figures = piloted(&rows);
+    let error = tracking::while_flying(&figures, &rows, |row| row.t);
+    assert!(error[0].0 >= 1.0 && error.last().expect("it flew").0 < 18.5);
+}
+
 #[test]
 fn a_missing_folder_is_named() {
     let error = figures(&made_up(1.0)).draw(Path::new("no/such/folder")).expect_err("no folder");

@@ -1,0 +1,266 @@
+//! What a flight did, as plain data for the table, summary.json and the figures: its phases, and what happened when.
+//!
+//! Times are the plant's. Distances are between the true position and the reference; the vehicle's belief decides
+//! nothing here but the names of the phases, which are the commander's modes.
+
+use firmware::commander::{CommanderOutput, Directive, Mode, Outcome, Reply};
+use serde::Serialize;
+
+use super::measures::Size;
+use crate::pilot::{Command, Order};
+use crate::record::{Activity, Recorder, Row};
+use crate::sensors::Fault;
+use crate::sensors::faults::Kind;
+
+/// A stretch of a flight in which the vehicle did one thing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Phase {
+    /// What it did: a mode's name, `go-to 2`, `join`, `trajectory`, `before arming`, `on the ground`, `disarmed`.
+    pub name: String,
+    /// Start, s.
+    pub from_s: f64,
+    /// End, s.
+    pub to_s: f64,
+    /// Root mean square of the true distance from the reference, m; none on the ground and where no position is
+    /// controlled.
+    pub error_rms_m: Option<f64>,
+    /// Its maximum, m.
+    pub error_max_m: Option<f64>,
+}
+
+/// What kind of event it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EventKind {
+    /// A command of the pilot.
+    Order,
+    /// A command that the vehicle refused.
+    Refused,
+    /// A fault begins.
+    FaultBegins,
+    /// A fault ends.
+    FaultEnds,
+    /// The vehicle acts by itself.
+    Response,
+    /// A foot touches the ground, after the vehicle has flown.
+    Touchdown,
+    /// The vehicle is damaged.
+    Crash,
+    /// The rotors are stopped.
+    Disarmed,
+}
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Event {
+    /// When, s.
+    pub t_s: f64,
+    /// What kind.
+    pub kind: EventKind,
+    /// In words.
+    pub text: String,
+}
+
+/// The course of a flight.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Timeline {
+    /// One after the other, without gaps. Empty where no firmware flies (`paper-decoupled`).
+    pub phases: Vec<Phase>,
+    /// In the order of time.
+    pub events: Vec<Event>,
+}
+
+impl Timeline {
+    /// Adds what the recorder of the vehicle's doings does not see, in its place.
+    pub fn add(&mut self, event: Event) {
+        let place = self.events.partition_point(|other| other.t_s <= event.t_s);
+        self.events.insert(place, event);
+    }
+}
+
+/// Makes the timeline of a flight.
+#[derive(Clone, Debug, Default)]
+pub struct TimelineRecorder {
+    script: Vec<Command>,
+    timeline: Timeline,
+    given: usize,
+    error: Size,
+    /// Distance from the reference in the newest row, m.
+    distance_m: f64,
+    armed_before: bool,
+    armed: bool,
+    event: Option<firmware::commander::Event>,
+    replied: bool,
+    end_s: f64,
+}
+
+impl TimelineRecorder {
+    /// Of a flight with a pilot's script and a schedule of faults.
+    pub fn new(script: &[Command]) -> Self {
+        Self { script: script.to_vec(), ..Self::default() }
+    }
+
+    /// The timeline, with the faults of a schedule that began before its end.
+    pub fn finish(mut self, faults: &[Fault]) -> Timeline {
+        self.close();
+        for fault in faults {
+            self.schedule(fault);
+        }
+        self.timeline
+    }
+
+    fn schedule(&mut self, fault: &Fault) {
+        let until = |end: Option<f64>| end.filter(|end| *end < self.end_s);
+        if fault.from_s > self.end_s {
+            return;
+        }
+        let name = fault_name(fault);
+        let ends = until(fault.to_s);
+        self.timeline.add(Event { t_s: fault.from_s, kind: EventKind::FaultBegins, text: format!("fault: {name}") });
+        if let Some(t_s) = ends {
+            self.timeline.add(Event { t_s, kind: EventKind::FaultEnds, text: format!("fault ends: {name}") });
+        }
+    }
+
+    fn close(&mut self) {
+        let (rms, max, end) = (self.error.rms(), self.error.max(), self.end_s);
+        if let Some(phase) = self.timeline.phases.last_mut() {
+            (phase.to_s, phase.error_rms_m, phase.error_max_m) = (end, rms, max);
+        }
+        self.error = Size::default();
+    }
+
+    fn say(&mut self, t_s: f64, kind: EventKind, text: impl Into<String>) {
+        self.timeline.events.push(Event { t_s, kind, text: text.into() });
+    }
+
+    fn orders(&mut self, activity: &Activity) {
+        while self.given < activity.given.min(self.script.len()) {
+            let text = order_text(&self.script[self.given].order);
+            self.say(activity.t, EventKind::Order, text);
+            self.given += 1;
+        }
+    }
+
+    fn answers(&mut self, t: f64, commander: &CommanderOutput) {
+        if !self.replied {
+            for text in commander.replies.iter().filter_map(refusal_text) {
+                self.say(t, EventKind::Refused, text);
+            }
+        }
+        self.replied = !commander.replies.is_empty();
+        if commander.event != self.event {
+            self.event = commander.event;
+            if let Some(event) = commander.event {
+                self.say(t, EventKind::Response, event.text());
+            }
+        }
+    }
+
+    /// The name of what is being done, and whether a position is controlled in it.
+    fn doing(&self, commander: &CommanderOutput) -> (&'static str, Option<usize>, bool) {
+        match commander.mode {
+            Mode::Disarmed if self.armed_before => ("disarmed", None, false),
+            Mode::Disarmed => ("before arming", None, false),
+            Mode::Idle => ("on the ground", None, false),
+            Mode::GoTo => ("go-to", Some(self.legs_given()), true),
+            Mode::Follow if matches!(commander.directive, Directive::GoTo { .. }) => ("join", None, true),
+            Mode::Follow => ("trajectory", None, true),
+            mode @ (Mode::Descent | Mode::MotorOut) => (mode.name(), None, false),
+            mode => (mode.name(), None, true),
+        }
+    }
+
+    fn legs_given(&self) -> usize {
+        self.script[..self.given].iter().filter(|command| matches!(command.order, Order::GoTo { .. })).count()
+    }
+}
+
+impl Recorder for TimelineRecorder {
+    fn record(&mut self, row: &Row) {
+        let [x, y, z] = std::array::from_fn(|i| row.position[i] - row.reference[i]);
+        self.distance_m = libm::sqrt(x * x + y * y + z * z);
+        self.end_s = row.t;
+    }
+
+    fn observe(&mut self, activity: &Activity) {
+        self.orders(activity);
+        let commander = activity.commander;
+        self.answers(activity.t, commander);
+        if self.armed && !commander.armed {
+            self.say(activity.t, EventKind::Disarmed, "disarmed");
+        }
+        self.armed = commander.armed;
+        self.armed_before |= commander.armed;
+        let (name, number, controlled) = self.doing(commander);
+        let is_same = self.timeline.phases.last().is_some_and(|phase| is_named(&phase.name, name, number));
+        if !is_same {
+            self.close();
+            let name = number.map_or_else(|| name.to_owned(), |number| format!("{name} {number}"));
+            let phase = Phase { name, from_s: activity.t, to_s: activity.t, ..Phase::default() };
+            self.timeline.phases.push(phase);
+        }
+        if controlled {
+            self.error.take(self.distance_m);
+        }
+    }
+}
+
+/// Whether a phase's name is `name`, or `name number`. Does not allocate: it is asked each tick.
+fn is_named(phase: &str, name: &str, number: Option<usize>) -> bool {
+    let Some(rest) = phase.strip_prefix(name) else { return false };
+    match number {
+        None => rest.is_empty(),
+        Some(number) => rest.trim_start().parse() == Ok(number),
+    }
+}
+
+fn refusal_text(reply: &Reply) -> Option<String> {
+    let name = reply.command.request.name();
+    match reply.outcome {
+        Outcome::Accepted => None,
+        Outcome::TemporarilyRejected(refusal) => Some(format!("{name} refused: {}", refusal.reason())),
+        Outcome::Denied => Some(format!("{name} refused: a value out of its range")),
+    }
+}
+
+/// A pilot's command in words.
+pub fn order_text(order: &Order) -> String {
+    match order {
+        Order::Arm => "arm".into(),
+        Order::Disarm => "disarm".into(),
+        Order::Kill => "kill".into(),
+        Order::TakeOff { height_m } => format!("take-off to {height_m} m"),
+        Order::Hold => "hold".into(),
+        Order::GoTo { position_m: [x, y, z], .. } => format!("go-to {x}, {y}, {z} m"),
+        Order::Velocity { velocity_m_s: [x, y, z], .. } => format!("velocity {x}, {y}, {z} m/s"),
+        Order::Land => "land".into(),
+        Order::Return => "return".into(),
+        Order::Follow => "follow the trajectory".into(),
+    }
+}
+
+/// A fault in words.
+pub fn fault_name(fault: &Fault) -> String {
+    let sensor = fault.sensor.map_or("", |sensor| sensor.name());
+    match fault.kind {
+        Kind::Off {} => format!("{sensor} off"),
+        Kind::Stuck {} => format!("{sensor} stuck"),
+        Kind::Drift { rate, .. } => format!("{sensor} drifts at {rate}/s"),
+        Kind::Noise { sigma } => format!("{sensor} noise of {sigma}"),
+        Kind::Spikes { size, .. } => format!("{sensor} spikes of {size}"),
+        Kind::Delayed { extra_s } => format!("{sensor} late by {extra_s} s"),
+        Kind::Nan {} => format!("{sensor} gives NaN"),
+        Kind::Glitch { size_m, .. } => format!("{sensor} jumps by {size_m} m"),
+        Kind::NoFix {} => format!("{sensor} without a fix"),
+        Kind::Loss { probability } => format!("{sensor} loses {} % of its samples", 100.0 * probability),
+        Kind::Duplicate { .. } => format!("{sensor} repeats samples"),
+        Kind::Disorder {} => format!("{sensor} samples out of order"),
+        Kind::TimeJump { shift_s } => format!("{sensor} time stamps shifted by {shift_s} s"),
+        // Pilots count rotors from 1.
+        Kind::Rotor { index, effectiveness } => {
+            format!("rotor {} keeps {} % of its thrust", index + 1, 100.0 * effectiveness)
+        }
+        Kind::Collapse { factor } => format!("battery voltage falls to {} %", 100.0 * factor),
+    }
+}
