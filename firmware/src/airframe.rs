@@ -198,10 +198,10 @@ impl Airframe {
             ConfigError::require_not_negative(name, value)?;
         }
         if !self.geometry.rows().iter().flatten().all(|v| v.is_finite()) {
-            return Err(ConfigError::NonFinite("airframe.geometry"));
+            return Err(ConfigError::NonFinite("airframe.geometry".into()));
         }
         if !self.geometry.thrust.iter().all(|v| *v > 0.0) {
-            return Err(ConfigError::NotPositive("airframe.geometry.thrust"));
+            return Err(ConfigError::NotPositive("airframe.geometry.thrust".into()));
         }
         Ok(())
     }

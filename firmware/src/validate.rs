@@ -1,64 +1,122 @@
 //! Configuration errors, and the range checks that configuration types share.
 
-/// Error of a configuration, with the name of the field.
+/// The dotted key of a configuration field, in two pieces: that of its group, and its own within the group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// Key of the group, as `control.x`; empty for a field whose own key is the whole.
+    pub group: &'static str,
+    /// Key in the group, as `lambda` or `reaching.sat.rho`.
+    pub name: &'static str,
+}
+
+impl Field {
+    /// A field of a group.
+    pub const fn of(group: &'static str, name: &'static str) -> Self {
+        Self { group, name }
+    }
+}
+
+impl From<&'static str> for Field {
+    fn from(name: &'static str) -> Self {
+        Self { group: "", name }
+    }
+}
+
+impl core::fmt::Display for Field {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        if !self.group.is_empty() {
+            write!(f, "{}.", self.group)?;
+        }
+        f.write_str(self.name)
+    }
+}
+
+/// Error of a configuration, with the field and the bounds that it violates.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConfigError {
     /// Not a finite number.
-    NonFinite(&'static str),
+    NonFinite(Field),
     /// Must be above zero.
-    NotPositive(&'static str),
+    NotPositive(Field),
     /// Must not be below zero.
-    Negative(&'static str),
-    /// Outside the range the field allows.
-    OutOfRange(&'static str),
+    Negative(Field),
+    /// Outside `low ..= high`.
+    OutOfRange {
+        /// The field.
+        field: Field,
+        /// Least value.
+        low: f32,
+        /// Greatest value.
+        high: f32,
+    },
+    /// Must be below this limit.
+    NotBelow(Field, f32),
     /// The rotors cannot produce thrust and three torques independently.
     SingularGeometry,
 }
 
-/// Greatest accepted value, in SI units: the product of three still fits an f32.
+/// Least and greatest accepted size, in SI units: a product of three still fits an f32.
+const SMALLEST: f32 = 1e-9;
 const LARGEST: f32 = 1e9;
 
 impl ConfigError {
     /// Checks that `value` is from 1e-9 to 1e9, where f32 arithmetic neither overflows nor underflows.
     ///
     /// # Errors
-    /// `name`, if it is not.
-    pub fn require_positive(name: &'static str, value: f32) -> Result<(), Self> {
-        if !value.is_finite() {
-            Err(Self::NonFinite(name))
-        } else if value <= 0.0 {
-            Err(Self::NotPositive(name))
-        } else if (1e-9..=LARGEST).contains(&value) {
-            Ok(())
-        } else {
-            Err(Self::OutOfRange(name))
+    /// `field`, if it is not.
+    pub fn require_positive(field: impl Into<Field>, value: f32) -> Result<(), Self> {
+        let field = field.into();
+        if value.is_finite() && value <= 0.0 {
+            return Err(Self::NotPositive(field));
         }
+        Self::require_within(field, value, SMALLEST, LARGEST)
     }
 
     /// Checks that `value` is from 0 to 1e9.
     ///
     /// # Errors
-    /// `name`, if it is not.
-    pub fn require_not_negative(name: &'static str, value: f32) -> Result<(), Self> {
+    /// `field`, if it is not.
+    pub fn require_not_negative(field: impl Into<Field>, value: f32) -> Result<(), Self> {
+        let field = field.into();
+        if value.is_finite() && value < 0.0 {
+            return Err(Self::Negative(field));
+        }
+        Self::require_within(field, value, 0.0, LARGEST)
+    }
+
+    /// Checks that `value` is finite and within `low ..= high`.
+    ///
+    /// # Errors
+    /// `field`, if it is not.
+    pub fn require_within(field: impl Into<Field>, value: f32, low: f32, high: f32) -> Result<(), Self> {
+        let field = field.into();
         if !value.is_finite() {
-            Err(Self::NonFinite(name))
-        } else if value < 0.0 {
-            Err(Self::Negative(name))
-        } else if value <= LARGEST {
+            Err(Self::NonFinite(field))
+        } else if (low..=high).contains(&value) {
             Ok(())
         } else {
-            Err(Self::OutOfRange(name))
+            Err(Self::OutOfRange { field, low, high })
         }
+    }
+
+    /// Checks that `value` is below `limit`.
+    ///
+    /// # Errors
+    /// `field`, if it is not.
+    pub fn require_below(field: impl Into<Field>, value: f32, limit: f32) -> Result<(), Self> {
+        if value < limit { Ok(()) } else { Err(Self::NotBelow(field.into(), limit)) }
     }
 }
 
+/// Without the bounds: a board would need a formatter of floats for them. The desktop's messages name them.
 impl core::fmt::Display for ConfigError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::NonFinite(name) => write!(f, "`{name}` is not a finite number"),
-            Self::NotPositive(name) => write!(f, "`{name}` must be above zero"),
-            Self::Negative(name) => write!(f, "`{name}` must not be negative"),
-            Self::OutOfRange(name) => write!(f, "`{name}` is out of its range"),
+            Self::NonFinite(field) => write!(f, "`{field}` is not a finite number"),
+            Self::NotPositive(field) => write!(f, "`{field}` must be above zero"),
+            Self::Negative(field) => write!(f, "`{field}` must not be negative"),
+            Self::OutOfRange { field, .. } => write!(f, "`{field}` is out of its range"),
+            Self::NotBelow(field, _) => write!(f, "`{field}` is too large"),
             Self::SingularGeometry => f.write_str("`airframe.geometry` cannot produce thrust and three torques"),
         }
     }

@@ -6,6 +6,7 @@ use nalgebra::{Matrix4, Vector3, Vector4};
 use serde::{Deserialize, Serialize};
 
 use crate::plant::Constants;
+use crate::refusal::{above_zero, within};
 
 /// One rotor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -82,17 +83,22 @@ pub struct AirframeFile {
     pub rotors: [Rotor; ROTORS],
 }
 
+impl Rotor {
+    fn validate(&self, key: &str) -> Result<()> {
+        above_zero(&format!("{key}.lift_n_s2"), self.lift_n_s2)?;
+        within(&format!("{key}.yaw_n_m_s2"), self.yaw_n_m_s2, -1.0, 1.0)?;
+        within(&format!("{key}.x_m"), self.x_m, -100.0, 100.0)?;
+        within(&format!("{key}.y_m"), self.y_m, -100.0, 100.0)
+    }
+}
+
 impl Pack {
     fn validate(&self) -> Result<()> {
-        let within = |name: &str, value: f64, low: f64, high: f64| {
-            ensure!(
-                (low..=high).contains(&value),
-                "`airframe.battery.{name}` must be between {low} and {high}, not {value}"
-            );
-            Ok(())
-        };
+        let within = |name: &str, value, low, high| within(&format!("airframe.battery.{name}"), value, low, high);
         let curve = &self.open_circuit_v;
-        curve.iter().try_for_each(|volts| within("open_circuit_v", *volts, 0.1, 1e3))?;
+        for (i, volts) in curve.iter().enumerate() {
+            within(&format!("open_circuit_v.{i}"), *volts, 0.1, 1e3)?;
+        }
         ensure!(curve.is_sorted(), "`airframe.battery.open_circuit_v` must rise from an empty to a full battery");
         within("resistance_ohm", self.resistance_ohm, 0.0, 10.0)?;
         within("capacity_ah", self.capacity_ah, 1e-3, 1e4)?;
@@ -108,19 +114,17 @@ impl AirframeFile {
     /// # Errors
     /// The key that is out of its range.
     pub fn validate(&self) -> Result<()> {
-        let positive = |name: &str, value: f64| {
-            ensure!(value.is_finite() && value > 0.0, "`airframe.{name}` must be a number above zero, not {value}");
-            Ok(())
-        };
+        let positive = |name: &str, value| above_zero(&format!("airframe.{name}"), value);
         positive("mass_kg", self.mass_kg)?;
         positive("gravity_m_s2", self.gravity_m_s2)?;
         positive("thrust_to_weight", self.thrust_to_weight)?;
-        for rotor in &self.rotors {
-            positive("rotors.lift_n_s2", rotor.lift_n_s2)?;
+        for (i, moment) in self.inertia_kg_m2.iter().enumerate() {
+            positive(&format!("inertia_kg_m2.{i}"), *moment)?;
         }
+        self.rotors.iter().enumerate().try_for_each(|(i, rotor)| rotor.validate(&format!("airframe.rotors.{i}")))?;
         positive("rotor_lag_down_s", self.rotor_lag_down_s.unwrap_or(1.0))?;
         positive("rotor_radius_m", self.rotor_radius_m.unwrap_or(1.0))?;
-        ensure!(self.rotor_height_m.is_finite(), "`airframe.rotor_height_m` must be a number");
+        within("airframe.rotor_height_m", self.rotor_height_m, -100.0, 100.0)?;
         self.battery.as_ref().map_or(Ok(()), Pack::validate)
     }
 

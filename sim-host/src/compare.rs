@@ -324,7 +324,7 @@ fn require_told_apart(key: &str, names: &[String]) -> Result<()> {
     let mut seen = BTreeSet::new();
     for name in names {
         let short = short_name(name);
-        ensure!(seen.insert(short), "two of `{key}` are called `{short}`: rename a file");
+        ensure!(seen.insert(short), "two of `{key}` are called `{short}`: name each once, or rename a file");
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ use toml::{Table, Value};
 use crate::baseline::geometric::Geometric;
 use crate::baseline::indi::Indi;
 use crate::baseline::pid::Pid;
-use crate::files::one_line;
+use crate::refusal::{did_you_mean, typed};
 
 /// A controller and its gains.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,23 +46,27 @@ impl TryFrom<Table> for TuningFile {
     fn try_from(mut table: Table) -> Result<Self> {
         let choices = Controller::NAMES.join(", ");
         let Some(Value::String(summary)) = table.remove("summary") else {
-            bail!("`summary` is missing, or no text: say in a line where the gains come from")
+            bail!("`summary` is missing, or no text in quotes: say in a line where the gains come from")
         };
         if let Some(stray) = table.keys().find(|key| !Controller::NAMES.contains(&key.as_str())) {
-            bail!("unknown key `{stray}`: beside `summary` there is one controller's table, of {choices}");
+            let remedy = did_you_mean(stray, &["summary", "smc", "pid", "geometric", "indi"]);
+            bail!("`{stray}` is no key of a tuning, which has `summary` and one controller's table: {remedy}");
         }
-        ensure!(!table.is_empty(), "there is no controller: give the gains in a table of {choices}");
+        ensure!(
+            !table.is_empty(),
+            "`smc` is missing, and every other controller: give the gains in a table of {choices}"
+        );
         if let Some(second) = table.keys().nth(1) {
             bail!("`{second}` is a second controller: keep one table of {choices}");
         }
-        let controller = Controller::deserialize(Value::Table(table)).map_err(|error| one_line(&error))?;
+        let controller = typed(table)?;
         Ok(Self { summary, controller })
     }
 }
 
 impl Controller {
     /// The names of all.
-    const NAMES: [&str; 4] = ["smc", "pid", "geometric", "indi"];
+    pub(crate) const NAMES: [&str; 4] = ["smc", "pid", "geometric", "indi"];
 
     /// Its name in a file.
     pub fn name(&self) -> &'static str {
@@ -144,9 +148,9 @@ mod tests {
             (format!("colour = 1\n{INDI}"), ["`colour`", "smc, pid, geometric, indi"]),
             (format!("{INDI}\n[lqr]\nq = 1.0\n"), ["`lqr`", "smc, pid, geometric, indi"]),
             (format!("{INDI}{second}"), ["`smc`", "second"]),
-            ("summary = \"nothing\"".to_owned(), ["no controller", "smc, pid, geometric, indi"]),
+            ("summary = \"nothing\"".to_owned(), ["`smc` is missing", "smc, pid, geometric, indi"]),
             (INDI.replace("summary", "sumary"), ["`summary`", "missing"]),
-            (INDI.replace("feedback_rate", "feedback_rat"), ["feedback_rat", "unknown field"]),
+            (INDI.replace("feedback_rate", "feedback_rat"), ["`indi.feedback_rat` is no key", "`feedback_rate`"]),
         ] {
             let error = refusal(&text);
             assert!(culprits.iter().all(|culprit| error.contains(culprit)), "{error}");

@@ -1,9 +1,15 @@
 //! Files of ours: built into the binary by name, or read from a path; TOML, and errors in one line.
 
+use std::fmt;
+use std::io::{ErrorKind, Read as _};
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Error, Result, anyhow, bail};
 use serde::de::DeserializeOwned;
+use toml::Table;
+use toml::de::{DeTable, DeValue};
+
+use crate::refusal::{Refusal, nearest, typed};
 
 /// Files of a folder beside `src` that are built in: `(name, text)` of each.
 macro_rules! built_in {
@@ -14,33 +20,170 @@ macro_rules! built_in {
 
 pub(crate) use built_in;
 
+/// Larger files than this are none of ours, bytes.
+const LARGEST: u64 = 1 << 20;
+
+/// A file that has been read: what it is, its name or path, and its text.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    kind: &'static str,
+    name: String,
+    text: String,
+    /// Lines are told of files that the user can open.
+    is_path: bool,
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} `{}`", self.kind, self.name)
+    }
+}
+
+impl Source {
+    /// A built-in file, or the file at a path.
+    pub(crate) fn read(name: &str, kind: &'static str, built_in: &[(&str, &str)]) -> Result<Self> {
+        let known = built_in.iter().find(|(known, _)| *known == name);
+        let is_path = known.is_none();
+        let text = match known {
+            Some((_, text)) => (*text).to_owned(),
+            None if is_file_name(name) => read_text(name, kind, built_in)?,
+            None => bail!(unknown(name, kind, built_in)),
+        };
+        Ok(Self { kind, name: name.to_owned(), text, is_path })
+    }
+
+    /// As a table.
+    pub(crate) fn table(&self) -> Result<Table> {
+        self.text.parse::<Table>().map_err(|error| {
+            let line = error.span().map_or(1, |span| line(&self.text, span.start));
+            anyhow!("{self}, line {line}: {}", error.message().trim().replace('\n', " "))
+        })
+    }
+
+    /// As what it describes.
+    pub(crate) fn typed<T: DeserializeOwned>(&self) -> Result<T> {
+        typed(self.table()?).map_err(|error| self.about(error))
+    }
+
+    /// An error with the file before it, and the line of the key that it refuses.
+    pub(crate) fn about(&self, error: Error) -> Error {
+        let Some(refusal) = error.downcast_ref::<Refusal>() else { return error.context(self.to_string()) };
+        let line = self.line_of(refusal.key()).map_or(String::new(), |line| format!(", line {line}"));
+        error.context(format!("{self}{line}"))
+    }
+
+    /// The line in which a dotted key stands, or, of one that does not, the table that ought to have it.
+    fn line_of(&self, key: &str) -> Option<usize> {
+        let table = DeTable::parse(&self.text).ok().filter(|_| self.is_path)?;
+        let mut place = DeValue::Table(table.into_inner());
+        let mut at = None;
+        for part in key.split('.') {
+            let (start, inner) = match place {
+                DeValue::Table(table) => {
+                    let Some((name, value)) = table.into_iter().find(|(name, _)| name.get_ref() == part) else { break };
+                    (name.span().start, value)
+                }
+                DeValue::Array(values) => {
+                    let index = part.parse::<usize>().ok();
+                    let Some(value) = index.and_then(|index| values.into_iter().nth(index)) else { break };
+                    (value.span().start, value)
+                }
+                _ => break,
+            };
+            at = Some(line(&self.text, start));
+            place = inner.into_inner();
+        }
+        at
+    }
+}
+
+/// The number of the line in which a byte of a text stands.
+fn line(text: &str, byte: usize) -> usize {
+    text[..byte.min(text.len())].bytes().filter(|byte| *byte == b'\n').count() + 1
+}
+
 /// A built-in file, or the file at a path, as what it describes.
-pub(crate) fn read<T: DeserializeOwned>(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<T> {
-    let context = || format!("{kind} `{name}`");
-    let table = parse(&source(name, kind, built_in)?).with_context(context)?;
-    table.try_into().map_err(|error| one_line(&error)).with_context(context)
+pub(crate) fn read<T: DeserializeOwned>(name: &str, kind: &'static str, built_in: &[(&str, &str)]) -> Result<T> {
+    Source::read(name, kind, built_in)?.typed()
 }
 
-/// Text of a built-in file, or of the file at a path.
-pub(crate) fn source(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String> {
-    if let Some((_, text)) = built_in.iter().find(|(known, _)| *known == name) {
-        return Ok((*text).to_owned());
-    }
-    if name.contains('/') || Path::new(name).extension().is_some_and(|extension| extension == "toml") {
-        return std::fs::read_to_string(name).with_context(|| format!("cannot read {kind} file `{name}`"));
-    }
+/// Whether a name that is not built in means a file.
+fn is_file_name(name: &str) -> bool {
+    let path = Path::new(name);
+    name.contains(['/', '\\']) || path.extension().is_some_and(|extension| extension == "toml") || path.is_dir()
+}
+
+fn unknown(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Error {
     let known: Vec<&str> = built_in.iter().map(|(name, _)| *name).collect();
-    bail!("unknown {kind} `{name}`: use one of {}, or a file's path", known.join(", "))
+    match nearest(name, known.iter().copied()) {
+        Some(near) => anyhow!("unknown {kind} `{name}`: did you mean `{near}`?"),
+        None if known.len() > 8 => {
+            anyhow!("unknown {kind} `{name}`: `sim-host scenarios` lists them; or give a file's path")
+        }
+        None => anyhow!("unknown {kind} `{name}`: use one of {}, or a file's path", known.join(", ")),
+    }
 }
 
-pub(crate) fn parse(text: &str) -> Result<toml::Table> {
-    text.parse::<toml::Table>().map_err(|error| {
-        let line = error.span().map_or(0, |span| text[..span.start].lines().count().max(1));
-        anyhow!("line {line}: {}", error.message().replace('\n', " "))
+fn read_text(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String> {
+    if Path::new(name).is_dir() {
+        bail!(folder(name, kind));
+    }
+    let cannot = || format!("cannot read {kind} file `{name}`");
+    let file = std::fs::File::open(name).map_err(|error| {
+        let remedy = built_in_of(name, built_in).filter(|_| error.kind() == ErrorKind::NotFound);
+        let remedy = remedy.map_or(String::new(), |near| format!(": did you mean the built-in `{near}`?"));
+        let why = error.to_string();
+        let why = why.split(" (os error").next().unwrap_or(&why);
+        anyhow!("{}: {why}{remedy}", cannot())
+    })?;
+    let mut bytes = Vec::new();
+    file.take(LARGEST + 1).read_to_end(&mut bytes).with_context(cannot)?;
+    if bytes.len() as u64 > LARGEST {
+        bail!("{}: it is larger than {} MiB, which no {kind} file is", cannot(), LARGEST >> 20);
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let line =
+            error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
+        anyhow!("{}: line {line} is not UTF-8: is it a text file?", cannot())
     })
 }
 
-/// A TOML error in one line, with the key it is about.
-pub(crate) fn one_line(error: &toml::de::Error) -> anyhow::Error {
-    anyhow!("{}", error.to_string().trim().replace('\n', ", "))
+/// A folder in place of a file: perhaps that of an earlier run.
+fn folder(name: &str, kind: &str) -> String {
+    let inside = Path::new(name).join(format!("{kind}.toml"));
+    let remedy = if inside.is_file() {
+        format!("give `{}`", inside.display())
+    } else {
+        format!("give the path of a {kind} file")
+    };
+    format!("cannot read {kind} file `{name}`: it is a folder: {remedy}")
+}
+
+/// The built-in file that a path's stem names, or nearly.
+fn built_in_of<'a>(path: &str, built_in: &[(&'a str, &str)]) -> Option<&'a str> {
+    nearest(Path::new(path).file_stem()?.to_str()?, built_in.iter().map(|(name, _)| *name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_is_found_in_its_line() {
+        let text =
+            "summary = \"x\"\n\n[control]\nroll = { gain = 1.0 }\n[[fault]]\nkind = \"off\"\n[[fault]]\nfrom_s = 1.0\n";
+        let source = |is_path| Source { kind: "scenario", name: "x.toml".to_owned(), text: text.to_owned(), is_path };
+        for (key, line) in [
+            ("summary", Some(1)),
+            ("control", Some(3)),
+            ("control.roll.gain", Some(4)),
+            ("control.roll.lambda", Some(4)),
+            ("control.yaw", Some(3)),
+            ("fault.1.from_s", Some(8)),
+            ("plant", None),
+        ] {
+            assert_eq!(source(true).line_of(key), line, "{key}");
+            assert_eq!(source(false).line_of(key), None, "{key}");
+        }
+    }
 }

@@ -4,15 +4,22 @@
 //! lately. A datagram that cannot be sent is lost, as it may be anyway on its way.
 
 use std::io::ErrorKind;
-use std::net::{SocketAddr, UdpSocket};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, ToSocketAddrs as _, UdpSocket};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, bail};
+use anyhow::{Context, anyhow, bail};
+
+use crate::stations::{News, Stations};
 
 /// Where `serve` listens unless told otherwise.
 pub const DEFAULT_LISTEN: &str = "127.0.0.1:14580";
 /// Whom `serve` sends to unless told otherwise: ground stations, and programs that use MAVSDK.
 pub const DEFAULT_PEERS: [&str; 2] = ["127.0.0.1:14550", "127.0.0.1:14540"];
+
+/// The port of each, where an address is given without one.
+pub const LISTEN_PORT: u16 = 14580;
+/// See [`LISTEN_PORT`].
+pub const PEER_PORT: u16 = 14550;
 
 /// Someone who has been silent this long is not sent to any more; ground stations speak every second.
 const FORGET_AFTER: Duration = Duration::from_secs(10);
@@ -22,6 +29,50 @@ const GUESTS_MAX: usize = 16;
 const BURST: usize = 64;
 /// Larger than any datagram of MAVLink; the rest of a larger one is lost.
 const DATAGRAM_MAX: usize = 2048;
+
+/// An address as a user writes it: `127.0.0.1:14550`, `localhost`, `[::1]:14550`; `:14580` for every interface.
+///
+/// # Errors
+/// One line that names what of it is none, or the host that is not known.
+pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
+    if let Ok(address) = text.parse() {
+        return Ok(address);
+    }
+    if let Ok(ip) = text.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>() {
+        return Ok(SocketAddr::new(ip, default_port));
+    }
+    let (host, port) = match text.rsplit_once(':') {
+        Some((host, port)) => {
+            let port = port.parse::<u16>().ok();
+            (host, port.with_context(|| format!("`{text}` has no port from 0 to 65535: use {host}:{default_port}"))?)
+        }
+        None => (text, default_port),
+    };
+    if host.is_empty() {
+        return Ok(SocketAddr::new(IpAddr::V4(Ipv4Addr::UNSPECIFIED), port));
+    }
+    let known = (host, port).to_socket_addrs().map(Iterator::collect::<Vec<_>>).unwrap_or_default();
+    // `localhost` is both; ground stations listen by IPv4.
+    let chosen = known.iter().find(|address| address.is_ipv4()).or(known.first());
+    chosen.copied().with_context(|| format!("the host `{host}` is not known: use an address, as 127.0.0.1:{port}"))
+}
+
+fn cannot_listen(listen: SocketAddr, error: &std::io::Error) -> anyhow::Error {
+    let (ip, port) = (listen.ip(), listen.port());
+    match error.kind() {
+        ErrorKind::AddrInUse => {
+            let other = SocketAddr::new(ip, if port == u16::MAX { port - 1 } else { port + 1 });
+            anyhow!("{listen} is in use (another `sim-host serve`?): stop it, or choose another with --listen {other}")
+        }
+        ErrorKind::AddrNotAvailable => {
+            anyhow!("{ip} is no address of this machine: use --listen 127.0.0.1:{port}, or :{port} for all of its own")
+        }
+        ErrorKind::PermissionDenied => {
+            anyhow!("port {port} is for privileged programs: choose one from 1024 up, as --listen {ip}:14580")
+        }
+        _ => anyhow!("cannot listen on UDP address {listen}: {error}"),
+    }
+}
 
 /// A peer that was not named at the start, and when it was last heard.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +87,7 @@ pub struct UdpLink {
     socket: UdpSocket,
     peers: Vec<SocketAddr>,
     guests: Vec<Guest>,
+    stations: Stations,
 }
 
 impl UdpLink {
@@ -45,16 +97,11 @@ impl UdpLink {
     /// One line that names the address, and what to do, if it cannot be listened on.
     pub fn bind(listen: SocketAddr, peers: &[SocketAddr]) -> anyhow::Result<Self> {
         if let Some(peer) = peers.iter().find(|peer| peer.is_ipv4() != listen.is_ipv4()) {
-            bail!("cannot send from {listen} to {peer}: one is IPv4, the other IPv6");
+            bail!("cannot send from {listen} to {peer}: one is IPv4, the other IPv6: give both of one kind");
         }
-        let socket = match UdpSocket::bind(listen) {
-            Err(error) if error.kind() == ErrorKind::AddrInUse => {
-                bail!("UDP address {listen} is in use: stop the program that has it, or give another with --listen")
-            }
-            other => other.with_context(|| format!("cannot listen on UDP address {listen}"))?,
-        };
+        let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, &error))?;
         socket.set_nonblocking(true).with_context(|| format!("cannot use UDP address {listen}"))?;
-        Ok(Self { socket, peers: peers.to_vec(), guests: Vec::new() })
+        Ok(Self { socket, peers: peers.to_vec(), guests: Vec::new(), stations: Stations::default() })
     }
 
     /// Where it listens; tells the port if 0 was asked for.
@@ -71,7 +118,9 @@ impl UdpLink {
         for _ in 0..BURST {
             match self.socket.recv_from(&mut datagram) {
                 Ok((length, from)) => {
-                    self.welcome(from, Instant::now());
+                    let now = Instant::now();
+                    self.welcome(from, now);
+                    self.stations.hear(from, &datagram[..length], now);
                     buffer.extend_from_slice(&datagram[..length]);
                 }
                 // An earlier datagram found nobody at its port: no news about what has arrived.
@@ -79,6 +128,11 @@ impl UdpLink {
                 Err(_) => break,
             }
         }
+    }
+
+    /// The next change among those who are heard, if there is any.
+    pub fn news(&mut self) -> Option<News> {
+        self.stations.news(Instant::now())
     }
 
     /// Sends one datagram to everyone. Nobody listening is not an error.
@@ -162,6 +216,26 @@ mod tests {
         let address = first.local_address().expect("bound");
         let error = format!("{:#}", UdpLink::bind(address, &[]).expect_err("in use"));
         assert!(error.contains(&address.to_string()) && error.contains("--listen") && error.lines().count() == 1);
+    }
+
+    #[test]
+    fn an_address_may_be_a_name_a_port_or_neither() {
+        let at = |text: &str| address(text, PEER_PORT).map(|address| address.to_string());
+        for (text, expected) in [
+            ("127.0.0.1:14551", "127.0.0.1:14551"),
+            ("127.0.0.1", "127.0.0.1:14550"),
+            ("localhost", "127.0.0.1:14550"),
+            ("localhost:1", "127.0.0.1:1"),
+            (":14580", "0.0.0.0:14580"),
+            ("[::1]:5", "[::1]:5"),
+            ("::1", "[::1]:14550"),
+        ] {
+            assert_eq!(at(text).expect(text), expected);
+        }
+        for (text, expected) in [("localhost:many", "localhost:14550"), ("localhost:70000", "65535")] {
+            let error = format!("{:#}", at(text).expect_err(text));
+            assert!(error.contains(expected), "{error}");
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 
 use crate::files::{self, built_in};
+use crate::refusal::did_you_mean;
 use crate::scenario::Scenario;
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
@@ -79,9 +80,7 @@ pub struct Case {
 impl Case {
     /// Whether the seed makes a difference. Where it does not, one flight tells everything.
     pub fn is_random(&self) -> bool {
-        let file = &self.scenario.file;
-        let gusty = file.wind.as_ref().is_some_and(|wind| wind.turbulence_20ft_m_s > 0.0);
-        file.disturbance.is_some() || file.tumble.is_some() || gusty
+        self.scenario.file.is_random()
     }
 
     /// The seeds out of `seeds` that are worth flying: all if they differ, the first if they do not.
@@ -181,7 +180,7 @@ fn distinct<'a>(key: &str, names: impl Iterator<Item = &'a String>) -> Result<()
     for name in names {
         ensure!(seen.insert(name), "`{key}` names `{name}` twice");
     }
-    ensure!(!seen.is_empty(), "`{key}` is empty");
+    ensure!(!seen.is_empty(), "`{key}` is empty: name one at least");
     Ok(())
 }
 
@@ -189,8 +188,7 @@ fn distinct<'a>(key: &str, names: impl Iterator<Item = &'a String>) -> Result<()
 fn known<'a>(names: &[String], all: impl Iterator<Item = &'a String>, kind: &str, matrix: &str) -> Result<()> {
     let all: Vec<&str> = all.map(String::as_str).collect();
     for name in names {
-        let list = all.join(", ");
-        ensure!(all.contains(&name.as_str()), "matrix `{matrix}` has no {kind} `{name}`: use some of {list}");
+        ensure!(all.contains(&name.as_str()), "matrix `{matrix}` has no {kind} `{name}`: {}", did_you_mean(name, &all));
     }
     Ok(())
 }

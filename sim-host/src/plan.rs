@@ -127,7 +127,7 @@ fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass: f64) -> Option<Approach>
     scenario.file.truth.mass_factor *= mass;
     let mut approach = Approach::default();
     let outcome = flight::fly(&scenario, 0, &mut approach).ok()?;
-    outcome.survived.then_some(approach)
+    outcome.survived().then_some(approach)
 }
 
 /// Cost of a plan, by flying it: that of the worst of its vehicles. A plan that suits only one is tuned to the last
@@ -151,7 +151,7 @@ pub fn plan(scenario: &Scenario, flights: usize, seed: u64, mut progress: impl F
     let generation = POPULATION * MASSES.len();
     ensure!(
         flights >= generation,
-        "--flights must be at least {generation}: a generation of paths, each with every mass"
+        "--flights must be at least {generation}, a generation of paths, each with every mass, not {flights}"
     );
     let flown = AtomicU64::new(0);
     let objective = |x: &DVector<f64>| {
@@ -174,9 +174,9 @@ pub fn plan(scenario: &Scenario, flights: usize, seed: u64, mut progress: impl F
             break ended;
         }
     };
-    let best = ended.overall_best.ok_or_else(|| anyhow!("no flight was flown: ask for more than {flights}"))?;
+    let best = ended.overall_best.ok_or_else(|| anyhow!("no flight was flown: give more than --flights {flights}"))?;
     let plan = decode(scenario, &best.point);
     let approach = try_plan(scenario, &plan, 1.0)
-        .with_context(|| format!("no path was found with {flights} flights: ask for more"))?;
+        .with_context(|| format!("no path was found with {flights} flights: give more with --flights"))?;
     Ok(Planned { plan, settle_s: approach.settle_s(), flights: flown.load(Ordering::Relaxed) })
 }

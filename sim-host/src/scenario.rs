@@ -1,6 +1,7 @@
 //! Scenarios: what to fly, typed. Built into the binary, or read from a file; every key can be set from outside.
 
 mod csv;
+mod files;
 mod load;
 mod settings;
 #[cfg(test)]
@@ -102,6 +103,7 @@ pub struct AttitudeWave {
 #[serde(deny_unknown_fields)]
 pub struct ScenarioFile {
     /// What it shows, in a line.
+    #[serde(default)]
     pub summary: String,
     /// Name or path of the airframe.
     #[serde(default = "default_airframe")]
@@ -222,6 +224,11 @@ pub struct Listed {
     pub group: Group,
 }
 
+/// Whether a scenario is built in by this name.
+pub(crate) fn is_built_in(name: &str) -> bool {
+    SCENARIOS.iter().any(|(known, _)| *known == name)
+}
+
 /// The built-in scenarios.
 ///
 /// # Errors
@@ -235,6 +242,12 @@ pub fn list() -> Result<Vec<Listed>> {
 }
 
 impl ScenarioFile {
+    /// Whether the seed makes a difference: sensors, disturbances, turbulence and a tumbling start are drawn from it.
+    pub fn is_random(&self) -> bool {
+        let gusty = self.wind.as_ref().is_some_and(|wind| wind.turbulence_20ft_m_s > 0.0);
+        self.disturbance.is_some() || self.tumble.is_some() || gusty || self.sensors.is_some()
+    }
+
     /// What it has in common with others.
     pub fn group(&self) -> Group {
         match (self.plant, &self.sensors) {

@@ -2,7 +2,7 @@
 
 use core::str::FromStr;
 
-use anyhow::{Context, Error, Result, ensure};
+use anyhow::{Context, Error, Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 
 /// A range of seeds, both ends included.
@@ -31,15 +31,26 @@ impl FromStr for Seeds {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        let (first, last) = text.split_once("..").context("use A..B, as in 1..8")?;
-        let number = |text: &str| text.parse::<u64>().with_context(|| format!("`{text}` is not a seed"));
-        let seeds = Self { first: number(first)?, last: number(last.trim_start_matches('='))? };
-        ensure!(
-            seeds.first <= seeds.last && seeds.last - seeds.first < 1_000_000,
-            "the first seed comes first, and a million are enough"
-        );
-        Ok(seeds)
+        let (first, last) = text.split_once("..").with_context(|| match text.parse::<u64>() {
+            Ok(one) => format!("seeds are a range, first and last: use {one}..{one}, or --seed {one} for one flight"),
+            Err(_) => "seeds are a range, first and last: use A..B, as in 1..8".to_owned(),
+        })?;
+        let (first, last) = (number(first)?, number(last.trim_start_matches('='))?);
+        ensure!(first <= last, "{text} runs backwards: use {last}..{first}");
+        ensure!(last - first < MOST, "{text} are more than {MOST} seeds: fly fewer");
+        Ok(Self { first, last })
     }
+}
+
+/// More seeds than anyone waits for.
+const MOST: u64 = 1_000_000;
+
+/// One seed.
+///
+/// # Errors
+/// One line with what a seed may be.
+pub fn number(text: &str) -> Result<u64> {
+    text.parse().map_err(|_| anyhow!("`{text}` is not a seed: use a whole number from 0 to {}", u64::MAX))
 }
 
 impl TryFrom<String> for Seeds {
@@ -63,8 +74,26 @@ mod tests {
     #[test]
     fn seeds_are_two_numbers_in_order() {
         assert_eq!("1..8".parse::<Seeds>().expect("valid"), Seeds { first: 1, last: 8 });
-        for bad in ["", "1", "8..1", "a..b", "1..", "0..18446744073709551615"] {
-            assert!(bad.parse::<Seeds>().is_err(), "{bad}");
+        assert_eq!("1..=8".parse::<Seeds>().expect("valid"), Seeds { first: 1, last: 8 });
+    }
+
+    #[test]
+    fn a_range_that_is_none_says_what_it_ought_to_be() {
+        for (bad, expected) in [
+            ("", "use A..B"),
+            ("5", "use 5..5, or --seed 5"),
+            ("9..3", "9..3 runs backwards: use 3..9"),
+            ("a..b", "`a` is not a seed"),
+            ("1..", "`` is not a seed"),
+            ("-1..3", "`-1` is not a seed"),
+            ("0..18446744073709551615", "more than 1000000 seeds"),
+            (
+                "0..18446744073709551616",
+                "`18446744073709551616` is not a seed: use a whole number from 0 to 18446744073709551615",
+            ),
+        ] {
+            let error = format!("{:#}", bad.parse::<Seeds>().expect_err(bad));
+            assert!(error.contains(expected), "{bad}: {error}");
         }
     }
 

@@ -56,10 +56,12 @@ impl Recorder for Extremes {
 /// # Errors
 /// A scenario that has no disturbance.
 pub fn sweep(scenario: &Scenario, seed: u64, refinements: u32) -> Result<Vec<Strength>> {
-    let base = scenario
-        .file
-        .disturbance
-        .with_context(|| format!("scenario `{}` has no [disturbance]: choose one that has", scenario.name))?;
+    let base = scenario.file.disturbance.with_context(|| {
+        format!(
+            "scenario `{}` has no `[disturbance]` to scale: choose one that has, as paper-disturbed, or set one",
+            scenario.name
+        )
+    })?;
     let mut flown: Vec<Strength> = Vec::new();
     let (mut held, mut failed) = (0.0_f64, None);
     let mut factor = 1.0;
@@ -100,7 +102,7 @@ fn fly(scenario: &Scenario, base: &Disturbance, factor: f64, seed: u64) -> Resul
     let mut recorder = (Metrics::new(), Extremes { acting: base.from_s..base.to_s, position: 0.0, angle: 0.0 });
     let outcome = flight::fly(&scenario, seed, &mut recorder)?;
     let (metrics, extremes) = recorder;
-    let recovery = if outcome.survived { metrics.recovery(base.from_s) } else { Recovery::default() };
+    let recovery = if outcome.survived() { metrics.recovery(base.from_s) } else { Recovery::default() };
     let in_time = |time: &Option<f64>| time.is_some_and(|time| time <= DISTURBANCE_REMOVED.time_s);
     Ok(Strength {
         factor,

@@ -10,7 +10,7 @@
 use nalgebra::Vector3;
 
 use crate::math;
-use crate::validate::ConfigError;
+use crate::validate::{ConfigError, Field};
 
 /// Configuration of an observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,10 +26,10 @@ impl ObserverGains {
     /// Checks that both values are finite and not negative.
     ///
     /// # Errors
-    /// `name` with what is wrong.
-    pub fn validate(&self, name: &'static str) -> Result<(), ConfigError> {
-        ConfigError::require_not_negative(name, self.bandwidth_rad_s)?;
-        ConfigError::require_not_negative(name, self.disturbance_max)
+    /// The field of the observer `group` and what is wrong with it.
+    pub fn validate(&self, group: &'static str) -> Result<(), ConfigError> {
+        ConfigError::require_not_negative(Field::of(group, "bandwidth_rad_s"), self.bandwidth_rad_s)?;
+        ConfigError::require_not_negative(Field::of(group, "disturbance_max"), self.disturbance_max)
     }
 }
 

@@ -29,7 +29,7 @@
 //! ```
 
 use crate::math;
-use crate::validate::ConfigError;
+use crate::validate::{ConfigError, Field};
 
 /// A reaching law `u_r(s)`, selectable per axis at run time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -153,23 +153,30 @@ impl AxisGains {
     /// Checks that the law is defined for these gains.
     ///
     /// # Errors
-    /// `name` and the reason: a value is not finite or not positive, or α is not below 1.
-    pub fn validate(&self, name: &'static str) -> Result<(), ConfigError> {
-        let positive = |value| ConfigError::require_positive(name, value);
-        positive(self.lambda)?;
-        positive(self.approach_max)?;
-        positive(self.braking)?;
-        ConfigError::require_not_negative(name, self.gain)?;
+    /// The field of the axis `group` and what is wrong with it: a number that is not finite or not positive, or α not
+    /// below 1.
+    pub fn validate(&self, group: &'static str) -> Result<(), ConfigError> {
+        let positive = |name, value| ConfigError::require_positive(Field::of(group, name), value);
+        positive("lambda", self.lambda)?;
+        positive("approach_max", self.approach_max)?;
+        positive("braking", self.braking)?;
+        ConfigError::require_not_negative(Field::of(group, "gain"), self.gain)?;
         match self.reaching {
             ReachingLaw::Sgn => Ok(()),
-            ReachingLaw::Sat { rho } | ReachingLaw::Tanh { rho } => positive(rho),
-            ReachingLaw::Exponential { rate, rho } => positive(rate).and(positive(rho)),
-            ReachingLaw::ImplicitSgn { horizon_s } => positive(horizon_s),
-            ReachingLaw::SuperTwisting { twist } => positive(twist),
-            ReachingLaw::ImplicitSuperTwisting { twist, horizon_s } => positive(twist).and(positive(horizon_s)),
+            ReachingLaw::Sat { rho } => positive("reaching.sat.rho", rho),
+            ReachingLaw::Tanh { rho } => positive("reaching.tanh.rho", rho),
+            ReachingLaw::Exponential { rate, rho } => {
+                positive("reaching.exponential.rate", rate).and(positive("reaching.exponential.rho", rho))
+            }
+            ReachingLaw::ImplicitSgn { horizon_s } => positive("reaching.implicit-sgn.horizon_s", horizon_s),
+            ReachingLaw::SuperTwisting { twist } => positive("reaching.super-twisting.twist", twist),
+            ReachingLaw::ImplicitSuperTwisting { twist, horizon_s } => {
+                positive("reaching.implicit-super-twisting.twist", twist)?;
+                positive("reaching.implicit-super-twisting.horizon_s", horizon_s)
+            }
             ReachingLaw::Power { alpha } => {
-                positive(alpha)?;
-                if alpha < 1.0 { Ok(()) } else { Err(ConfigError::OutOfRange(name)) }
+                positive("reaching.power.alpha", alpha)?;
+                ConfigError::require_below(Field::of(group, "reaching.power.alpha"), alpha, 1.0)
             }
         }
     }

@@ -130,7 +130,7 @@ impl EstimatorSettings {
         if crate::math::all_finite(&self.magnetic_field_ut) {
             Ok(())
         } else {
-            Err(ConfigError::NonFinite("estimator.magnetic_field_ut"))
+            Err(ConfigError::NonFinite("estimator.magnetic_field_ut".into()))
         }
     }
 

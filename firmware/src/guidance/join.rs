@@ -42,14 +42,15 @@ impl JoinPlan {
     /// # Errors
     /// The culprit's name.
     pub fn validate(&self) -> Result<(), ConfigError> {
-        ConfigError::require_positive("join.duration_s", self.duration_s)?;
+        // Ten ticks, rounded, at least.
+        ConfigError::require_within("join.duration_s", self.duration_s, 9.5 * TICK_S, 1e9)?;
         if !self.start_acceleration_m_s2.iter().all(|v| v.is_finite()) {
-            return Err(ConfigError::NonFinite("join.start_acceleration_m_s2"));
+            return Err(ConfigError::NonFinite("join.start_acceleration_m_s2".into()));
         }
         if !self.middle_m.iter().flatten().all(|v| v.is_finite()) {
-            return Err(ConfigError::NonFinite("join.middle_m"));
+            return Err(ConfigError::NonFinite("join.middle_m".into()));
         }
-        if self.duration_ticks() < 10 { Err(ConfigError::OutOfRange("join.duration_s")) } else { Ok(()) }
+        Ok(())
     }
 }
 
@@ -77,7 +78,9 @@ impl JoinPath {
         let u4 = u3 * t / (degree - 3.0);
 
         let mut points = heapless::Vec::new();
-        let mut push = |p: Vector3<f32>| points.push(p).map_err(|_| ConfigError::OutOfRange("join.middle_m"));
+        let too_many =
+            || ConfigError::OutOfRange { field: "join.middle_m".into(), low: 0.0, high: MIDDLE_POINTS as f32 };
+        let mut push = |p: Vector3<f32>| points.push(p).map_err(|_| too_many());
         // At rest P1 = P0; the second difference is the start's acceleration.
         push(start)?;
         push(start)?;
@@ -201,6 +204,6 @@ mod tests {
     fn a_plan_out_of_range_is_refused() {
         let bad = JoinPlan { duration_s: f32::NAN, ..plan() };
         let built = Guidance::new(Trajectory::PAPER_HELIX, Some(&bad), Vector3::zeros());
-        assert_eq!(built, Err(ConfigError::NonFinite("join.duration_s")));
+        assert_eq!(built, Err(ConfigError::NonFinite("join.duration_s".into())));
     }
 }

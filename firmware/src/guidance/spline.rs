@@ -69,20 +69,19 @@ impl Spline {
         let segments = self.segments() as u32;
         let finite = self.control_points.iter().all(|point| math::all_finite(point)) && self.turn_rad.is_finite();
         if !finite {
-            return Err(ConfigError::NonFinite("trajectory.spline.control_points"));
+            return Err(ConfigError::NonFinite("trajectory.spline.control_points".into()));
         }
-        if self.control_points.len() < ACTIVE {
-            return Err(ConfigError::OutOfRange("trajectory.spline.control_points"));
-        }
+        let within = |name: &'static str, value: u32, low: u32, high: u32| {
+            if (low..=high).contains(&value) {
+                return Ok(());
+            }
+            Err(ConfigError::OutOfRange { field: name.into(), low: low as f32, high: high as f32 })
+        };
+        let points = self.control_points.len() as u32;
+        within("trajectory.spline.control_points", points, ACTIVE as u32, CONTROL_POINTS as u32)?;
         // A segment lasts 10 ms at least.
-        if self.duration_ms > DURATION_MAX_MS || self.duration_ms < 10 * segments {
-            return Err(ConfigError::OutOfRange("trajectory.spline.duration_ms"));
-        }
-        if self.begin_ms > DURATION_MAX_MS {
-            Err(ConfigError::OutOfRange("trajectory.spline.begin_ms"))
-        } else {
-            Ok(())
-        }
+        within("trajectory.spline.duration_ms", self.duration_ms, 10 * segments, DURATION_MAX_MS)?;
+        within("trajectory.spline.begin_ms", self.begin_ms, 0, DURATION_MAX_MS)
     }
 
     /// The reference `ticks` after the start of the flight, with so many ticks in a millisecond.
@@ -257,13 +256,14 @@ mod tests {
     #[test]
     fn a_bad_path_is_refused_by_name() {
         assert_eq!(wave(256, false).validate(), Ok(()));
+        let out_of = |name: &'static str, low, high| ConfigError::OutOfRange { field: name.into(), low, high };
         for (bad, error) in [
-            (wave(5, true), ConfigError::OutOfRange("trajectory.spline.control_points")),
-            (Spline { duration_ms: 0, ..wave(20, true) }, ConfigError::OutOfRange("trajectory.spline.duration_ms")),
-            (Spline { begin_ms: u32::MAX, ..wave(20, true) }, ConfigError::OutOfRange("trajectory.spline.begin_ms")),
+            (wave(5, true), out_of("trajectory.spline.control_points", 6.0, 256.0)),
+            (Spline { duration_ms: 0, ..wave(20, true) }, out_of("trajectory.spline.duration_ms", 200.0, 16e6)),
+            (Spline { begin_ms: u32::MAX, ..wave(20, true) }, out_of("trajectory.spline.begin_ms", 0.0, 16e6)),
             (
                 Spline { turn_rad: f32::NAN, ..wave(20, true) },
-                ConfigError::NonFinite("trajectory.spline.control_points"),
+                ConfigError::NonFinite("trajectory.spline.control_points".into()),
             ),
         ] {
             assert_eq!(bad.validate(), Err(error));

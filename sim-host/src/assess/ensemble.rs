@@ -42,6 +42,8 @@ pub struct Verdict {
     pub found: Option<f64>,
     /// Whether it is as expected.
     pub met: bool,
+    /// Seeds that it takes to judge it; with fewer flown, `met` says nothing.
+    pub seeds_needed: u64,
 }
 
 /// How the innovations of one kind of reading agree with what was expected of them.
@@ -93,9 +95,16 @@ pub struct Report {
     pub nees: Option<Nees>,
     /// What was expected.
     pub verdicts: Vec<Verdict>,
-    /// Whether the errors and innovations are within their bands as often as expected; none if nothing is.
+    /// Whether the errors and innovations are within their bands as often as expected; none if nothing is, or by too few
+    /// seeds.
     pub consistent: Option<bool>,
+    /// Seeds that it takes to judge that, where they are too few.
+    pub bands_need: Option<u64>,
 }
+
+/// Seeds from which on the band of a mean over them is good: its χ² has a degree of freedom for each flight at least, and
+/// the approximation of the quantile wants 30.
+const SEEDS_FOR_BANDS: u64 = 30;
 
 /// A percentile of sorted values by nearest rank; none without any.
 pub fn percentile(sorted: &[f64], percent: f64) -> Option<f64> {
@@ -115,7 +124,11 @@ fn root_mean_square(values: &[f64]) -> Option<f64> {
 /// The scenario's name, if it is not one that is judged, or what of it the firmware refuses.
 pub fn fly(scenario: &Scenario, seeds: Seeds, flown: impl Fn() + Sync) -> Result<Report> {
     let assess = scenario.file.assess.as_ref().with_context(|| {
-        format!("scenario `{}` has no `[assess]`: it says nothing of what is expected of it", scenario.name)
+        format!(
+            "scenario `{}` has no `[assess]`, which says what is expected of it: add one, or fly those that have by \
+             `sim-host assess` alone",
+            scenario.name
+        )
     })?;
     assess.require_part_of(scenario.file.duration_s).with_context(|| format!("scenario `{}`", scenario.name))?;
     let measured: Vec<Measures> = (seeds.first..=seeds.last)
@@ -141,10 +154,12 @@ fn report(scenario: &str, seeds: Seeds, assess: &Assess, flights: &[Measures]) -
         let met = found.is_some_and(|value| {
             expected.at_most.is_none_or(|most| value <= most) && expected.at_least.is_none_or(|least| value >= least)
         });
-        Verdict { expected: *expected, found, met }
+        Verdict { expected: *expected, found, met, seeds_needed: expected.seeds_needed() }
     };
     let (nis, nees) = (nis(flights), nees(flights));
-    let consistent = assess.consistent.map(|least| {
+    let is_judged = seeds.count() >= SEEDS_FOR_BANDS;
+    let bands_need = assess.consistent.filter(|_| !is_judged).map(|_| SEEDS_FOR_BANDS);
+    let consistent = assess.consistent.filter(|_| is_judged).map(|least| {
         let errors = nees.as_ref().is_some_and(|nees| nees.within_band >= least);
         // Standing and drag are no readings of a sensor: how still the ground is and how the wind turns nobody says.
         let sensors = || nis.iter().filter(|nis| !matches!(nis.reading.as_str(), "rest" | "drag"));
@@ -152,6 +167,7 @@ fn report(scenario: &str, seeds: Seeds, assess: &Assess, flights: &[Measures]) -
     });
     Report {
         consistent,
+        bands_need,
         scenario: scenario.to_owned(),
         seeds,
         rows: Measure::ALL.iter().filter_map(|measure| row(flights, *measure)).collect(),
@@ -250,7 +266,18 @@ fn nees(flights: &[Measures]) -> Option<Nees> {
 impl Report {
     /// Whether everything is as expected.
     pub fn is_met(&self) -> bool {
-        self.verdicts.iter().all(|verdict| verdict.met) && self.consistent != Some(false)
+        let is_met = |verdict: &Verdict| verdict.met || self.lacks_seeds(verdict);
+        self.verdicts.iter().all(is_met) && self.consistent != Some(false)
+    }
+
+    fn lacks_seeds(&self, verdict: &Verdict) -> bool {
+        self.seeds.count() < verdict.seeds_needed
+    }
+
+    /// Seeds that it takes to judge everything, where there are too few.
+    pub fn seeds_needed(&self) -> Option<u64> {
+        let lacking = self.verdicts.iter().filter(|verdict| self.lacks_seeds(verdict));
+        lacking.map(|verdict| verdict.seeds_needed).chain(self.bands_need).max()
     }
 
     /// As a text for the terminal.
@@ -289,14 +316,21 @@ impl Report {
             let _ =
                 writeln!(text, "errors and innovations within their bands: {}", if met { "met" } else { "NOT MET" });
         }
+        if let Some(needed) = self.bands_need {
+            let _ = writeln!(text, "errors and innovations within their bands: too few seeds, {needed} needed");
+        }
         for verdict in &self.verdicts {
-            let Verdict { expected, found, met } = verdict;
+            let Verdict { expected, found, met, seeds_needed } = verdict;
             let bound = match (expected.at_most, expected.at_least) {
                 (Some(most), _) => format!("at most {most}"),
                 (None, Some(least)) => format!("at least {least}"),
                 (None, None) => String::new(),
             };
-            let verdict = if *met { "met" } else { "NOT MET" };
+            let verdict = match met {
+                _ if self.lacks_seeds(verdict) => format!("too few seeds, {seeds_needed} needed"),
+                true => "met".to_owned(),
+                false => "NOT MET".to_owned(),
+            };
             let (name, percent) = (expected.measure.name(), expected.percentile);
             let of = percent.map_or_else(|| "rms".to_owned(), |percent| format!("p{percent}"));
             let _ = writeln!(text, "{of} of {name}: {} ({bound}): {verdict}", number(*found));
@@ -321,6 +355,21 @@ mod tests {
         assert_eq!(percentile(&values, 0.0), Some(1.0));
         assert_eq!(percentile(&values[..3], 50.0), Some(2.0));
         assert_eq!(percentile(&[], 50.0), None);
+    }
+
+    #[test]
+    fn few_seeds_judge_the_worst_and_no_percentile() {
+        let expected =
+            |percentile| Expectation { measure: Measure::TouchdownMS, percentile, at_most: Some(1.0), at_least: None };
+        for (percentile, needed) in [(Some(95.0), 20), (Some(5.0), 20), (Some(50.0), 2), (Some(100.0), 1), (None, 20)] {
+            assert_eq!(expected(percentile).seeds_needed(), needed, "{percentile:?}");
+        }
+        let assess =
+            Assess { from_s: 0.0, to_s: None, hold_m: None, consistent: Some(0.8), expect: vec![expected(Some(95.0))] };
+        let judged = |last| report("x", Seeds { first: 1, last }, &assess, &[]);
+        let (few, many) = (judged(19), judged(30));
+        assert!(few.is_met() && few.seeds_needed() == Some(30) && few.render().contains("too few seeds, 20 needed"));
+        assert!(!many.is_met() && many.seeds_needed().is_none() && many.render().contains("NOT MET"));
     }
 
     #[test]

@@ -22,6 +22,8 @@ pub mod measures;
 use anyhow::{Result, ensure};
 use serde::{Deserialize, Serialize};
 
+use crate::refusal::{after, within};
+
 pub use ensemble::Report;
 pub use measures::{Assessor, Measure, Measures};
 
@@ -58,32 +60,46 @@ pub struct Expectation {
     pub at_least: Option<f64>,
 }
 
+/// Longer than any flight, s.
+const LONGEST_S: f64 = 1e6;
+
+impl Expectation {
+    fn validate(&self, key: &str) -> Result<()> {
+        within(&format!("{key}.percentile"), self.percentile.unwrap_or(0.0), 0.0, 100.0)?;
+        ensure!(
+            self.at_most.or(self.at_least).is_some_and(f64::is_finite),
+            "`{key}` is without a bound on `{}`: give a number for `at_most` or `at_least`",
+            self.measure.name()
+        );
+        Ok(())
+    }
+
+    /// Seeds that it takes to judge it: so many that the percentile is not simply the worst flight or the best. The least
+    /// and the greatest, 0 and 100, are those of the seeds flown, however few. A root mean square of 20 is good to 16 %.
+    pub fn seeds_needed(&self) -> u64 {
+        const FOR_ROOT_MEAN_SQUARE: u64 = 20;
+        let Some(percentile) = self.percentile else { return FOR_ROOT_MEAN_SQUARE };
+        let beyond = percentile.min(100.0 - percentile);
+        if beyond > 0.0 { (100.0 / beyond).ceil() as u64 } else { 1 }
+    }
+}
+
 impl Assess {
     /// Refuses what cannot be judged.
     ///
     /// # Errors
     /// The first key that is out of its range.
     pub fn validate(&self) -> Result<()> {
-        ensure!(
-            self.from_s >= 0.0 && self.to_s.is_none_or(|to_s| self.from_s < to_s),
-            "`assess.from_s` must be from 0 up to `assess.to_s`, not {}",
-            self.from_s
-        );
-        for value in self.hold_m.iter().flatten() {
-            ensure!(value.abs() <= 1e6, "`assess.hold_m` must be between -1000000 and 1000000, not {value}");
+        within("assess.from_s", self.from_s, 0.0, LONGEST_S)?;
+        if let Some(to_s) = self.to_s {
+            within("assess.to_s", to_s, 0.0, LONGEST_S)?;
+            after(("assess.from_s", self.from_s), ("assess.to_s", to_s))?;
         }
-        for Expectation { measure, percentile, at_most, at_least } in &self.expect {
-            let name = measure.name();
-            ensure!(
-                percentile.is_none_or(|percentile| (0.0..=100.0).contains(&percentile)),
-                "`assess.expect.percentile` of `{name}` must be between 0 and 100, not {percentile:?}"
-            );
-            ensure!(
-                at_most.or(*at_least).is_some_and(f64::is_finite),
-                "`assess.expect` of `{name}` must have a number for `at_most` or `at_least`"
-            );
+        for (i, value) in self.hold_m.iter().flatten().enumerate() {
+            within(&format!("assess.hold_m.{i}"), *value, -1e6, 1e6)?;
         }
-        Ok(())
+        within("assess.consistent", self.consistent.unwrap_or(0.0), 0.0, 1.0)?;
+        self.expect.iter().enumerate().try_for_each(|(i, one)| one.validate(&format!("assess.expect.{i}")))
     }
 
     /// Refuses a flight of `duration_s` that ends before what is judged of it; it may be flown all the same.
@@ -94,7 +110,8 @@ impl Assess {
         let to_s = self.to_s.unwrap_or(duration_s);
         ensure!(
             self.from_s < to_s && to_s <= duration_s,
-            "`assess` must be a part of the flight, not from {} to {to_s} of {duration_s} s",
+            "`assess` judges from {} to {to_s} s, and the flight ends at {duration_s} s: lengthen `duration_s`, or set \
+             `assess.from_s` and `assess.to_s` to a part of the flight",
             self.from_s
         );
         Ok(())

@@ -26,7 +26,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::filter::{Butterworth, Difference};
-use super::{AxisPair, OUTER_STEP_S, require_cutoff, require_tilt, require_within};
+use super::{AxisPair, OUTER_STEP_S, require_cutoff, require_tilt};
+use crate::refusal::within;
 
 /// Longest delay that can be made up for, ticks.
 const DELAY_TICKS_MAX: usize = 16;
@@ -75,12 +76,12 @@ impl Indi {
         ] {
             gain.require_not_negative(&format!("indi.{key}"))?;
         }
-        require_within("indi.feedback_rate", self.feedback_rate, 0.0, 1.0)?;
+        within("indi.feedback_rate", self.feedback_rate, 0.0, 1.0)?;
         require_cutoff("indi.acceleration_cutoff_hz", self.acceleration_cutoff_hz, OUTER_STEP_S)?;
         require_cutoff("indi.rate_cutoff_hz.xy", self.rate_cutoff_hz.xy, TICK_S)?;
         require_cutoff("indi.rate_cutoff_hz.z", self.rate_cutoff_hz.z, TICK_S)?;
         let delay = f32::from(self.rotor_delay_ticks);
-        require_within("indi.rotor_delay_ticks", delay, 0.0, DELAY_TICKS_MAX as f32)
+        within("indi.rotor_delay_ticks", delay, 0.0, DELAY_TICKS_MAX as f64)
     }
 }
 

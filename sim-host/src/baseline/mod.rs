@@ -15,18 +15,20 @@ pub mod geometric;
 pub mod indi;
 pub mod pid;
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use firmware::math;
 use firmware::schedule::OUTER;
 use firmware::signals::TICK_S;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::refusal::within;
+
 /// Step of a position law, s.
 const OUTER_STEP_S: f32 = OUTER.period as f32 * TICK_S;
 
 /// Largest gain: products of three still fit an f32.
-const GAIN_MAX: f32 = 1e6;
+const GAIN_MAX: f64 = 1e6;
 
 /// A gain that x and y share, and z's: along the axes of the world, or about those of the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -46,25 +48,19 @@ impl AxisPair {
 
     /// Refuses what is not a finite number, or below zero.
     fn require_not_negative(self, key: &str) -> Result<()> {
-        require_within(&format!("{key}.xy"), self.xy, 0.0, GAIN_MAX)?;
-        require_within(&format!("{key}.z"), self.z, 0.0, GAIN_MAX)
+        within(&format!("{key}.xy"), self.xy, 0.0, GAIN_MAX)?;
+        within(&format!("{key}.z"), self.z, 0.0, GAIN_MAX)
     }
-}
-
-/// Refuses a number outside of `low ..= high`.
-fn require_within(key: &str, value: f32, low: f32, high: f32) -> Result<()> {
-    ensure!((low..=high).contains(&value), "`{key}` must be between {low} and {high}, not {value}");
-    Ok(())
 }
 
 /// Refuses a tilt (rad) that position control cannot be limited to.
 fn require_tilt(key: &str, tilt_max_rad: f32) -> Result<()> {
-    require_within(key, tilt_max_rad, 0.01, 1.49)
+    within(key, tilt_max_rad, 0.01, 1.49)
 }
 
 /// Refuses a low-pass that loops of this step (s) cannot have: half the rate of the loop is too fast.
 fn require_cutoff(key: &str, cutoff_hz: f32, step_s: f32) -> Result<()> {
-    require_within(key, cutoff_hz, 0.1, 0.45 / step_s)
+    within(key, cutoff_hz, 0.1, (45.0 / f64::from(step_s)).round() / 100.0)
 }
 
 /// Each component limited to ± that of `most`.

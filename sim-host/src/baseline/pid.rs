@@ -24,7 +24,8 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::filter::{Difference, LowPass};
-use super::{AxisPair, OUTER_STEP_S, clamp_each, require_cutoff, require_tilt, require_within};
+use super::{AxisPair, OUTER_STEP_S, clamp_each, require_cutoff, require_tilt};
+use crate::refusal::within;
 
 /// Gains of the cascade, as they stand in a file; PX4's parameters in brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,11 +90,11 @@ impl Pid {
         ] {
             gain.require_not_negative(&format!("pid.{key}"))?;
         }
-        require_within("pid.velocity_p_1_s.xy", self.velocity_p_1_s.xy, 0.01, super::GAIN_MAX)?;
+        within("pid.velocity_p_1_s.xy", self.velocity_p_1_s.xy, 0.01, super::GAIN_MAX)?;
         require_cutoff("pid.velocity_d_cutoff_hz", self.velocity_d_cutoff_hz, OUTER_STEP_S)?;
         require_cutoff("pid.rate_d_cutoff_hz", self.rate_d_cutoff_hz, TICK_S)?;
-        require_within("pid.horizontal_thrust_margin", self.horizontal_thrust_margin, 0.0, 0.9)?;
-        require_within("pid.yaw_weight", self.yaw_weight, 0.0, 1.0)
+        within("pid.horizontal_thrust_margin", self.horizontal_thrust_margin, 0.0, 0.9)?;
+        within("pid.yaw_weight", self.yaw_weight, 0.0, 1.0)
     }
 }
 

@@ -1,6 +1,6 @@
 //! `assess`: many seeds of scenarios that say what is expected of them.
 
-use anyhow::{Context, Result, ensure};
+use anyhow::Result;
 
 use super::AssessArgs;
 use crate::assess::{Report, ensemble};
@@ -8,13 +8,9 @@ use crate::report::progress;
 use crate::scenario::{self, Scenario};
 
 pub(super) fn run(args: &AssessArgs) -> Result<()> {
-    ensure!(args.jobs != Some(0), "--jobs must be at least 1");
     let scenarios = load(args)?;
     let bar = progress::of_flights(args.seeds.count() * scenarios.len() as u64, !args.json);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.jobs.map_or(0, |jobs| jobs.min(super::MOST_THREADS)))
-        .build()
-        .context("cannot start the threads that --jobs asks for")?;
+    let pool = args.threads.pool(args.seeds.count())?;
     let reports: Vec<Report> = pool.install(|| {
         scenarios.iter().map(|scenario| ensemble::fly(scenario, args.seeds, || bar.inc(1))).collect::<Result<_>>()
     })?;
@@ -25,7 +21,12 @@ pub(super) fn run(args: &AssessArgs) -> Result<()> {
         return if unmet == 0 { Ok(()) } else { Err(Unmet { scenarios: unmet }.into()) };
     }
     let texts: Vec<String> = reports.iter().map(Report::render).collect();
-    let end = if unmet == 0 { "all as expected".to_owned() } else { format!("{unmet} not as expected") };
+    let too_few = reports.iter().filter(|report| report.seeds_needed().is_some()).count();
+    let end = match (unmet, too_few) {
+        (0, 0) => "all as expected".to_owned(),
+        (0, _) => format!("none against what is expected; of {too_few} not all is judged: too few seeds"),
+        _ => format!("{unmet} not as expected"),
+    };
     super::say(&format!("{}\n{} scenarios: {end}", texts.join("\n"), reports.len()))?;
     if unmet == 0 { Ok(()) } else { Err(Unmet { scenarios: unmet }.into()) }
 }

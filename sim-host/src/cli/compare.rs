@@ -1,6 +1,6 @@
 //! `compare`: every controller in every cell of a matrix.
 
-use anyhow::{Context, Result, ensure};
+use anyhow::Result;
 
 use super::CompareArgs;
 use crate::compare::{Comparison, Contest};
@@ -8,7 +8,6 @@ use crate::matrix::Matrix;
 use crate::report::{OutFolder, comparison, progress};
 
 pub(super) fn run(args: &CompareArgs) -> Result<()> {
-    ensure!(args.jobs != Some(0), "--jobs must be at least 1");
     let mut matrix = Matrix::load(&args.matrix, &args.settings.set)?;
     if let Some(controllers) = &args.controllers {
         matrix.file.controllers.clone_from(controllers);
@@ -26,11 +25,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
 
 fn fly(contest: &Contest, args: &CompareArgs) -> Result<Comparison> {
     let bar = progress::of_flights(contest.flights() as u64, !args.json);
-    let threads = args.jobs.map_or(0, |jobs| jobs.min(contest.flights()).min(super::MOST_THREADS));
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .context("cannot start the threads that --jobs asks for")?;
+    let pool = args.threads.pool(contest.flights() as u64)?;
     let found = pool.install(|| contest.fly(|| bar.inc(1)))?;
     bar.finish_and_clear();
     Ok(found)

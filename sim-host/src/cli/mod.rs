@@ -9,6 +9,7 @@ mod assess;
 mod bench;
 mod compare;
 mod demo;
+mod fly;
 mod paper;
 mod pil;
 mod plan;
@@ -24,10 +25,14 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
-use clap::{Args, Parser, Subcommand};
+use clap::error::{ContextKind, ContextValue};
+use clap::{Args, CommandFactory as _, Parser, Subcommand};
 
-use crate::scenario::Scenario;
-use crate::seeds::Seeds;
+use crate::interrupt::{self, Interrupted};
+use crate::link;
+use crate::refusal::did_you_mean;
+use crate::scenario::{self, Scenario};
+use crate::seeds::{self, Seeds};
 use crate::tune::Method;
 
 /// More threads than this do not make it faster.
@@ -62,7 +67,7 @@ enum Command {
         #[command(flatten)]
         which: Which,
         /// Seed of the test noise.
-        #[arg(long, default_value_t = 1)]
+        #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
         seed: u64,
         /// Write analyse.json and figures there.
         #[arg(long, value_name = "DIR")]
@@ -90,7 +95,7 @@ enum Command {
         #[command(flatten)]
         which: Which,
         /// Seed of the random numbers.
-        #[arg(long, default_value_t = 1)]
+        #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
         seed: u64,
         /// Print a JSON array.
         #[arg(long)]
@@ -112,7 +117,7 @@ enum Command {
         #[command(flatten)]
         which: Which,
         /// Seed of the search.
-        #[arg(long, default_value_t = 1)]
+        #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
         seed: u64,
         /// Flights to spend at most.
         #[arg(long, default_value_t = 60_000)]
@@ -127,6 +132,43 @@ struct Settings {
     /// Set a key of the scenario, or of its airframe with `airframe.` before it. Repeatable.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
+}
+
+/// On how many threads flights are flown.
+#[derive(Args, Clone, Copy, Debug)]
+struct Threads {
+    /// Flights at once; as many as there are cores by default. The results do not depend on it.
+    #[arg(long, value_name = "J", value_parser = jobs)]
+    jobs: Option<usize>,
+}
+
+impl Threads {
+    /// Threads for at most so many flights.
+    fn pool(self, flights: u64) -> Result<rayon::ThreadPool> {
+        let most = usize::try_from(flights).map_or(MOST_THREADS, |flights| flights.clamp(1, MOST_THREADS));
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(self.jobs.map_or(0, |jobs| jobs.min(most)))
+            .build()
+            .context("cannot start the threads for --jobs: choose fewer")
+    }
+}
+
+fn jobs(text: &str) -> Result<usize, String> {
+    let jobs = text.parse().ok().filter(|jobs| *jobs > 0);
+    jobs.ok_or_else(|| "flights at once are a whole number from 1 up; leave it out for one on each core".to_owned())
+}
+
+fn listen_address(text: &str) -> Result<SocketAddr, String> {
+    link::address(text, link::LISTEN_PORT).map_err(|error| format!("{error:#}"))
+}
+
+fn peer_address(text: &str) -> Result<SocketAddr, String> {
+    match link::address(text, link::PEER_PORT) {
+        Ok(address) if address.ip().is_unspecified() => {
+            Err(format!("the host is missing: use 127.0.0.1:{}", address.port()))
+        }
+        other => other.map_err(|error| format!("{error:#}")),
+    }
 }
 
 /// A scenario, and what is to be different in it.
@@ -149,14 +191,19 @@ struct RunArgs {
     #[command(flatten)]
     which: Which,
     /// Seed of the random numbers.
-    #[arg(long, default_value_t = 1, conflicts_with = "seeds")]
+    #[arg(
+        long,
+        default_value_t = 1,
+        value_parser = seeds::number,
+        allow_negative_numbers = true,
+        conflicts_with = "seeds"
+    )]
     seed: u64,
     /// Seeds to fly, first and last.
     #[arg(long, value_name = "A..B")]
     seeds: Option<Seeds>,
-    /// Flights at once; as many as there are cores by default. The results do not depend on it.
-    #[arg(long, value_name = "J")]
-    jobs: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// Write truth.csv, summary.json and figures there; with several seeds, into a folder a seed.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -172,9 +219,8 @@ struct AssessArgs {
     /// Seeds to fly, first and last.
     #[arg(long, value_name = "A..B", default_value = "1..100")]
     seeds: Seeds,
-    /// Flights at once; as many as there are cores by default. The results do not depend on it.
-    #[arg(long, value_name = "J")]
-    jobs: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// Print a JSON array.
     #[arg(long)]
     json: bool,
@@ -199,9 +245,8 @@ struct CompareArgs {
     /// Seeds to fly, first and last, in place of the matrix' own.
     #[arg(long, value_name = "A..B")]
     seeds: Option<Seeds>,
-    /// Flights at once; as many as there are cores by default. The results do not depend on it.
-    #[arg(long, value_name = "J")]
-    jobs: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// Write compare.json, compare.csv, compare.md and figures there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -217,17 +262,17 @@ struct ServeArgs {
     /// Name of a built-in scenario, or path of a file.
     #[arg(default_value = "field")]
     scenario: String,
-    /// Address to receive on.
-    #[arg(long, default_value = crate::link::DEFAULT_LISTEN)]
+    /// Address to receive on: `HOST:PORT`, `HOST`, or `:PORT` for every interface.
+    #[arg(long, value_name = "ADDRESS", default_value = link::DEFAULT_LISTEN, value_parser = listen_address)]
     listen: SocketAddr,
-    /// Address to send to. Repeatable.
-    #[arg(long = "peer", default_values = crate::link::DEFAULT_PEERS)]
+    /// Address to send to: `HOST:PORT`, or `HOST` for port 14550. Repeatable.
+    #[arg(long = "peer", value_name = "ADDRESS", default_values = link::DEFAULT_PEERS, value_parser = peer_address)]
     peers: Vec<SocketAddr>,
-    /// Simulated seconds a second.
+    /// Simulated seconds per second, 0.01 to 1000.
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     speed: f64,
     /// Seed of the random numbers.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
     seed: u64,
     #[command(flatten)]
     settings: Settings,
@@ -238,7 +283,7 @@ struct PilArgs {
     #[command(flatten)]
     which: Which,
     /// Seed of the random numbers.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
     seed: u64,
     /// The image; by default the one that `cargo fw-pil` has built.
     #[arg(long, value_name = "ELF")]
@@ -274,11 +319,10 @@ struct TuneArgs {
     #[arg(long, default_value_t = 60)]
     iterations: usize,
     /// Seed of the search.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
     seed: u64,
-    /// Flights at once; as many as there are cores by default. The result does not depend on it.
-    #[arg(long, value_name = "J")]
-    jobs: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// Write tuning.toml, progress.csv, convergence.svg and the journal there.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -310,9 +354,15 @@ pub fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        // What was flown has been reported.
+        Err(error) if error.is::<Interrupted>() => ExitCode::from(interrupt::EXIT_CODE),
         Err(error) => {
             eprintln!("sim-host: {}", one_line(&error));
-            ExitCode::from(if pil::is_finding(&error) || error.is::<assess::Unmet>() { 1 } else { 2 })
+            ExitCode::from(if error.is::<run::SomeFailed>() || pil::is_finding(&error) || error.is::<assess::Unmet>() {
+                1
+            } else {
+                2
+            })
         }
     }
 }
@@ -324,11 +374,45 @@ fn refuse(error: &clap::Error) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let text = error.to_string();
-    let complaint: Vec<&str> =
-        text.lines().map(str::trim).take_while(|line| !line.is_empty() && !line.starts_with("Usage:")).collect();
-    let complaint = complaint.join(" ");
-    eprintln!("sim-host: {} (see --help)", complaint.trim_start_matches("error: "));
+    let (complaint, tip) = complaint(&text);
+    let tip = misplaced_scenario(error)
+        .or(tip)
+        .or_else(|| meant_command(error))
+        .map_or(String::new(), |tip| format!(": {tip}"));
+    eprintln!("sim-host: {complaint}{tip} (see --help)");
     ExitCode::from(2)
+}
+
+/// What clap complains of in its first paragraph, and the tip that may follow it.
+fn complaint(text: &str) -> (String, Option<String>) {
+    let before_usage = text.split("Usage:").next().unwrap_or(text);
+    let lines = || before_usage.lines().map(str::trim);
+    let complaint = lines().take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ");
+    // "To pass '-1' as a value, use '-- -1'" helps nobody here: no argument begins with a dash.
+    let tips = lines().filter_map(|line| line.strip_prefix("tip: "));
+    let tip = tips.filter(|tip| !tip.starts_with("to pass")).map(str::to_owned).next();
+    (complaint.trim_start_matches("error: ").to_owned(), tip)
+}
+
+/// `sim-host helix` means `sim-host run helix`.
+fn misplaced_scenario(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
+    scenario::is_built_in(word).then(|| format!("it is a scenario, which `sim-host run {word}` flies"))
+}
+
+/// The command that an unknown one may have meant, or all.
+fn meant_command(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
+    let cli = Cli::command();
+    let names: Vec<&str> = cli.get_subcommands().map(clap::Command::get_name).collect();
+    Some(did_you_mean(word, &names))
+}
+
+/// Says, once, that seeds were given to a scenario of which none makes a difference.
+fn note_idle_seeds(scenario: &Scenario, given: bool) {
+    if given && !scenario.file.is_random() {
+        eprintln!("sim-host: note: the seed makes no difference: `{}` has no random part", scenario.name);
+    }
 }
 
 fn one_line(error: &anyhow::Error) -> String {
@@ -346,9 +430,16 @@ fn say(text: &str) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory as _;
-
     use super::*;
+
+    #[test]
+    fn a_complaint_keeps_its_tip() {
+        let refused = |arguments: &[&str]| complaint(&Cli::try_parse_from(arguments).expect_err("refused").to_string());
+        let (text, tip) = refused(&["sim-host", "asses"]);
+        assert!(text.contains("'asses'") && tip.is_some_and(|tip| tip.contains("'assess'")), "{text}");
+        let (text, tip) = refused(&["sim-host", "run"]);
+        assert!(text.contains("<SCENARIO>") && tip.is_none(), "{text}");
+    }
 
     #[test]
     fn the_arguments_are_consistent() {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use indicatif::ProgressBar;
 use sha2::{Digest as _, Sha256};
 
@@ -12,16 +12,12 @@ use crate::report::{OutFolder, plots, progress, truth};
 use crate::tune::{Iteration, Journal, Parameter, Run, Settings, State, Tune};
 
 pub(super) fn run(args: &TuneArgs) -> Result<()> {
-    ensure!(args.jobs != Some(0), "--jobs must be at least 1");
     settings(args).validate()?;
     let tune = Tune::load(&args.tune)?;
     let journal = journal(args, &tune)?;
     let bar = progress::of_search((args.particles * args.iterations) as u64, true);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.jobs.map_or(0, |jobs| jobs.min(super::MOST_THREADS)))
-        .build()
-        .context("cannot start the threads that --jobs asks for")?;
-    let state = pool.install(|| {
+    let pool = args.threads.pool(u64::MAX)?;
+    let (state, base_cost) = pool.install(|| {
         let report = Report::new(args, &tune, &bar)?;
         let cost = |point: &[f64]| {
             let cost = tune.cost(point);
@@ -29,7 +25,7 @@ pub(super) fn run(args: &TuneArgs) -> Result<()> {
             cost
         };
         let run = Run { settings: settings(args), dimensions: tune.space.dimensions(), cost, journal };
-        run.go(|state| report.write(state))
+        Ok::<_, anyhow::Error>((run.go(|state| report.write(state))?, report.base_cost))
     })?;
     bar.finish_and_clear();
     super::say(&format!(
@@ -38,7 +34,23 @@ pub(super) fn run(args: &TuneArgs) -> Result<()> {
         state.iterations.len() * args.particles,
         tune.course.flights(),
         args.out.join(TUNING).display()
-    ))
+    ))?;
+    if let Some(warning) = warning(args, &state, base_cost) {
+        eprintln!("sim-host: {warning}");
+    }
+    Ok(())
+}
+
+/// What to do if the search has not come below where it started.
+fn warning(args: &TuneArgs, state: &State, base_cost: f64) -> Option<String> {
+    let best = state.best_cost();
+    (best >= base_cost).then(|| {
+        format!(
+            "warning: the gains found cost {best:.4}, no less than the base's own {base_cost:.4}: keep the base's, or go on \
+             with --resume --iterations {}",
+            2 * args.iterations
+        )
+    })
 }
 
 const TUNING: &str = "tuning.toml";
@@ -86,8 +98,9 @@ impl<'a> Report<'a> {
     fn summary(&self, state: &State) -> String {
         let TuneArgs { tune, method, particles, seed, .. } = self.args;
         let iterations = state.iterations.len();
+        let worse = if state.best_cost() < self.base_cost { "" } else { ", which are no worse" };
         format!(
-            "cost {:.4} on course {} (the base's own gains: {:.4}) after {} evaluations of {} flights: \
+            "cost {:.4} on course {} (the base's own gains: {:.4}{worse}) after {} evaluations of {} flights: \
              sim-host tune {tune} --method {} --particles {particles} --iterations {iterations} --seed {seed}",
             state.best_cost(),
             self.tune.course.name,

@@ -9,6 +9,8 @@ use firmware::control::sliding::AxisGains;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
+use crate::refusal::{Refusal, typed};
+
 /// Gains, by axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -54,10 +56,28 @@ pub struct Control {
 fn axis<'de, D: Deserializer<'de>>(deserializer: D) -> Result<AxisGains, D::Error> {
     let table = toml::Table::deserialize(deserializer)?;
     if !table.contains_key("answer_s") {
-        return AxisGains::deserialize(table).map_err(D::Error::custom);
+        return typed(table).map_err(D::Error::custom);
     }
-    let bounds = AxisBounds::deserialize(table).map_err(D::Error::custom)?;
-    bounds.gains("bounds").map_err(D::Error::custom)
+    by_bounds(table).map_err(D::Error::custom)
+}
+
+/// An axis by its bounds alone: gains beside them would be overruled.
+fn by_bounds(table: toml::Table) -> anyhow::Result<AxisGains> {
+    for gain in ["lambda", "gain", "reaching", "approach_max", "braking"] {
+        if table.contains_key(gain) {
+            let rule = "is no key of an axis that is given by its bounds";
+            let remedy =
+                "use answer_s, disturbance, disturbance_rate, authority, law, surface, or leave out `answer_s`";
+            return Err(Refusal::new(gain, rule).remedy(remedy).into());
+        }
+    }
+    let given = table.clone();
+    let bounds: AxisBounds = typed(table)?;
+    bounds.gains().map_err(|error| {
+        let refusal = Refusal::from(error);
+        let value = given.get(refusal.key()).cloned();
+        value.map_or(refusal.clone(), |value| refusal.given(value)).into()
+    })
 }
 
 impl Control {

@@ -156,7 +156,7 @@ impl Flown {
     /// From when on x, y, z are within 5 cm, s; `None` for never.
     pub fn settled(&self) -> [Option<f64>; 3] {
         let axes = self.metrics.axes();
-        [axes.x, axes.y, axes.z].map(|axis| axis.settle_5cm_s.filter(|_| self.outcome.survived))
+        [axes.x, axes.y, axes.z].map(|axis| axis.settle_5cm_s.filter(|_| self.outcome.survived()))
     }
 
     /// From when on all three are, s.

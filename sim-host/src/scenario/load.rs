@@ -2,55 +2,200 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Error, Result, anyhow, bail};
+use toml::{Table, Value};
 
-use super::settings::{set, split_setting};
-use super::{AIRFRAMES, SCENARIOS, Scenario, ScenarioFile, TUNINGS, trajectory};
+use super::settings::Setting;
+use super::{AIRFRAMES, SCENARIOS, Scenario, ScenarioFile, TUNINGS, default_airframe, trajectory};
 use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
-use crate::files::{one_line, parse, read, source};
+use crate::files::{Source, read};
+use crate::refusal::{Refusal, typed};
+
+/// A file that a scenario is made of, and what the command line has set in it.
+struct Layer {
+    source: Source,
+    table: Table,
+    /// Keys that were set, as the file has them.
+    set: Vec<String>,
+    /// What its keys begin with in a scenario, and in the file: `control.` and `smc.`.
+    prefix: (&'static str, &'static str),
+}
+
+impl Layer {
+    fn new(source: Source, prefix: (&'static str, &'static str)) -> Result<Self> {
+        Ok(Self { table: source.table()?, source, set: Vec::new(), prefix })
+    }
+
+    fn set(&mut self, setting: &Setting, key: &str) -> Result<()> {
+        // A suite by its name is a table that builds on it.
+        if key.starts_with("sensors.")
+            && let Some(suite @ Value::String(_)) = self.table.get_mut("sensors")
+        {
+            *suite = Value::Table([("suite".to_owned(), suite.clone())].into_iter().collect());
+        }
+        setting.apply(&mut self.table, key)?;
+        self.set.push(key.to_owned());
+        Ok(())
+    }
+
+    /// A scenario's key as this file has it, if it belongs here.
+    fn own_key(&self, key: &str) -> Option<String> {
+        let (outside, inside) = self.prefix;
+        key.strip_prefix(outside).map(|rest| inside.to_owned() + rest)
+    }
+
+    fn is_set(&self, key: &str) -> bool {
+        let is_within =
+            |key: &str, other: &str| key.strip_prefix(other).is_some_and(|r| r.is_empty() || r.starts_with('.'));
+        self.set.iter().any(|set| is_within(key, set) || is_within(set, key))
+    }
+
+    /// The value at one of its own keys.
+    fn value(&self, key: &str) -> Option<&Value> {
+        let mut parts = key.split('.');
+        let first = self.table.get(parts.next()?)?;
+        parts.try_fold(first, |place, part| match place {
+            Value::Array(values) => values.get(part.parse::<usize>().ok()?),
+            other => other.get(part),
+        })
+    }
+
+    /// As what it describes; a key that is refused is named as a scenario has it.
+    fn typed<T: serde::de::DeserializeOwned>(&self) -> Result<T> {
+        typed(self.table.clone()).map_err(|error| match error.downcast::<Refusal>() {
+            Ok(refusal) => {
+                let (outside, inside) = self.prefix;
+                let key = refusal.key().strip_prefix(inside).map(|rest| outside.to_owned() + rest);
+                let key = key.unwrap_or_else(|| refusal.key().to_owned());
+                refusal.with_key(key).into()
+            }
+            Err(error) => error,
+        })
+    }
+}
+
+/// The files of a scenario: its own first.
+struct Layers(Vec<Layer>);
+
+impl Layers {
+    /// An error with the file that it is about, the line of its key, and the value that the file has there.
+    fn explain(&self, error: Error) -> Error {
+        let own = &self.0[0];
+        let mut refusal = match error.downcast::<Refusal>() {
+            Ok(refusal) => refusal,
+            Err(error) => return error.context(own.source.to_string()),
+        };
+        let with_key = |layer: &Layer| layer.own_key(refusal.key());
+        let (layer, key) = self
+            .0
+            .iter()
+            .rev()
+            .find_map(|layer| Some((layer, with_key(layer)?)))
+            .unwrap_or_else(|| (own, refusal.key().to_owned()));
+        if refusal.lacks_value()
+            && let Some(value) = layer.value(&key)
+        {
+            refusal = refusal.given(value);
+        }
+        if layer.is_set(&key) {
+            return Error::new(refusal).context(own.source.to_string());
+        }
+        layer.source.about(refusal.with_key(key).into())
+    }
+}
 
 impl Scenario {
     /// Loads a built-in scenario by name or a file by path, with `KEY=VALUE` settings applied to it. Keys are
-    /// dotted (`control.roll.lambda`); those under `airframe.` set the airframe's.
+    /// dotted (`control.roll.lambda`); those under `airframe.` set the airframe's, and those under `control.`, or the
+    /// name of another controller, the gains, whether they stand in the scenario or in its tuning.
     ///
     /// # Errors
     /// One line that names the scenario or file, the key, and what is wrong with it.
     pub fn load(name: &str, settings: &[String]) -> Result<Self> {
-        let context = || format!("scenario `{name}`");
-        let mut table = parse(&source(name, "scenario", &SCENARIOS)?).with_context(context)?;
-        let mut airframe_settings = Vec::new();
-        for setting in settings {
-            let (key, value) = split_setting(setting)?;
-            match key.strip_prefix("airframe.") {
-                Some(key) => airframe_settings.push((key, value)),
-                None => set(&mut table, key, value).with_context(|| format!("--set {setting}"))?,
+        let settings = settings.iter().map(|setting| Setting::parse(setting)).collect::<Result<Vec<_>>>()?;
+        let mut own = Layer::new(Source::read(name, "scenario", &SCENARIOS)?, ("", ""))?;
+        let (mut of_airframe, mut of_gains) = (Vec::new(), Vec::new());
+        for setting in &settings {
+            match setting.split() {
+                ("airframe", Some(rest)) => of_airframe.push((setting, rest)),
+                (first, Some(rest)) if first == "control" || Controller::NAMES.contains(&first) => {
+                    of_gains.push((setting, rest));
+                }
+                _ => own.set(setting, setting.key)?,
             }
         }
+        find_beside(&mut own.table, name);
+        let tuning = gains(&mut own, &of_gains)?;
+        let mut layers = Layers(vec![own]);
+        layers.0.extend(tuning);
         let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-        trajectory::resolve(&mut table, folder).with_context(context)?;
-        let mut file: ScenarioFile = table.try_into().map_err(|error| one_line(&error)).with_context(context)?;
-        if settings.iter().any(|setting| moves_the_bound(setting)) {
+        let resolved = trajectory::resolve(&mut layers.0[0].table, folder);
+        resolved.map_err(|error| layers.explain(error))?;
+        let mut file: ScenarioFile = layers.0[0].typed().map_err(|error| layers.explain(error))?;
+        if settings.iter().any(moves_the_bound) {
             file.time_optimal_s = None;
         }
+        layers.0.push(Layer::new(Source::read(&file.airframe, "airframe", &AIRFRAMES)?, ("airframe.", ""))?);
+        let airframe_layer = layers.0.last_mut().ok_or_else(|| anyhow!("no airframe"))?;
+        of_airframe.iter().try_for_each(|(setting, key)| airframe_layer.set(setting, key))?;
+        of_airframe
+            .iter()
+            .try_for_each(|(setting, key)| require_effective(&file, setting, key, &layers.0[0].source))?;
+        Self::assemble(name, file, &layers).map_err(|error| layers.explain(error))
+    }
 
-        let airframe_name = file.airframe.clone();
-        let context_airframe = || format!("airframe `{airframe_name}`");
-        let mut table = parse(&source(&airframe_name, "airframe", &AIRFRAMES)?).with_context(context_airframe)?;
-        for (key, value) in airframe_settings {
-            set(&mut table, key, value).with_context(|| format!("--set airframe.{key}"))?;
-        }
-        let mut airframe: AirframeFile =
-            table.try_into().map_err(|error| one_line(&error)).with_context(context_airframe)?;
+    /// A scenario of its files, the last of which is the airframe's.
+    fn assemble(name: &str, file: ScenarioFile, layers: &Layers) -> Result<Self> {
+        let [_, tuning @ .., airframe] = layers.0.as_slice() else { bail!("no airframe") };
+        let mut airframe: AirframeFile = airframe.typed()?;
         airframe.thrust_to_weight = file.thrust_to_weight.unwrap_or(airframe.thrust_to_weight);
         airframe.rotor_lag_s = file.rotor_lag_s.unwrap_or(airframe.rotor_lag_s);
         airframe.actuation_delay_s = file.actuation_delay_s.unwrap_or(airframe.actuation_delay_s);
-
-        let controller = controller(&file).with_context(context)?;
+        let controller = match (tuning, &file.control) {
+            ([tuning], None) => tuning.typed::<TuningFile>()?.controller,
+            ([], Some(control)) => Controller::Smc(control.clone()),
+            ([], None) => {
+                let rule = "is missing";
+                let remedy = "name a tuning file, or give gains under `[control]`";
+                return Err(Refusal::new("tuning", rule).remedy(remedy).into());
+            }
+            _ => bail!(BOTH),
+        };
         let scenario = Self { name: name.to_owned(), file, airframe, controller };
-        scenario.validate().with_context(context)?;
+        scenario.validate()?;
         Ok(scenario)
     }
+}
+
+/// Refuses a setting of the airframe that the scenario has in its place: it would change nothing.
+fn require_effective(file: &ScenarioFile, setting: &Setting, key: &str, source: &Source) -> Result<()> {
+    let own = match key {
+        "thrust_to_weight" => file.thrust_to_weight,
+        "rotor_lag_s" => file.rotor_lag_s,
+        "actuation_delay_s" => file.actuation_delay_s,
+        _ => None,
+    };
+    if own.is_some() {
+        bail!("--set {}: {source} has its own `{key}` in place of the airframe's: set `{key}`", setting.text);
+    }
+    Ok(())
+}
+
+/// Lets the names of airframe and tuning mean files beside the scenario's own, where there are such.
+fn find_beside(table: &mut Table, scenario: &str) {
+    for key in ["airframe", "tuning"] {
+        if let Some(Value::String(name)) = table.get_mut(key) {
+            *name = beside(scenario, name);
+        }
+    }
+}
+
+/// The path of a file that a scenario names: beside the scenario's own, if there is one; else as it is.
+fn beside(scenario: &str, name: &str) -> String {
+    let near = Path::new(scenario).with_file_name(name);
+    let is_path = scenario.ends_with(".toml") || scenario.contains('/');
+    if is_path && near.is_file() { near.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
 /// Loads a built-in tuning by name or a file by path.
@@ -61,21 +206,68 @@ pub fn tuning(name: &str) -> Result<TuningFile> {
     read(name, "tuning", &TUNINGS)
 }
 
-/// The controller that a scenario asks for.
-fn controller(file: &ScenarioFile) -> Result<Controller> {
-    let own = format!("{}-smc", file.airframe);
-    match (&file.tuning, &file.control) {
-        (Some(name), None) => Ok(tuning(name)?.controller),
-        (None, Some(control)) => Ok(Controller::Smc(control.clone())),
-        (None, None) if TUNINGS.iter().any(|(name, _)| *name == own) => Ok(tuning(&own)?.controller),
-        (Some(_), Some(_)) => bail!("`tuning` and `control` both say what flies: keep one"),
-        (None, None) => bail!("`tuning` is missing: name a tuning file, or give gains under `[control]`"),
+const BOTH: &str = "`tuning` and `control` both say what flies: keep one";
+
+/// Lays settings of gains over the scenario's own, or over those of its tuning, which is given back then.
+fn gains(own: &mut Layer, settings: &[(&Setting, &str)]) -> Result<Option<Layer>> {
+    if own.table.contains_key("tuning") && own.table.contains_key("control") {
+        bail!("{}: {BOTH}", own.source);
+    }
+    let Some(mut tuning) = named_tuning(&own.table)? else {
+        for (setting, key) in settings {
+            require_controller("smc", setting, &own.source)?;
+            own.set(setting, &format!("control.{key}"))?;
+        }
+        return Ok(None);
+    };
+    let controller = Controller::NAMES.into_iter().find(|name| tuning.table.contains_key(*name));
+    if let Some(controller) = controller {
+        tuning.prefix = prefix(controller);
+        for (setting, key) in settings {
+            require_controller(controller, setting, &tuning.source)?;
+            tuning.set(setting, &format!("{controller}.{key}"))?;
+        }
+    }
+    Ok(Some(tuning))
+}
+
+/// The tuning that a scenario names, or its airframe's own where it has no gains.
+fn named_tuning(table: &Table) -> Result<Option<Layer>> {
+    let airframe = table.get("airframe").and_then(Value::as_str).map_or_else(default_airframe, str::to_owned);
+    let own = format!("{airframe}-smc");
+    let name = match table.get("tuning") {
+        Some(Value::String(name)) => name,
+        None if !table.contains_key("control") && TUNINGS.iter().any(|(name, _)| *name == own) => &own,
+        _ => return Ok(None),
+    };
+    Layer::new(Source::read(name, "tuning", &TUNINGS)?, ("", "")).map(Some)
+}
+
+/// What a controller's keys begin with in a scenario, and in a tuning file.
+fn prefix(controller: &str) -> (&'static str, &'static str) {
+    match controller {
+        "pid" => ("pid.", "pid."),
+        "geometric" => ("geometric.", "geometric."),
+        "indi" => ("indi.", "indi."),
+        _ => ("control.", "smc."),
     }
 }
 
+/// Refuses a setting of another controller's gains than those that `source` gives.
+fn require_controller(controller: &str, setting: &Setting, source: &Source) -> Result<()> {
+    let (of, _) = setting.split();
+    let of = if of == "control" { "smc" } else { of };
+    if of == controller {
+        return Ok(());
+    }
+    let (right, _) = prefix(controller);
+    let text = setting.text;
+    bail!("--set {text}: {source} has the gains of `{controller}`, not of `{of}`: set `{right}…`, or another `tuning`")
+}
+
 /// Whether a setting makes another problem of it than the one whose time-optimal bound is known.
-fn moves_the_bound(setting: &str) -> bool {
-    let key = setting.split(['=', '.']).next().unwrap_or_default();
+fn moves_the_bound(setting: &Setting) -> bool {
+    let (key, _) = setting.split();
     let start = key.starts_with("start_") || key == "tumble";
     let world = matches!(key, "truth" | "wind" | "world" | "push" | "battery" | "fault" | "sensors");
     start || world || matches!(key, "airframe" | "thrust_to_weight" | "trajectory" | "plant")

@@ -1,32 +1,148 @@
-//! `--set KEY=VALUE`: a dotted key of a table, and its value as TOML has it.
+//! `--set KEY=VALUE`: a dotted key of a table, with indices for arrays (`fault.0.from_s`), and its value as TOML has it.
 
-use anyhow::{Result, anyhow};
+use anyhow::{Context, Error, Result, bail};
+use toml::{Table, Value};
 
-pub(super) fn split_setting(setting: &str) -> Result<(&str, toml::Value)> {
-    let (key, text) = setting.split_once('=').ok_or_else(|| anyhow!("--set {setting}: use KEY=VALUE"))?;
-    Ok((key, value(text)))
+use crate::refusal::Refusal;
+
+/// A setting, as it was given and as it is read.
+#[derive(Clone, Debug)]
+pub(super) struct Setting<'a> {
+    /// As it was given.
+    pub(super) text: &'a str,
+    /// The dotted key.
+    pub(super) key: &'a str,
+    /// The value.
+    pub(super) value: Value,
+}
+
+impl<'a> Setting<'a> {
+    /// Of `KEY=VALUE`.
+    pub(super) fn parse(text: &'a str) -> Result<Self> {
+        let (key, given) = text.split_once('=').with_context(|| format!("--set {text}: use KEY=VALUE"))?;
+        let key = key.trim();
+        if key.split('.').any(str::is_empty) {
+            bail!("--set {text}: a part of the key is missing: use KEY=VALUE, as in control.x.lambda=3");
+        }
+        if given.trim().is_empty() {
+            bail!("--set {text}: the value is missing: use KEY=VALUE");
+        }
+        Ok(Self { text, key, value: value(given) })
+    }
+
+    /// What the key begins with, and the rest after the dot.
+    pub(super) fn split(&self) -> (&'a str, Option<&'a str>) {
+        self.key.split_once('.').map_or((self.key, None), |(first, rest)| (first, Some(rest)))
+    }
+
+    /// Sets `key`, which is this setting's own or another for it, in a table.
+    pub(super) fn apply(&self, table: &mut Table, key: &str) -> Result<()> {
+        set(table, key, self.value.clone()).with_context(|| format!("--set {}", self.text))
+    }
 }
 
 /// A value as TOML has it; what is none, is a string.
-pub(crate) fn value(text: &str) -> toml::Value {
+pub(crate) fn value(text: &str) -> Value {
     format!("value = {text}")
-        .parse::<toml::Table>()
+        .parse::<Table>()
         .ok()
         .and_then(|mut table| table.remove("value"))
-        .unwrap_or_else(|| toml::Value::String(text.to_owned()))
+        .unwrap_or_else(|| Value::String(text.to_owned()))
 }
 
-/// Sets a dotted key; integers become floats where a float stood.
-pub(super) fn set(table: &mut toml::Table, key: &str, value: toml::Value) -> Result<()> {
-    let (path, last) = key.rsplit_once('.').map_or((None, key), |(path, last)| (Some(path), last));
-    let mut place = table;
-    for part in path.into_iter().flat_map(|path| path.split('.')) {
-        place = place
-            .entry(part)
-            .or_insert_with(|| toml::Value::Table(toml::Table::new()))
-            .as_table_mut()
-            .ok_or_else(|| anyhow!("`{part}` is not a table"))?;
+/// Sets a dotted key; tables that are not there are made.
+fn set(table: &mut Table, key: &str, value: Value) -> Result<()> {
+    let Some((path, last)) = key.rsplit_once('.') else {
+        table.insert(key.to_owned(), value);
+        return Ok(());
+    };
+    match descend(table, path, last)? {
+        Value::Table(table) => drop(table.insert(last.to_owned(), value)),
+        Value::Array(values) => *entry(values, path, last)? = value,
+        other => return Err(no_table(path, other).into()),
     }
-    place.insert(last.to_owned(), value);
     Ok(())
+}
+
+fn is_index(part: &str) -> bool {
+    part.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// An array that an index is to reach into and that is not there.
+fn no_entry(key: &str) -> Error {
+    Refusal::new(key, "has no entries").remedy(format!("set it as a whole, as in --set '{key}=[…]'")).into()
+}
+
+/// The value at a dotted path; `last` is the key that is set in it.
+fn descend<'a>(table: &'a mut Table, path: &str, last: &str) -> Result<&'a mut Value> {
+    let parts: Vec<&str> = path.split('.').chain([last]).collect();
+    let so_far = |count: usize| parts[..count].join(".");
+    let mut place = child(table, parts[0], parts[0], parts[1])?;
+    for i in 1..parts.len() - 1 {
+        place = match place {
+            Value::Table(table) => child(table, &so_far(i + 1), parts[i], parts[i + 1])?,
+            Value::Array(values) => entry(values, &so_far(i), parts[i])?,
+            other => return Err(no_table(&so_far(i), other).into()),
+        };
+    }
+    Ok(place)
+}
+
+/// The value of a table by its name, `key` in full; one that is not there is made, unless `next` is an index into it.
+fn child<'a>(table: &'a mut Table, key: &str, name: &str, next: &str) -> Result<&'a mut Value> {
+    if !table.contains_key(name) && is_index(next) {
+        return Err(no_entry(key));
+    }
+    Ok(table.entry(name).or_insert_with(|| Value::Table(Table::new())))
+}
+
+fn no_table(key: &str, value: &Value) -> Refusal {
+    Refusal::new(key, format!("is {value}, and no table: it has no keys below it"))
+}
+
+/// An entry of an array, by its index from 0.
+fn entry<'a>(values: &'a mut [Value], key: &str, index: &str) -> Result<&'a mut Value> {
+    let count = values.len();
+    let entry = index.parse::<usize>().ok().and_then(|index| values.get_mut(index));
+    Ok(entry.with_context(|| match count {
+        0 => format!("`{key}.{index}` is not there: `{key}` is empty"),
+        count => format!("`{key}.{index}` is not there: `{key}` has the entries 0 to {}", count - 1),
+    })?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_lead_through_tables_and_arrays() {
+        let mut table: Table = "a = [{ b = [1.0, 2.0] }]\nc = 3".parse().expect("TOML");
+        for (key, given) in [("a.0.b.1", "5"), ("d.e", "true"), ("c", "x")] {
+            set(&mut table, key, value(given)).expect(key);
+        }
+        assert_eq!(table, "a = [{ b = [1.0, 5] }]\nc = 'x'\nd.e = true".parse().expect("TOML"));
+    }
+
+    #[test]
+    fn what_leads_nowhere_is_refused_by_its_place() {
+        let refusal = |text: &str| {
+            let mut table: Table = "a = [{ b = [1.0, 2.0] }]\nc = 3\nf = []".parse().expect("TOML");
+            let setting = Setting::parse(text);
+            let error = setting.and_then(|setting| setting.apply(&mut table, setting.key)).expect_err("refused");
+            format!("{error:#}")
+        };
+        for (setting, expected) in [
+            ("a.1.b=1", "--set a.1.b=1: `a.1` is not there: `a` has the entries 0 to 0"),
+            ("a.0.b.2=1", "--set a.0.b.2=1: `a.0.b.2` is not there: `a.0.b` has the entries 0 to 1"),
+            ("f.0.x=1", "--set f.0.x=1: `f.0` is not there: `f` is empty"),
+            ("g.0.x=1", "--set g.0.x=1: `g` has no entries: set it as a whole, as in --set 'g=[…]'"),
+            ("c.x.y=1", "--set c.x.y=1: `c` is 3, and no table: it has no keys below it"),
+            ("c=", "--set c=: the value is missing: use KEY=VALUE"),
+            ("=3", "--set =3: a part of the key is missing: use KEY=VALUE, as in control.x.lambda=3"),
+            ("a..b=3", "--set a..b=3: a part of the key is missing: use KEY=VALUE, as in control.x.lambda=3"),
+            ("c", "--set c: use KEY=VALUE"),
+        ] {
+            assert_eq!(refusal(setting), expected);
+        }
+    }
 }

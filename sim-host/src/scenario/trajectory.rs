@@ -10,8 +10,7 @@ use firmware::guidance::{DURATION_MAX_MS, Spline, Trajectory};
 use serde::Deserialize;
 
 use super::csv::{self, nearest};
-use crate::files::one_line;
-use crate::sensors::check::within;
+use crate::refusal::{Refusal, nearest as nearest_name, typed, within};
 use crate::spline::{self, Knot, SEGMENTS_MAX, Shape};
 
 /// Greatest coordinate, m: an f32 still resolves a millimetre.
@@ -70,6 +69,7 @@ pub(super) fn resolve(scenario: &mut toml::Table, folder: &Path) -> Result<()> {
     let join_s = scenario.get("join").and_then(|join| seconds(join.get("duration_s")?)).unwrap_or(0.0);
     let flight_s = scenario.get("duration_s").and_then(seconds).unwrap_or(f64::INFINITY);
     let Some(toml::Value::Table(kinds)) = scenario.get("trajectory") else { return Ok(()) };
+    require_known(kinds)?;
     let Some(kind) = ["waypoints", "csv"].into_iter().find(|kind| kinds.contains_key(*kind)) else { return Ok(()) };
     if let Some(other) = kinds.keys().find(|key| *key != kind) {
         bail!("`trajectory` is given twice, as `{kind}` and as `{other}`: keep one");
@@ -79,8 +79,21 @@ pub(super) fn resolve(scenario: &mut toml::Table, folder: &Path) -> Result<()> {
     } else {
         of_waypoints(&table(kinds, kind)?, join_s)
     };
-    let path = Trajectory::Spline(path.with_context(|| format!("`trajectory.{kind}`"))?);
+    let path = path.map_err(|error| Refusal::below(error, &format!("trajectory.{kind}")))?;
+    let path = Trajectory::Spline(path);
     scenario.insert("trajectory".to_owned(), toml::Value::try_from(path)?);
+    Ok(())
+}
+
+/// Refuses a kind that there is none of.
+fn require_known(kinds: &toml::Table) -> Result<()> {
+    const KINDS: [&str; 6] = ["hold", "step", "helix", "figure-eight", "waypoints", "csv"];
+    for kind in kinds.keys().filter(|kind| *kind != "spline" && !KINDS.contains(&kind.as_str())) {
+        let refusal =
+            Refusal::new("trajectory", format!("must be one of {}", KINDS.join(", "))).given(format!("`{kind}`"));
+        let near = nearest_name(kind, KINDS);
+        return Err(near.map_or(refusal.clone(), |near| refusal.remedy(format!("did you mean `{near}`?"))).into());
+    }
     Ok(())
 }
 
@@ -89,8 +102,14 @@ fn seconds(value: &toml::Value) -> Option<f64> {
 }
 
 fn table<T: serde::de::DeserializeOwned>(kinds: &toml::Table, kind: &str) -> Result<T> {
-    let value = kinds.get(kind).cloned().ok_or_else(|| anyhow!("`trajectory.{kind}` is missing"))?;
-    value.try_into().map_err(|error| one_line(&error)).with_context(|| format!("`trajectory.{kind}`"))
+    let key = format!("trajectory.{kind}");
+    match kinds.get(kind) {
+        Some(toml::Value::Table(table)) => typed(table.clone()).map_err(|error| Refusal::below(error, &key)),
+        other => {
+            let refusal = Refusal::new(key, "must be a table");
+            Err(other.map_or(refusal.clone(), |value| refusal.given(value)).into())
+        }
+    }
 }
 
 /// Milliseconds, for the firmware.

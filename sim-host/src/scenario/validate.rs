@@ -1,13 +1,14 @@
 //! What of a scenario is refused: numbers with which no flight makes sense, each by the key that the user wrote.
 
-use anyhow::{Result, anyhow, ensure};
+use anyhow::{Result, ensure};
 use firmware::guidance::Trajectory;
 
 use super::trajectory::flyable;
 use super::{AttitudeWave, Disturbance, Gust, PlantKind, Scenario, ScenarioFile, ScheduledPush, Truth, Wind, World};
 use crate::airframe::AirframeFile;
 use crate::plant::air::ALTITUDE_M;
-use crate::sensors::check::within;
+use crate::refusal::{Refusal, after, within};
+use crate::sensors::{Fault, SuiteFile};
 use crate::sil::DELAY_TICKS_MAX;
 
 /// Greatest length or height, m: beyond it an f32 no longer resolves a decimetre.
@@ -29,14 +30,12 @@ impl Scenario {
     /// # Errors
     /// The first key that is out of its range.
     pub(super) fn validate(&self) -> Result<()> {
-        self.airframe.validate()?;
         let f = &self.file;
+        optional(f)?;
+        self.airframe.validate()?;
         let longest = if f.plant == PlantKind::PaperDecoupled { DECOUPLED_DURATION_MAX_S } else { DURATION_MAX_S };
         within("duration_s", f.duration_s, 1e-3, longest)?;
-        for value in f.start_position_m {
-            within("start_position_m", value, -LENGTH_MAX_M, LENGTH_MAX_M)?;
-        }
-        optional(f)?;
+        each("start_position_m", &f.start_position_m, LENGTH_MAX_M)?;
         delay(self.airframe.actuation_delay_s)?;
         world(f)?;
         effects(f, &self.airframe)?;
@@ -60,7 +59,7 @@ impl Scenario {
             self.controller.require_smc("the plant `paper-decoupled`")?;
         }
         let config = self.flight_config();
-        firmware::autopilot::Autopilot::new(&config).map_err(|error| anyhow!("{error}"))?;
+        firmware::autopilot::Autopilot::new(&config).map_err(Refusal::from)?;
         if let (Trajectory::Spline(path), true) = (&f.trajectory, f.plant != PlantKind::PaperDecoupled) {
             flyable(path, &config)?;
         }
@@ -102,18 +101,27 @@ fn world(f: &ScenarioFile) -> Result<()> {
         ("command", !f.command.is_empty()),
     ] {
         let plant = f.plant == PlantKind::RigidBody;
-        ensure!(!is_there || plant, "`{key}` is there on the plant `rigid-body` alone: leave it out, or set `plant`");
+        ensure!(
+            !is_there || plant,
+            "`{key}` is modelled on the plant `rigid-body` alone: leave it out, or set `plant = \"rigid-body\"`"
+        );
     }
     truth(&f.truth)?;
     start(f)?;
-    f.push.iter().try_for_each(push)?;
+    f.fault.iter().enumerate().try_for_each(|(i, fault)| on_board(i, fault, f.sensors.as_ref()))?;
+    f.push.iter().enumerate().try_for_each(|(i, one)| push(&format!("push.{i}"), one))?;
     f.wind.as_ref().map_or(Ok(()), wind)
 }
 
 /// What acts on the airframe's own figures: whether the airframe has them, and how far each may go.
 fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
     let start_z = f.start_position_m[2];
-    within("world.ground_height_m", f.world.ground_height_m.unwrap_or(start_z), -LENGTH_MAX_M, start_z)?;
+    let ground_m = f.world.ground_height_m.unwrap_or(start_z);
+    within("world.ground_height_m", ground_m, -LENGTH_MAX_M, LENGTH_MAX_M)?;
+    if ground_m > start_z {
+        let rule = format!("must not be above the start, `start_position_m.2` = {start_z}");
+        return Err(Refusal::new("world.ground_height_m", rule).given(ground_m).into());
+    }
     within("world.altitude_m", f.world.altitude_m.unwrap_or(0.0), ALTITUDE_M.0, ALTITUDE_M.1)?;
     for (key, asked, needs, is_there) in [
         ("world.ground_height_m", f.world.ground_height_m.is_some(), "ground", f.ground),
@@ -133,28 +141,40 @@ fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
     f.battery.map_or(Ok(()), |battery| within("battery.soc", battery.soc, 0.0, 1.0))
 }
 
-fn push(push: &ScheduledPush) -> Result<()> {
-    period("push", push.from_s, push.to_s)?;
-    for (key, values) in [
-        ("push.acceleration_m_s2", push.acceleration_m_s2),
-        ("push.angular_acceleration_rad_s2", push.angular_acceleration_rad_s2),
-    ] {
-        values.iter().try_for_each(|value| within(key, *value, -ACCELERATION_MAX, ACCELERATION_MAX))?;
-    }
-    Ok(())
+/// Refuses a fault of a sensor that the vehicle does not have: nothing would fail.
+fn on_board(index: usize, fault: &Fault, suite: Option<&SuiteFile>) -> Result<()> {
+    let Some(sensor) = fault.sensor.filter(|sensor| !suite.is_some_and(|suite| suite.has(*sensor))) else {
+        return Ok(());
+    };
+    let rule = format!("is `{}`, which is not on board", sensor.name());
+    let remedy = if suite.is_some() { "choose a sensor of `sensors`" } else { "give the vehicle `sensors`" };
+    Err(Refusal::new(format!("fault.{index}.sensor"), rule).remedy(remedy).into())
+}
+
+fn push(key: &str, push: &ScheduledPush) -> Result<()> {
+    period(key, push.from_s, push.to_s)?;
+    each(&format!("{key}.acceleration_m_s2"), &push.acceleration_m_s2, ACCELERATION_MAX)?;
+    each(&format!("{key}.angular_acceleration_rad_s2"), &push.angular_acceleration_rad_s2, ACCELERATION_MAX)
+}
+
+/// Values of an array of which none is further from 0 than `most`.
+fn each<T: Into<f64> + Copy + std::fmt::Display>(key: &str, values: &[T], most: f64) -> Result<()> {
+    values.iter().enumerate().try_for_each(|(i, value)| within(&format!("{key}.{i}"), *value, -most, most))
 }
 
 /// A time from which something acts, and one until which it does.
 fn period(key: &str, from_s: f64, to_s: f64) -> Result<()> {
-    within(&format!("{key}.from_s"), from_s, 0.0, DURATION_MAX_S)?;
-    within(&format!("{key}.to_s"), to_s, from_s + 1e-3, 2.0 * DURATION_MAX_S)
+    let (from_key, to_key) = (format!("{key}.from_s"), format!("{key}.to_s"));
+    within(&from_key, from_s, 0.0, DURATION_MAX_S)?;
+    within(&to_key, to_s, 0.0, 2.0 * DURATION_MAX_S)?;
+    after((&from_key, from_s), (&to_key, to_s))
 }
 
 fn truth(truth: &Truth) -> Result<()> {
     within("truth.mass_factor", truth.mass_factor, 0.01, 100.0)?;
     within("truth.inertia_factor", truth.inertia_factor, 0.01, 100.0)?;
-    for part in truth.rotor_effectiveness {
-        within("truth.rotor_effectiveness", part, 0.0, 10.0)?;
+    for (i, part) in truth.rotor_effectiveness.into_iter().enumerate() {
+        within(&format!("truth.rotor_effectiveness.{i}"), part, 0.0, 10.0)?;
     }
     ensure!(
         truth.rotor_effectiveness.iter().any(|part| *part >= 0.01),
@@ -169,7 +189,7 @@ fn start(f: &ScenarioFile) -> Result<()> {
         ("start_attitude_deg", f.start_attitude_deg, 360.0),
         ("start_rates_rad_s", f.start_rates_rad_s, RATE_MAX_RAD_S),
     ] {
-        values.iter().flatten().try_for_each(|value| within(key, *value, -most, most))?;
+        values.map_or(Ok(()), |values| each(key, &values, most))?;
     }
     let Some(tumble) = &f.tumble else { return Ok(()) };
     ensure!(
@@ -182,29 +202,31 @@ fn start(f: &ScenarioFile) -> Result<()> {
 }
 
 fn wind(wind: &Wind) -> Result<()> {
-    for value in wind.mean_m_s {
-        within("wind.mean_m_s", value, -SPEED_MAX_M_S, SPEED_MAX_M_S)?;
-    }
+    each("wind.mean_m_s", &wind.mean_m_s, SPEED_MAX_M_S)?;
     within("wind.turbulence_20ft_m_s", wind.turbulence_20ft_m_s, 0.0, SPEED_MAX_M_S)?;
     within("wind.altitude_m", wind.altitude_m, 0.0, LENGTH_MAX_M)?;
     within("wind.airspeed_m_s", wind.airspeed_m_s.unwrap_or(1.0), 0.01, SPEED_MAX_M_S)?;
-    wind.gust.iter().try_for_each(gust)
+    wind.gust.iter().enumerate().try_for_each(|(i, one)| gust(&format!("wind.gust.{i}"), one))
 }
 
-fn gust(gust: &Gust) -> Result<()> {
-    within("wind.gust.from_s", gust.from_s, 0.0, DURATION_MAX_S)?;
-    within("wind.gust.rise_s", gust.rise_s, 1e-3, DURATION_MAX_S)?;
-    within("wind.gust.hold_s", gust.hold_s, 0.0, DURATION_MAX_S)?;
-    gust.peak_m_s.iter().try_for_each(|value| within("wind.gust.peak_m_s", *value, -SPEED_MAX_M_S, SPEED_MAX_M_S))
+fn gust(key: &str, gust: &Gust) -> Result<()> {
+    within(&format!("{key}.from_s"), gust.from_s, 0.0, DURATION_MAX_S)?;
+    within(&format!("{key}.rise_s"), gust.rise_s, 1e-3, DURATION_MAX_S)?;
+    within(&format!("{key}.hold_s"), gust.hold_s, 0.0, DURATION_MAX_S)?;
+    each(&format!("{key}.peak_m_s"), &gust.peak_m_s, SPEED_MAX_M_S)
 }
 
 fn delay(seconds: f64) -> Result<()> {
     let ticks = seconds * 1e3;
-    ensure!(
-        (0.0..=DELAY_TICKS_MAX as f64).contains(&ticks.round()) && (ticks - ticks.round()).abs() < 1e-6,
-        "`actuation_delay_s` must be whole milliseconds up to {DELAY_TICKS_MAX}, not {seconds} s"
-    );
-    Ok(())
+    within("actuation_delay_s", seconds, 0.0, DELAY_TICKS_MAX as f64 * 1e-3)?;
+    whole_milliseconds("actuation_delay_s", seconds, ticks)
+}
+
+fn whole_milliseconds(key: &str, seconds: f64, ticks: f64) -> Result<()> {
+    if (ticks - ticks.round()).abs() < 1e-6 {
+        return Ok(());
+    }
+    Err(Refusal::new(key, "must be whole milliseconds").given(format!("{seconds} s")).into())
 }
 
 fn trajectory(trajectory: &Trajectory) -> Result<()> {
@@ -216,13 +238,13 @@ fn trajectory(trajectory: &Trajectory) -> Result<()> {
         Trajectory::Step { from_m, to_m, at_s, yaw_rad } => {
             lengths("trajectory.step.from_m", &from_m)?;
             lengths("trajectory.step.to_m", &to_m)?;
-            within("trajectory.step.at_s", f64::from(at_s), 0.0, DURATION_MAX_S)?;
+            within("trajectory.step.at_s", at_s, 0.0, DURATION_MAX_S)?;
             yaw("trajectory.step.yaw_rad", yaw_rad)
         }
         Trajectory::Helix { amplitude_m, rate_rad_s, base_m, climb_m_s, yaw_rad } => {
             lengths("trajectory.helix.amplitude_m", &amplitude_m)?;
-            lengths("trajectory.helix.base_m", &[base_m])?;
-            within("trajectory.helix.climb_m_s", f64::from(climb_m_s), -100.0, 100.0)?;
+            within("trajectory.helix.base_m", base_m, -LENGTH_MAX_M, LENGTH_MAX_M)?;
+            within("trajectory.helix.climb_m_s", climb_m_s, -100.0, 100.0)?;
             rate("trajectory.helix.rate_rad_s", rate_rad_s)?;
             yaw("trajectory.helix.yaw_rad", yaw_rad)
         }
@@ -239,15 +261,16 @@ fn trajectory(trajectory: &Trajectory) -> Result<()> {
 }
 
 fn lengths(key: &str, values: &[f32]) -> Result<()> {
-    values.iter().try_for_each(|value| within(key, f64::from(*value), -LENGTH_MAX_M, LENGTH_MAX_M))
+    each(key, values, LENGTH_MAX_M)
 }
 
 fn rate(key: &str, value: f32) -> Result<()> {
-    within(key, f64::from(value), -RATE_MAX_RAD_S, RATE_MAX_RAD_S)
+    within(key, value, -RATE_MAX_RAD_S, RATE_MAX_RAD_S)
 }
 
 fn yaw(key: &str, value: f32) -> Result<()> {
-    within(key, f64::from(value), -core::f64::consts::TAU, core::f64::consts::TAU)
+    // A turn either way, and no more decimals in the message than anyone would write.
+    within(key, value, -6.3, 6.3)
 }
 
 fn disturbance(d: &Disturbance, duration_s: f64) -> Result<()> {
@@ -259,28 +282,17 @@ fn disturbance(d: &Disturbance, duration_s: f64) -> Result<()> {
     ] {
         within(&format!("disturbance.{key}"), value, 0.0, 1e9)?;
     }
-    within("disturbance.from_s", d.from_s, 0.0, duration_s)?;
-    ensure!(
-        d.from_s < duration_s && d.to_s > d.from_s && d.to_s.is_finite(),
-        "`disturbance` must set in before the flight ends and end after it sets in, not act from {} to {} of {} s",
-        d.from_s,
-        d.to_s,
-        duration_s
-    );
-    let ticks = d.hold_s * 1e3;
-    ensure!(
-        (1.0..=1e6).contains(&ticks.round()) && (ticks - ticks.round()).abs() < 1e-6,
-        "`disturbance.hold_s` must be whole milliseconds, not {}",
-        d.hold_s
-    );
-    Ok(())
+    if d.from_s >= duration_s {
+        let rule = format!("must be before the end of the flight, `duration_s` = {duration_s}");
+        return Err(Refusal::new("disturbance.from_s", rule).given(d.from_s).into());
+    }
+    period("disturbance", d.from_s, d.to_s)?;
+    within("disturbance.hold_s", d.hold_s, 1e-3, 1e3)?;
+    whole_milliseconds("disturbance.hold_s", d.hold_s, d.hold_s * 1e3)
 }
 
 fn attitude(wave: &AttitudeWave) -> Result<()> {
-    for i in 0..3 {
-        within("attitude.amplitude_rad", wave.amplitude_rad[i], -10.0, 10.0)?;
-        within("attitude.rate_rad_s", wave.rate_rad_s[i], -1e3, 1e3)?;
-        within("attitude.phase_rad", wave.phase_rad[i], -100.0, 100.0)?;
-    }
-    Ok(())
+    each("attitude.amplitude_rad", &wave.amplitude_rad, 10.0)?;
+    each("attitude.rate_rad_s", &wave.rate_rad_s, 1e3)?;
+    each("attitude.phase_rad", &wave.phase_rad, 100.0)
 }

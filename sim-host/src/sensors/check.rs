@@ -1,17 +1,12 @@
 //! What every part's numbers are held against.
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 
 use super::process::TICKS_PER_S;
+use crate::refusal::{Refusal, within};
 
 /// Longest latency of a sound sensor, s.
 pub(super) const LATENCY_MAX_S: f64 = 1.0;
-
-/// A number within `low ..= high`.
-pub(crate) fn within(key: &str, value: f64, low: f64, high: f64) -> Result<()> {
-    ensure!((low..=high).contains(&value), "`{key}` must be between {low} and {high}, not {value}");
-    Ok(())
-}
 
 /// The numbers of a sensor, each by its key below `sensors.<sensor>`.
 pub(super) struct Check(pub(super) &'static str);
@@ -30,8 +25,11 @@ impl Check {
     pub(super) fn rate(&self, rate_hz: f64) -> Result<()> {
         let (key, period) = (self.key("rate_hz"), TICKS_PER_S / rate_hz);
         within(&key, rate_hz, 0.1, TICKS_PER_S)?;
-        ensure!((period - period.round()).abs() < 1e-6, "`{key}` must make a period of whole ms, not {rate_hz}");
-        Ok(())
+        if (period - period.round()).abs() < 1e-6 {
+            return Ok(());
+        }
+        let remedy = "use a rate that divides 1000, as 1, 2, 4, 5, 8, 10, 20, 25, 40, 50 or 100";
+        Err(Refusal::new(key, "must make a period of whole milliseconds").given(rate_hz).remedy(remedy).into())
     }
 
     /// A latency, s.

@@ -5,12 +5,13 @@ use firmware::sensors::GnssSample;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::check::{Check, within};
+use super::check::Check;
 use super::home::Home;
 use super::process::{GaussMarkov, Period, ticks};
 use super::{Model, Truth};
 use crate::geodesy::LocalFrame;
 use crate::noise::gaussian::{Source, Stream};
+use crate::refusal::within;
 
 /// What a receiver is like. Deviations are those of a component.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,8 +4,8 @@ use anyhow::Result;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::check::within;
 use crate::geodesy::Place;
+use crate::refusal::within;
 
 /// Temperature lapse of the troposphere, K/m (ISO 2533).
 const LAPSE_K_M: f64 = 0.0065;

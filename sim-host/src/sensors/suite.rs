@@ -13,17 +13,19 @@
 //! Wherever a suite is asked for, `"gnss"` names one, and a table may build on one: `suite = "gnss"`, and what differs;
 //! `mag = false` leaves a sensor out.
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use super::baro::Baro;
 use super::battery::Battery;
+use super::faults::Sensor;
 use super::gnss::Gnss;
 use super::imu::Imu;
 use super::mag::Mag;
 use super::pose::Pose;
-use crate::files::{built_in, one_line, parse, source};
+use crate::files::{Source, built_in};
+use crate::refusal::{Refusal, typed};
 
 /// Suites that come with the binary.
 pub(crate) const SUITES: [(&str, &str); 3] = built_in!("../sensors": "gnss", "rtk", "mocap");
@@ -73,7 +75,7 @@ impl TryFrom<Value> for SuiteFile {
         let suite = match value {
             Value::String(name) => Self::load(&name),
             Value::Table(table) => Self::from_table(table),
-            _ => Err(anyhow!("`sensors` must be a suite's name or a table")),
+            other => Err(Refusal::new("sensors", "must be a suite's name or a table").given(other).into()),
         };
         suite.map_err(|error| format!("{error:#}"))
     }
@@ -85,7 +87,8 @@ impl SuiteFile {
     /// # Errors
     /// One line that names the suite or file, the key, and what is wrong with it.
     pub fn load(name: &str) -> Result<Self> {
-        Self::from_table(named(name)?).with_context(|| format!("sensors `{name}`"))
+        let source = Source::read(name, "suite", &SUITES)?;
+        Self::from_table(source.table()?).map_err(|error| source.about(error))
     }
 
     /// From a table, which may build on another suite by `suite = "name"`.
@@ -106,11 +109,23 @@ impl SuiteFile {
             };
             complete.insert(key, value);
         }
-        let Complete { summary, imu, mag, baro, gnss, pose, battery } =
-            complete.try_into().map_err(|error| one_line(&error))?;
+        let complete = typed(complete).map_err(|error| Refusal::below(error, "sensors"))?;
+        let Complete { summary, imu, mag, baro, gnss, pose, battery } = complete;
         let suite = Self { summary, imu, mag, baro, gnss, pose, battery };
         suite.validate()?;
         Ok(suite)
+    }
+
+    /// Whether a sensor is on board.
+    pub fn has(&self, sensor: Sensor) -> bool {
+        match sensor {
+            Sensor::Imu | Sensor::Gyro | Sensor::Accel => true,
+            Sensor::Mag => self.mag.is_some(),
+            Sensor::Baro => self.baro.is_some(),
+            Sensor::Gnss => self.gnss.is_some(),
+            Sensor::Pose => self.pose.is_some(),
+            Sensor::Battery => self.battery.is_some(),
+        }
     }
 
     /// Refuses parts that cannot be.
@@ -136,14 +151,14 @@ pub fn list() -> Result<Vec<(&'static str, String)>> {
 }
 
 fn named(name: &str) -> Result<Table> {
-    parse(&source(name, "suite", &SUITES)?).with_context(|| format!("sensors `{name}`"))
+    Source::read(name, "suite", &SUITES)?.table()
 }
 
 /// A sensor's table on top of its part's.
 fn with_part(sensor: &str, table: Table) -> Result<Table> {
     let name = table.get("part").and_then(Value::as_str);
     let name = name.with_context(|| format!("`sensors.{sensor}.part` must be a part's name"))?;
-    let base = parse(&source(name, "part", &PARTS)?).with_context(|| format!("part `{name}`"))?;
+    let base = Source::read(name, "part", &PARTS)?.table()?;
     Ok(merged(base, table))
 }
 
@@ -240,7 +255,7 @@ mod tests {
     #[test]
     fn bad_input_is_one_line_that_names_the_culprit() {
         for (setting, culprit) in [
-            ("gnss.delay_s = 2.0", "`sensors.gnss.delay_s` must be between 0 and 1, not 2"),
+            ("gnss.delay_s = 2.0", "`sensors.gnss.delay_s` must be between 0 and 1 s, not 2"),
             ("gnss.jitter_s = 0.1", "sensors.gnss.jitter_s"),
             ("gnss.colour = 1", "colour"),
             ("gnss.part = \"neo-m8\"", "neo-m8"),

@@ -10,6 +10,7 @@ use crate::files;
 use crate::flight;
 use crate::matrix::{Case, Matrix};
 use crate::record::{LOST_M, Recorder, Row};
+use crate::refusal::did_you_mean;
 use crate::report::measures::Size;
 use crate::report::metrics::errors;
 use crate::scenario::Scenario;
@@ -253,7 +254,11 @@ impl CourseFile {
 /// Refuses a filter that names what is not there.
 fn known(key: &str, filter: Option<&[String]>, names: &[&str], matrix: &str) -> Result<()> {
     for name in filter.unwrap_or_default() {
-        ensure!(names.contains(&name.as_str()), "`{key}` names `{name}`, which matrix `{matrix}` does not have");
+        ensure!(
+            names.contains(&name.as_str()),
+            "`{key}` names `{name}`, which matrix `{matrix}` does not have: {}",
+            did_you_mean(name, names)
+        );
     }
     Ok(())
 }

@@ -60,8 +60,16 @@ impl Settings {
     /// The option that is out of its range.
     pub fn validate(&self) -> Result<()> {
         // CMA-ES learns from the better half: of fewer than four points there is hardly one.
-        ensure!((4..=10_000).contains(&self.particles), "--particles must be between 4 and 10000");
-        ensure!((1..=1_000_000).contains(&self.iterations), "--iterations must be between 1 and 1000000");
+        ensure!(
+            (4..=10_000).contains(&self.particles),
+            "--particles must be between 4 and 10000, not {}",
+            self.particles
+        );
+        ensure!(
+            (1..=1_000_000).contains(&self.iterations),
+            "--iterations must be between 1 and 1000000, not {}",
+            self.iterations
+        );
         Ok(())
     }
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use crate::controller::{Controller, TuningFile};
-use crate::files;
+use crate::refusal::typed;
 
 /// How a range is divided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -188,8 +188,7 @@ fn set(table: &mut Table, parameter: &Parameter, x: f64) -> Result<()> {
 }
 
 fn controller(table: Table) -> Result<Controller> {
-    let file: TuningFile = table.try_into().map_err(|error| files::one_line(&error))?;
-    Ok(file.controller)
+    Ok(typed::<TuningFile>(table)?.controller)
 }
 
 /// The number at a dotted key.

@@ -116,7 +116,7 @@ fn spoilt_scenario_files_are_refused() {
         ("join", spoilt("duration_s = 1.", "duration_s = -1."), "join"),
         ("start", spoilt("plant =", "start_position_m = [0.0, nan, 0.0]\nplant ="), "start_position_m"),
         ("syntax", spoilt("[control]", "[control"), "line"),
-        ("empty", String::new(), "summary"),
+        ("empty", String::new(), "missing"),
         ("ratio", spoilt("thrust_to_weight = 2.0", "thrust_to_weight = nan"), "thrust_to_weight"),
     ];
     for (name, text, culprit) in cases {
@@ -141,8 +141,8 @@ fn spoilt_airframe_files_are_refused() {
         ("0.5e-2, 0.1e-2]", "0.0, 0.1e-2]", "inertia_kg_m2"),
         ("rotor_lag_s = 0.0", "rotor_lag_s = -0.1", "rotor_lag_s"),
         ("drag_n_s_m = [0.3729", "drag_n_s_m = [-1.0", "drag_n_s_m"),
-        ("yaw_n_m_s2 = 33e-6", "yaw_n_m_s2 = nan", "geometry"),
-        ("x_m = 0.350", "x_m = inf", "geometry"),
+        ("yaw_n_m_s2 = 33e-6", "yaw_n_m_s2 = nan", "rotors.0.yaw_n_m_s2"),
+        ("x_m = 0.350", "x_m = inf", "rotors.0.x_m"),
         ("lift_n_s2 = 29.8e-4", "lift_n_s2 = 0.0", "lift_n_s2"),
         ("summary =", "colour = 1\nsummary =", "colour"),
     ];
@@ -155,7 +155,7 @@ fn spoilt_airframe_files_are_refused() {
     // Four rotors that all push the same way cannot yaw independently of thrust.
     let airframe = folder.file("airframe.toml", &AIRFRAME.replace("= -33e-6", "= 33e-6"));
     let scenario = folder.file("scenario.toml", &spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
-    folder.refuses(&["run", &scenario], "geometry");
+    folder.refuses(&["run", &scenario], "rotors");
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod common;
 
 mod analyse;
 mod cli;
+mod console;
 mod control_laws;
 mod day;
 mod determinism;
@@ -14,6 +15,7 @@ mod effects;
 mod fault_schedules;
 mod flights;
 mod landing;
+mod messages;
 mod no_panic;
 mod paper_cases;
 mod paper_command;

@@ -19,6 +19,7 @@ use crate::report::metrics::errors;
 use crate::report::timeline::{Event, EventKind, Phase, Timeline};
 use crate::report::touchdown::Touchdown;
 use crate::scenario::Scenario;
+use crate::sil::End;
 
 /// Phases in which it stands.
 const ON_THE_GROUND: [&str; 3] = ["before arming", "on the ground", "disarmed"];
@@ -56,7 +57,7 @@ fn faults(timeline: &Timeline) -> Vec<Span> {
 fn events(scenario: &Scenario, rows: &[Row], timeline: &Timeline) -> Vec<(f64, String)> {
     let of = |kind: EventKind| timeline.events.iter().find(|event| event.kind == kind).map(|event| event.t_s);
     let landed = of(EventKind::Touchdown).or_else(|| touchdown(scenario, rows));
-    let lost = rows.last().filter(|row| !row.is_tracking()).map(|row| row.t);
+    let lost = rows.last().filter(|row| row.end() != End::DurationReached).map(|row| row.t);
     let named = [
         (landed, TOUCHDOWN),
         (of(EventKind::Crash), "crash"),

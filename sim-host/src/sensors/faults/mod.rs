@@ -20,9 +20,9 @@ use firmware::airframe::ROTORS;
 use firmware::signals::Tick;
 use serde::{Deserialize, Serialize};
 
-use super::check::within;
 use super::process::{seconds, ticks};
 use crate::noise::gaussian::Stream;
+use crate::refusal::{Refusal, after, typed, within};
 use running::Running;
 pub(super) use running::{Memory, Sample};
 
@@ -56,6 +56,25 @@ pub enum Sensor {
     /// Battery monitor.
     Battery,
 }
+
+/// The names of the kinds, as they are written in files.
+pub(crate) const KINDS: [&str; 15] = [
+    "off",
+    "stuck",
+    "drift",
+    "noise",
+    "spikes",
+    "delayed",
+    "nan",
+    "glitch",
+    "no-fix",
+    "loss",
+    "duplicate",
+    "disorder",
+    "time-jump",
+    "rotor",
+    "collapse",
+];
 
 /// How a sensor fails, or a rotor, or the battery. Directions are in the frame of what is measured; without one, it is
 /// drawn from the seed.
@@ -169,19 +188,56 @@ impl TryFrom<toml::Table> for Fault {
         for key in ["sensor", "from_s", "to_s"] {
             common.extend(table.remove_entry(key));
         }
-        let Common { sensor, from_s, to_s } = common.try_into().map_err(|error| in_a_fault(&error))?;
-        let kind = table.try_into().map_err(|error| in_a_fault(&error))?;
-        let fault = Self { sensor, kind, from_s, to_s };
+        let common = typed(common).map_err(in_a_fault)?;
+        let Common { sensor, from_s, to_s } = common;
+        require_kinds_of_values(&table).map_err(in_a_fault)?;
+        let fault = Self { sensor, kind: typed(table).map_err(in_a_fault)?, from_s, to_s };
         fault.validate().map_err(|error| format!("{error:#}"))?;
         Ok(fault)
     }
 }
 
-fn in_a_fault(error: &toml::de::Error) -> String {
-    format!("in a `fault`: {}", error.to_string().trim().replace('\n', ", "))
+fn in_a_fault(error: anyhow::Error) -> String {
+    format!("{:#}", Refusal::below(error, "fault"))
 }
 
+/// Refuses a value of another kind than its key's: an enumeration with its tag inside forgets which key it was.
+fn require_kinds_of_values(table: &toml::Table) -> Result<()> {
+    for (key, value) in table {
+        let (rule, is_one) = match key.as_str() {
+            "kind" => ("must be text in quotes", value.is_str()),
+            "direction" => ("must be an array of 3 numbers", value.as_array().is_some_and(|v| v.len() == 3)),
+            "index" => ("must be a whole number from 0 up", value.as_integer().is_some_and(|index| index >= 0)),
+            _ => ("must be a number", value.is_float() || value.is_integer()),
+        };
+        if !is_one && KEYS.contains(&key.as_str()) {
+            return Err(Refusal::new(key, rule).given(value).into());
+        }
+    }
+    Ok(())
+}
+
+/// Every key that some kind of fault has.
+const KEYS: [&str; 12] = [
+    "kind",
+    "direction",
+    "index",
+    "rate",
+    "sigma",
+    "probability",
+    "size",
+    "extra_s",
+    "size_m",
+    "shift_s",
+    "effectiveness",
+    "factor",
+];
+
 impl Sensor {
+    /// Every sensor.
+    pub(crate) const ALL: [Self; 8] =
+        [Self::Imu, Self::Gyro, Self::Accel, Self::Mag, Self::Baro, Self::Gnss, Self::Pose, Self::Battery];
+
     /// The sensor whose samples it is part of.
     fn channel(self) -> Self {
         if matches!(self, Self::Gyro | Self::Accel) { Self::Imu } else { self }
@@ -203,6 +259,12 @@ impl Sensor {
 }
 
 impl Kind {
+    /// As it is written in files.
+    fn name(&self) -> String {
+        let table = toml::Table::try_from(self).unwrap_or_default();
+        table.get("kind").and_then(toml::Value::as_str).unwrap_or_default().to_owned()
+    }
+
     /// Whether a sensor can fail like that.
     fn fits(&self, sensor: Option<Sensor>) -> bool {
         use Sensor::{Accel, Battery, Gnss, Gyro, Imu, Pose};
@@ -234,7 +296,7 @@ impl Kind {
             Self::Loss { probability } | Self::Duplicate { probability } => fraction("probability", probability),
             Self::TimeJump { shift_s } => within("fault.shift_s", shift_s, -TIME_MAX_S, TIME_MAX_S),
             Self::Rotor { index, effectiveness } => {
-                ensure!(index < ROTORS, "`fault.index` must be a rotor, 0 to {}, not {index}", ROTORS - 1);
+                within("fault.index", index as f64, 0.0, (ROTORS - 1) as f64)?;
                 fraction("effectiveness", effectiveness)
             }
             Self::Collapse { factor } => fraction("factor", factor),
@@ -247,7 +309,10 @@ impl Kind {
 fn pointing(direction: Option<[f64; 3]>) -> Result<()> {
     let Some(direction) = direction else { return Ok(()) };
     direction.iter().try_for_each(|value| within("fault.direction", *value, -1e6, 1e6))?;
-    ensure!(direction.iter().any(|value| value.abs() > 1e-6), "`fault.direction` must point somewhere");
+    ensure!(
+        direction.iter().any(|value| value.abs() > 1e-6),
+        "`fault.direction` must point somewhere, not be zero: leave it out for one drawn from the seed"
+    );
     Ok(())
 }
 
@@ -264,18 +329,34 @@ impl Fault {
     pub fn validate(&self) -> Result<()> {
         within("fault.from_s", self.from_s, 0.0, TIME_MAX_S)?;
         if let Some(to_s) = self.to_s {
-            within("fault.to_s", to_s, self.from_s, TIME_MAX_S)?;
+            within("fault.to_s", to_s, 0.0, TIME_MAX_S)?;
+            if to_s < self.from_s {
+                after(("fault.from_s", self.from_s), ("fault.to_s", to_s))?;
+            }
         }
-        match self.sensor {
-            Some(sensor) => ensure!(
-                self.kind.fits(Some(sensor)),
-                "`fault.kind` does not go with the sensor `{}`: {:?}",
-                sensor.name(),
-                self.kind
-            ),
-            None => ensure!(self.kind.fits(None), "`fault.sensor` is missing"),
-        }
+        self.require_fitting_sensor()?;
         self.kind.validate()
+    }
+
+    fn require_fitting_sensor(&self) -> Result<()> {
+        if self.kind.fits(self.sensor) {
+            return Ok(());
+        }
+        let fitting = Sensor::ALL.into_iter().filter(|sensor| self.kind.fits(Some(*sensor)));
+        let fitting = fitting.map(Sensor::name).collect::<Vec<_>>().join(", ");
+        let kind = self.kind.name();
+        Err(match self.sensor {
+            Some(_) if fitting.is_empty() => {
+                Refusal::new("fault.sensor", format!("does not go with `{kind}`, which is of no sensor"))
+                    .remedy("leave it out")
+            }
+            Some(sensor) => {
+                Refusal::new("fault.kind", format!("`{kind}` does not go with the sensor `{}`", sensor.name()))
+                    .remedy(format!("use it with {fitting}"))
+            }
+            None => Refusal::new("fault.sensor", "is missing").remedy(format!("`{kind}` goes with {fitting}")),
+        }
+        .into())
     }
 }
 

@@ -1,0 +1,391 @@
+//! What the program says of input that it cannot use: one line, with the name, the key, the value, what it may be and
+//! what to do, and exit code 2. One table: arguments, and what the line holds.
+
+use std::fs;
+use std::net::UdpSocket;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// A folder of its own, in which the program runs.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("glissade-{}-messages-{name}", std::process::id()));
+        fs::create_dir_all(&path).expect("the temporary folder can be written");
+        Self(path)
+    }
+
+    fn file(&self, name: &str, text: impl AsRef<[u8]>) {
+        fs::write(self.0.join(name), text).expect("the temporary folder can be written");
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_sim-host"))
+            .args(arguments)
+            .current_dir(&self.0)
+            .output()
+            .expect("the program starts")
+    }
+
+    /// One line on standard error that holds every one of `parts`, nothing on standard output, exit code 2.
+    fn refuses(&self, arguments: &[&str], parts: &[&str]) {
+        let output = self.run(arguments);
+        let line = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {line}");
+        assert_eq!(line.lines().count(), 1, "{arguments:?}: {line}");
+        assert!(line.starts_with("sim-host: ") && output.stdout.is_empty(), "{arguments:?}: {line}");
+        for part in parts {
+            assert!(line.contains(part), "{arguments:?}: {part} is not in: {line}");
+        }
+        for never in ["panicked", ", ,", "``", "os error", "NaN"] {
+            assert!(!line.contains(never), "{arguments:?}: {never} is in: {line}");
+        }
+    }
+
+    /// A flight with settings, each after a `--set`.
+    fn refuses_settings(&self, scenario: &str, settings: &[&str], parts: &[&str]) {
+        let arguments = settings.iter().flat_map(|setting| ["--set", *setting]);
+        self.refuses(&["run", scenario].into_iter().chain(arguments).collect::<Vec<_>>(), parts);
+    }
+
+    /// What a run that succeeds prints on standard output and standard error.
+    fn prints(&self, arguments: &[&str]) -> (String, String) {
+        let output = self.run(arguments);
+        let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).expect("UTF-8"));
+        assert!(output.status.success(), "{arguments:?}: {err}");
+        (out, err)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+#[test]
+fn a_name_that_is_unknown_is_answered_with_the_one_that_was_meant() {
+    let folder = Folder::new("names");
+    folder.file("mine.toml", "airframe = \"x50\"\n");
+    for (arguments, parts) in [
+        (&["run", "helicks"][..], &["scenario", "`helicks`", "did you mean `helix`?"][..]),
+        (&["run", "outdoor-tuor"], &["`outdoor-tuor`", "did you mean `outdoor-tour`?"]),
+        (&["run", "qqq"], &["`qqq`", "sim-host scenarios", "path"]),
+        (&["run", "helix", "--set", "airframe=x50"], &["airframe `x50`", "did you mean `x500`?"]),
+        (&["run", "x500-hover", "--set", "tuning=x500-pdi"], &["tuning `x500-pdi`", "did you mean `x500-pid`?"]),
+        (&["run", "helix", "--set", "sensors=gnsss"], &["suite `gnsss`", "did you mean `gnss`?"]),
+        (&["compare", "x501"], &["matrix `x501`", "did you mean `x500`?"]),
+        (&["compare", "x500", "--scenarios", "x500-hovr"], &["`x500-hovr`", "did you mean `x500-hover`?"]),
+        (&["compare", "x500", "--disturbances", "mass30"], &["`mass30`", "did you mean `mass+30`?"]),
+        (&["tune", "x500-scm", "--out", "out"], &["tune `x500-scm`", "did you mean `x500-smc`?"]),
+        (&["asess"], &["'asess'", "'assess'"]),
+        (&["rnu", "helix"], &["'rnu'", "did you mean `run`?"]),
+        (&["fly", "helix"], &["'fly'", "run, scenarios, serve"]),
+        (&["sweep", "helix"], &["scenario `helix`", "no `[disturbance]`", "paper-disturbed"]),
+        (&["assess", "helix"], &["scenario `helix`", "no `[assess]`", "sim-host assess"]),
+        (&["helix"], &["'helix'", "sim-host run helix"]),
+        (&["run", "helix", "--sed", "3"], &["'--sed'", "'--seed'"]),
+        (&["tune", "x500-smc", "--out", "o", "--method", "psoo"], &["'psoo'", "pso"]),
+        (&["run", "helix.toml"], &["`helix.toml`", "No such file", "built-in `helix`"]),
+        (&["run"], &["<SCENARIO>", "--help"]),
+    ] {
+        folder.refuses(arguments, parts);
+    }
+}
+
+#[test]
+fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
+    let folder = Folder::new("settings");
+    for (scenario, setting, parts) in [
+        ("helix", "control.x.lambda=-3", &["scenario `helix`", "`control.x.lambda` must be above 0, not -3"][..]),
+        ("helix", "control.x.lamda=3", &["`control.x.lamda` is no key", "did you mean `lambda`?"]),
+        ("helix", "control.x.lambda=fast", &["`control.x.lambda` must be a number, not \"fast\""]),
+        ("helix", "control.x.lambda=nan", &["`control.x.lambda` must be a finite number, not nan"]),
+        ("helix", "control.x={lambda=3}", &["`control.x.gain` is missing", "add `gain"]),
+        ("helix", "control.w.lambda=3", &["`control.w` is no key", "roll, pitch, yaw, x, y, z"]),
+        ("helix", "contrl.x.lambda=3", &["`contrl` is no key", "did you mean `control`?"]),
+        ("helix", "control=3", &["`control` must be a table, not 3"]),
+        ("helix", "control.x.reaching={power={alpha=2}}", &["`control.x.reaching.power.alpha` must be below 1, not 2"]),
+        ("helix", "control.x.reaching=sng", &["`control.x.reaching`", "`sng`", "did you mean `sgn`?"]),
+        ("helix", "control.tilt_max_rad=1.6", &["`control.tilt_max_rad` must be below 1.5, not 1.6"]),
+        ("helix", "airframe.mass=3", &["`airframe.mass` is no key", "did you mean `mass_kg`?"]),
+        (
+            "helix",
+            "airframe.thrust_to_weight=3",
+            &["scenario `helix` has its own `thrust_to_weight`", "set `thrust_to_weight`"],
+        ),
+        ("field", "sensors.gnss.rate_hz=3", &["`sensors.gnss.rate_hz`", "whole milliseconds, not 3", "divides 1000"]),
+        ("helix", "airframe.mass_kg=-3", &["`airframe.mass_kg` must be above 0, not -3"]),
+        ("helix", "airframe.rotors.1.lift_n_s2=0", &["`airframe.rotors.1.lift_n_s2` must be above 0, not 0"]),
+        ("helix", "airframe.rotors.4.x_m=0", &["`rotors.4` is not there", "0 to 3"]),
+        ("helix", "plant=rigd-body", &["`plant` must be one of rigid-body,", "did you mean `rigid-body`?"]),
+        ("helix", "trajectory={helx={}}", &["`trajectory` must be one of", "did you mean `helix`?"]),
+        ("helix", "trajectory=3", &["`trajectory` must be", "not 3"]),
+        ("helix", "duration_s=0", &["`duration_s` must be between 0.001 and 1e6 s, not 0"]),
+        ("helix", "duration_s=-5", &["`duration_s`", "not -5"]),
+        ("helix", "duration_s=inf", &["`duration_s`", "not inf"]),
+        ("helix", "duration_s=1e300", &["`duration_s`", "1e6 s"]),
+        ("helix", "duration_s=soon", &["`duration_s` must be a number, not \"soon\""]),
+        ("helix", "duration_s=", &["--set duration_s=", "the value is missing"]),
+        ("helix", "=3", &["--set =3", "KEY=VALUE"]),
+        ("helix", "duration_s", &["--set duration_s", "KEY=VALUE"]),
+        ("helix", "duration_s.x=3", &["`duration_s` is 20.0, and no table"]),
+        ("helix", "start_position_m=[0,0]", &["`start_position_m` must have 3 values, not 2"]),
+        ("helix", "start_position_m=[0,0,0,0]", &["`start_position_m` has too many values, 4"]),
+        ("x500-hover", "start_position_m.1=nan", &["`start_position_m.1` must be between -1e6 and 1e6 m, not nan"]),
+        ("helix", "start_position_m.3=1", &["`start_position_m` has no entries", "as a whole"]),
+        ("helix", "push=[{from_s=3,to_s=1}]", &["`push.0.to_s`", "from 3 to 1 s runs backwards"]),
+        ("helix", "modes.climb_m_s=0", &["`modes.climb_m_s` must be between 0.05 and 100 m/s, not 0"]),
+        ("helix", "sensors=3", &["`sensors` must be a suite's name or a table, not 3"]),
+        ("paper-disturbed", "disturbance.to_s=1", &["`disturbance.to_s`", "runs backwards"]),
+        ("paper-disturbed", "disturbance.hold_s=0.0014", &["`disturbance.hold_s` must be whole milliseconds"]),
+        ("field", "sensors.gnss.delay_s=2", &["`sensors.gnss.delay_s` must be between 0 and 1 s, not 2"]),
+        ("field", "sensors.gnss.dealy_s=2", &["`sensors.gnss.dealy_s` is no key", "did you mean `delay_s`?"]),
+        ("x500-hover", "fault.0.from_s=3", &["`fault` has no entries", "as a whole"]),
+        ("x500-hover", "command=[{order=\"take-of\"}]", &["`command.0.order`", "did you mean `take-off`?"]),
+    ] {
+        folder.refuses_settings(scenario, &[setting], parts);
+    }
+    for (fault, parts) in [
+        ("kind=\"rotr\",index=0,effectiveness=0.5", &["`fault.0.kind`", "`rotr`", "did you mean `rotor`?"][..]),
+        ("kind=\"rotor\",index=7,effectiveness=0.5", &["`fault.0.index` must be between 0 and 3, not 7"]),
+        ("kind=\"rotor\",index=\"two\",effectiveness=0.5", &["`fault.0.index` must be a whole number", "not \"two\""]),
+        ("kind=\"glitch\",sensor=\"baro\",size_m=1", &["`fault.0.kind`", "`glitch`", "`baro`", "gnss, pose"]),
+        ("kind=\"off\"", &["`fault.0.sensor` is missing", "mag, baro, gnss, pose, battery"]),
+        ("kind=\"off\",sensor=\"gnss\"", &["`fault.0.sensor` is `gnss`", "`sensors`"]),
+        (
+            "kind=\"rotor\",to_s=0.5,index=1,effectiveness=0.5",
+            &["`fault.0.to_s`", "`fault.0.from_s`", "runs backwards"],
+        ),
+        ("kind=\"rotor\",indx=2,effectiveness=0.5", &["`fault.0.indx` is no key", "did you mean `index`?"]),
+    ] {
+        folder.refuses_settings("x500-hover", &[&format!("fault=[{{{fault},from_s=1}}]")], parts);
+    }
+}
+
+#[test]
+fn settings_of_gains_are_laid_over_the_tuning_that_flies() {
+    let folder = Folder::new("gains");
+    let hash = |settings: &[&str]| {
+        let settings = settings.iter().flat_map(|setting| ["--set", *setting]);
+        let arguments = ["run", "x500-step", "--set", "duration_s=2", "--json"].into_iter().chain(settings);
+        let (out, _) = folder.prints(&arguments.collect::<Vec<_>>());
+        let summary: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+        summary["truth_sha256"].as_str().expect("a hash").to_owned()
+    };
+    let changed = hash(&["control.x.lambda=3"]);
+    assert_ne!(changed, hash(&[]), "a gain of the airframe's own tuning is changed");
+    assert_eq!(changed, hash(&["smc.x.lambda=3"]), "by either name");
+    assert_eq!(changed, hash(&["control.x.lambda=2", "control.x.lambda=3"]), "the last one wins");
+    let pid = hash(&["tuning=x500-pid"]);
+    assert_ne!(pid, hash(&["pid.position_p_1_s.xy=1.0", "tuning=x500-pid"]), "whatever the order");
+    // The value that the tuning has is no change: nothing else of it is touched.
+    assert_eq!(hash(&[]), hash(&["control.x.lambda=5.0"]));
+
+    for (settings, parts) in [
+        (&["control.x.lambda=-3"][..], &["`control.x.lambda` must be above 0, not -3"][..]),
+        (&["control.x.lamda=3"], &["`control.x.lamda` is no key", "did you mean `lambda`?"]),
+        (&["pid.yaw_weight=0.3"], &["tuning `x500-smc`", "`smc`, not of `pid`", "`control.…`"]),
+        (&["tuning=x500-pid", "control.x.lambda=3"], &["tuning `x500-pid`", "`pid`, not of `smc`", "`pid.…`"]),
+        (&["tuning=x500-pid", "pid.yaw_weight=3"], &["`pid.yaw_weight` must be between 0 and 1, not 3"]),
+    ] {
+        folder.refuses_settings("x500-hover", settings, parts);
+    }
+    folder.refuses_settings("helix", &["tuning=x500-pid"], &["`tuning` and `control`", "keep one"]);
+    folder.refuses_settings("helix", &["pid.yaw_weight=0.3"], &["scenario `helix`", "`smc`, not of `pid`"]);
+}
+
+#[test]
+fn an_axis_by_its_bounds_has_the_keys_of_its_bounds() {
+    let folder = Folder::new("bounds");
+    let bounds = |disturbance: f64| {
+        format!("control.x={{answer_s=0.1,disturbance={disturbance},disturbance_rate=5.0,authority=10.0}}")
+    };
+    folder.prints(&["run", "helix", "--set", "duration_s=0.1", "--set", &bounds(3.0)]);
+    let refuses = |settings: &[&str], parts: &[&str]| folder.refuses_settings("helix", settings, parts);
+    refuses(
+        &[&bounds(3.0), "control.x.lambda=3"],
+        &["`control.x.lambda`", "answer_s, disturbance", "leave out `answer_s`"],
+    );
+    refuses(&[&bounds(10.0)], &["`control.x.disturbance` must be below 10, not 10"]);
+    refuses(&[&bounds(-1.0)], &["`control.x.disturbance` must be above 0, not -1"]);
+}
+
+const SCENARIO: &str = "\
+plant = \"rigid-body\"
+airframe = \"x500\"
+duration_s = 1.0
+
+[trajectory.hold]
+position_m = [0.0, 0.0, 0.0]
+yaw_rad = 0.0
+";
+
+#[test]
+fn a_file_is_named_with_the_line_of_the_key() {
+    let folder = Folder::new("files");
+    // Without a summary, which nobody needs to try something.
+    folder.file("mine.toml", SCENARIO);
+    folder.prints(&["run", "mine.toml"]);
+    let spoilt = |from: &str, to: &str| {
+        assert!(SCENARIO.contains(from), "{from}");
+        SCENARIO.replacen(from, to, 1)
+    };
+    for (text, parts) in [
+        (spoilt("= 1.0", "= -1.0"), &["scenario `bad.toml`, line 3", "`duration_s`", "not -1"][..]),
+        (spoilt("= 1.0", "= 1.0 s"), &["scenario `bad.toml`, line 3"]),
+        (spoilt("= 1.0", "= 1.0\nduration_s = 2.0"), &["scenario `bad.toml`, line 4", "duplicate key"]),
+        (spoilt("duration_s", "duration"), &["line 3", "`duration` is no key", "did you mean `duration_s`?"]),
+        (spoilt("plant = \"rigid-body\"", ""), &["scenario `bad.toml`", "`plant` is missing"]),
+        (spoilt("yaw_rad = 0.0", ""), &["line 5", "`trajectory.hold.yaw_rad` is missing"]),
+        (
+            spoilt("[0.0, 0.0, 0.0]", "[0.0, 0.0]"),
+            &["line 6", "`trajectory.hold.position_m` must have 3 values, not 2"],
+        ),
+        (spoilt("\"x500\"", "\"x50\""), &["airframe `x50`", "did you mean `x500`?"]),
+        (
+            format!("tuning = \"x500-smc\"\n{SCENARIO}\n[control]\ntilt_max_rad = 1.0"),
+            &["scenario `bad.toml`", "`tuning` and `control`", "keep one"],
+        ),
+        (String::new(), &["scenario `bad.toml`", "is missing"]),
+    ] {
+        folder.file("bad.toml", text);
+        folder.refuses(&["run", "bad.toml"], parts);
+    }
+    folder.file("gains.toml", "summary = \"\"\n[smc]\ntilt_max_rad = 1.0\n[smc.x]\nlambda = -1.0\n");
+    folder.refuses_settings(
+        "x500-hover",
+        &["tuning=gains.toml"],
+        &["tuning `gains.toml`, line 4", "`smc.x.gain` is missing"],
+    );
+}
+
+#[test]
+fn a_file_that_is_none_says_what_it_is() {
+    let folder = Folder::new("none");
+    folder.file("bytes.toml", [b'a', b'\n', 0xff, 0xfe]);
+    folder.file("huge.toml", vec![b'#'; (1 << 20) + 1]);
+    fs::create_dir_all(folder.0.join("runs/helix")).expect("can be made");
+    fs::create_dir_all(folder.0.join("runs/other")).expect("can be made");
+    folder.file("runs/helix/scenario.toml", SCENARIO);
+    for (name, parts) in [
+        ("bytes.toml", &["scenario file `bytes.toml`", "line 2 is not UTF-8"][..]),
+        ("huge.toml", &["scenario file `huge.toml`", "larger than 1 MiB"]),
+        ("runs/helix", &["`runs/helix`", "folder", "give `runs/helix/scenario.toml`"]),
+        ("runs/other", &["`runs/other`", "folder", "path of a scenario file"]),
+        ("gone.toml", &["scenario file `gone.toml`", "No such file"]),
+    ] {
+        folder.refuses(&["run", name], parts);
+    }
+}
+
+#[test]
+fn ranges_of_seeds_and_numbers_of_threads_say_what_they_may_be() {
+    let folder = Folder::new("seeds");
+    for (seeds, part) in [
+        ("9..3", "9..3 runs backwards: use 3..9"),
+        ("1..0", "1..0 runs backwards: use 0..1"),
+        ("5", "--seed 5"),
+        ("a..b", "`a` is not a seed"),
+        ("1..99999999", "more than 1000000"),
+        ("1..99999999999999999999", "0 to 18446744073709551615"),
+    ] {
+        folder.refuses(&["run", "helix", "--seeds", seeds], &["--seeds", seeds, part]);
+    }
+    folder.refuses(&["run", "helix", "--seeds", "1..2", "--jobs", "0"], &["--jobs", "'0'", "from 1 up"]);
+    folder.refuses(&["compare", "--jobs", "many"], &["--jobs", "'many'", "from 1 up"]);
+    for arguments in
+        [&["run", "helix", "--seed", "-1"][..], &["sweep", "paper-disturbed", "--seed", "99999999999999999999"]]
+    {
+        folder.refuses(arguments, &["--seed", arguments[3], "0 to 18446744073709551615"]);
+    }
+    folder.refuses(&["bench", "--seconds", "nan"], &["--seconds must be between 1 and 1e6 s, not nan"]);
+    folder.refuses(&["bench", "--runs", "0"], &["--runs must be between 1 and 10000, not 0"]);
+    let (_, said) = folder.prints(&["run", "helix", "--set", "duration_s=0.1", "--seeds", "1..=2", "--jobs", "100000"]);
+    assert!(!said.contains("panicked"), "{said}");
+}
+
+#[test]
+fn seeds_that_make_no_difference_are_said_once() {
+    let folder = Folder::new("idle");
+    let note = "the seed makes no difference: `helix` has no random part";
+    let short = ["run", "helix", "--set", "duration_s=0.1"];
+    for (more, said) in [(&["--seeds", "1..3"][..], 1), (&["--seed", "2"], 1), (&[], 0)] {
+        let (_, err) = folder.prints(&[&short[..], more].concat());
+        assert_eq!(err.matches(note).count(), said, "{more:?}: {err}");
+    }
+    let windy = ["--seed", "2", "--set", "wind.turbulence_20ft_m_s=5"];
+    let (_, err) = folder.prints(&[&short[..], &windy].concat());
+    assert!(!err.contains(note), "turbulence is drawn from the seed: {err}");
+}
+
+#[test]
+fn addresses_say_the_cure() {
+    let folder = Folder::new("addresses");
+    let socket = UdpSocket::bind("127.0.0.1:0").expect("a free port");
+    let taken = socket.local_addr().expect("bound");
+    let next = format!("--listen 127.0.0.1:{}", taken.port().checked_add(1).unwrap_or(65534));
+    folder.refuses(&["serve", "--listen", &taken.to_string()], &[&taken.to_string(), "in use", &next]);
+    // A name, and peers by name: as far as the port, which is taken.
+    let by_name = format!("localhost:{}", taken.port());
+    folder.refuses(&["serve", "--listen", &by_name, "--peer", "localhost"], &[&taken.to_string(), "in use"]);
+    folder.refuses(
+        &["serve", "--listen", "192.0.2.1:14580"],
+        &["192.0.2.1", "no address of this machine", "127.0.0.1:14580"],
+    );
+    folder.refuses(&["serve", "--listen", "localhost:many"], &["--listen", "localhost:14580"]);
+    folder.refuses(&["serve", "--peer", ":14550"], &["--peer", "host is missing", "127.0.0.1:14550"]);
+    folder.refuses(&["serve", "--listen", "[::1]:0"], &["[::1]:0", "127.0.0.1:14550", "IPv6"]);
+}
+
+#[test]
+fn too_few_seeds_are_not_judged() {
+    let folder = Folder::new("few");
+    let part = ["--set", "duration_s=6", "--set", "assess.from_s=5", "--set", "assess.to_s=6"];
+    let expect = ["--set", "assess.expect=[{measure=\"z-error-rms-m\",percentile=95,at_most=1e-9}]"];
+    let (out, _) = folder.prints(&[&["assess", "outdoor-hover", "--seeds", "1..2"][..], &part, &expect].concat());
+    assert!(out.contains("too few seeds, 20 needed") && !out.contains("NOT MET"), "{out}");
+}
+
+#[test]
+fn a_search_that_ends_no_better_than_it_began_says_so() {
+    let folder = Folder::new("tune");
+    // Gains far from any that fly well, from which no iteration comes back.
+    folder.file(
+        "worse.toml",
+        "summary = \"\"\nbase = \"x500-smc\"\ncourse = \"course.toml\"\n\
+         [[parameters]]\nkeys = [\"smc.x.lambda\"]\nlow = 0.1\nhigh = 0.11\n",
+    );
+    folder.file("course.toml", COURSE);
+    let arguments = ["tune", "worse.toml", "--particles", "4", "--iterations", "1", "--out", "out"];
+    let (_, err) = folder.prints(&arguments);
+    assert!(err.contains("warning") && err.contains("keep the base's") && err.contains("--iterations 2"), "{err}");
+    let tuning = fs::read_to_string(folder.0.join("out/tuning.toml")).expect("written");
+    assert!(tuning.contains("which are no worse"), "{tuning}");
+}
+
+/// One short flight.
+const COURSE: &str = "\
+summary = \"one flight\"
+matrix = \"x500\"
+scenarios = [\"x500-step\"]
+disturbances = [\"none\"]
+
+[cost]
+rms = 1.0
+floor = 1e-3
+yaw = 0.2
+settling = 0.5
+chattering = 0.1
+saturation = 0.5
+lost = 10.0
+";
+
+#[test]
+fn a_benchmark_says_what_it_measures() {
+    let folder = Folder::new("bench");
+    let (out, err) = folder.prints(&["bench", "--seconds", "1", "--runs", "3"]);
+    assert!(err.contains("3 flights of `helix`, 1 simulated seconds each"), "{err}");
+    assert!(["lowest", "median", "highest", "real time"].iter().all(|word| out.contains(word)), "{out}");
+}
