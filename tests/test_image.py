@@ -16,7 +16,7 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from conftest import HANG_S, ROOT, missing
 
-IMAGE = Path(os.environ.get("GLISSADE_IMAGE", ROOT / "target/thumbv7em-none-eabihf/release/mps2"))
+IMAGE = Path(os.environ.get("GLISSADE_IMAGE", ROOT / "target/thumbv7em-none-eabihf/image/mps2"))
 QEMU = "qemu-system-arm"
 
 

@@ -1,4 +1,4 @@
-//! What a flight is configured with, validated once before it reaches a loop.
+//! Configuration of a flight, validated once before it reaches a loop.
 
 use nalgebra::Vector3;
 
@@ -22,12 +22,12 @@ use crate::validate::ConfigError;
 pub enum Start {
     /// In the air, armed, at rest; the flight's clock starts with the first tick.
     InFlight,
-    /// On the ground, disarmed; the flight's clock starts when the vehicle is told to follow its trajectory.
+    /// On the ground, disarmed; the flight's clock starts when the vehicle is commanded to follow its trajectory.
     OnGround,
 }
 
-/// How the vehicle flies by itself: the limits of what is asked of it, and what it does when something fails. What is
-/// `vertical` is along the world's z axis, what is not is the size of the horizontal part.
+/// Limits and failsafe settings of the flight modes. `vertical` limits are along the world's z axis, the others are on
+/// the magnitude of the horizontal component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default, deny_unknown_fields))]
 pub struct ModeSettings {
@@ -41,9 +41,9 @@ pub struct ModeSettings {
     pub take_off_m_s: f32,
     /// Speed of a landing, m/s.
     pub landing_m_s: f32,
-    /// The same near the ground and at unknown heights, m/s.
+    /// Speed of a landing near the ground and at unknown heights, m/s.
     pub touchdown_m_s: f32,
-    /// Speed of a descent that a failure has caused, m/s.
+    /// Speed of a descent after a failure, m/s.
     pub descent_m_s: f32,
     /// Greatest horizontal acceleration, m/s².
     pub acceleration_m_s2: f32,
@@ -57,17 +57,17 @@ pub struct ModeSettings {
     pub yaw_acceleration_rad_s2: f32,
     /// Height over home at which the vehicle returns, if it is not higher already, m.
     pub return_height_m: f32,
-    /// Below this voltage of the battery it returns, V; 0 for never.
+    /// Battery voltage below which the vehicle returns, V; 0 for never.
     pub battery_low_v: f32,
-    /// Below this one it lands where it is, V; 0 for never.
+    /// Battery voltage below which it lands where it is, V; 0 for never.
     pub battery_critical_v: f32,
-    /// Speed of the rotors while armed on the ground, as a part of ωmax.
+    /// Speed of the rotors while armed on the ground, as a fraction of ωmax.
     pub idle_part: f32,
-    /// Thrust of a descent without a known height, as a part of the weight.
+    /// Thrust of a descent without a known vertical velocity, as a fraction of the weight.
     pub blind_thrust_part: f32,
 }
 
-/// What suits a quadrotor of any size outdoors. The battery's voltages are the vehicle's own.
+/// Suitable for a quadrotor of any size outdoors. Battery voltages depend on the vehicle.
 impl Default for ModeSettings {
     fn default() -> Self {
         Self {
@@ -146,22 +146,22 @@ pub struct FlightConfig {
     pub attitude: AttitudeGains,
     /// Gains for x, y and z.
     pub position: PositionGains,
-    /// Greatest tilt that position control asks for, rad.
+    /// Greatest tilt that position control demands, rad.
     pub tilt_max_rad: f32,
-    /// Time constant to which the rotors' lag is brought down by lead, s; 0 for none.
+    /// Time constant to which lead compensation shortens the rotor lag, s; 0 for none.
     pub rotor_time_constant_s: f32,
-    /// What to fly.
+    /// The trajectory.
     pub trajectory: Trajectory,
-    /// How to get there.
+    /// The path that joins it; `None` to start on the trajectory.
     pub join: Option<JoinPlan>,
     /// How the flight begins.
     pub start: Start,
     /// Where the flight begins, m.
     pub start_position_m: [f32; 3],
-    /// What the filter is told of the sensors; none for a flight on ideal state.
+    /// Noise parameters of the estimator; `None` for a flight on ideal state.
     #[cfg_attr(feature = "serde", serde(default))]
     pub estimator: Option<EstimatorSettings>,
-    /// How it flies by itself.
+    /// Limits and failsafe settings of the flight modes.
     #[cfg_attr(feature = "serde", serde(default))]
     pub modes: ModeSettings,
 }
@@ -192,12 +192,12 @@ impl FlightConfig {
         self.rotor_time_constant_s > 0.0 && self.rotor_time_constant_s < self.airframe.rotor_lag_s
     }
 
-    /// Time constant with which the rotors answer, s: their lag, or what lead brings it down to.
+    /// Effective time constant of the rotors, s: their lag, or the one that lead compensation gives.
     pub fn rotor_answer_s(&self) -> f32 {
         if self.leads() { self.rotor_time_constant_s } else { self.airframe.rotor_lag_s }
     }
 
-    /// How the torque about yaw is asked for; rotors that nothing is led for are not led in yaw either.
+    /// The yaw allocation; without lead compensation of the rotors it has none either.
     pub fn yaw_inversion(&self) -> YawInversion {
         let lead_s = if self.leads() { self.airframe.spin_up_lead_s() } else { 0.0 };
         YawInversion::new(lead_s, self.rotor_answer_s())

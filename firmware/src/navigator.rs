@@ -54,13 +54,9 @@ impl Navigator {
         fresh
     }
 
-    /// Keeps the newest reading of each sensor.
+    /// Keeps the newest reading of each sensor, and of the battery.
     fn keep(&mut self, measured: &Measurements) {
-        let readings = &mut self.readings;
-        readings.mag = measured.mag.or(readings.mag);
-        readings.baro = measured.baro.or(readings.baro);
-        readings.gnss = measured.gnss.or(readings.gnss);
-        readings.pose = measured.pose.or(readings.pose);
+        self.readings.keep(measured);
         if let Some(battery) = measured.battery.filter(|b| math::all_finite(&[b.voltage_v, b.current_a])) {
             (self.battery, self.battery_age) = (Some(battery), 0);
         }

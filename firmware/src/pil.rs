@@ -25,8 +25,12 @@ use crate::signals::{NavState, SensorFrame, Tick};
 pub use hello::{Answer, BusyWait, Fault, HELLO_BYTES, Hello, HelloError};
 use words::{Reader, Words, Writer, as_words};
 
-/// Protocol version, incremented with every change of a frame: host and image of different versions refuse each other.
-pub const VERSION: u32 = 5;
+/// Incremented with every change of what the bytes of a frame or of a flight's configuration mean. A frame that changes
+/// its size changes [`VERSION`] by itself.
+const LAYOUT: u32 = 5;
+
+/// Protocol version: host and image of different versions refuse each other.
+pub const VERSION: u32 = LAYOUT << 16 | (REQUEST_BYTES + REPLY_BYTES) as u32;
 
 /// Bytes of a [`Request`].
 pub const REQUEST_BYTES: usize = 4 * Request::WORDS;

@@ -17,12 +17,12 @@ use crate::plant::paper::{self, PaperInput, PaperState};
 use crate::record::{Recorder, Row};
 use crate::reference;
 use crate::scenario::{AttitudeWave, Scenario};
-use crate::sil::Outcome;
+use crate::sil::{End, Outcome};
 
 /// Plant steps a second.
 const STEPS_A_SECOND: f64 = 1e5;
 /// Plant step, s.
-const STEP_S: f64 = 1.0 / STEPS_A_SECOND;
+pub(crate) const STEP_S: f64 = 1.0 / STEPS_A_SECOND;
 /// Plant steps in a row of the record.
 const STEPS_A_ROW: u32 = 100;
 
@@ -138,15 +138,18 @@ impl Decoupled {
 
     /// Flies `rows` rows of 1 ms, or until the vehicle is lost.
     pub fn run(&mut self, rows: u32, recorder: &mut impl Recorder) -> Outcome {
-        let mut outcome = Outcome { survived: true, ..Outcome::default() };
-        while outcome.survived && outcome.ticks < rows {
+        let mut outcome = Outcome::default();
+        while outcome.survived() && outcome.ticks < rows {
             for i in 0..STEPS_A_ROW {
                 let disturbed = *self.noise.at(self.step);
                 let control = self.control(&disturbed);
                 if i == 0 {
                     let row = self.row(&control);
-                    outcome.survived = row.is_tracking();
+                    outcome.end = row.end();
                     recorder.record(&row);
+                    if recorder.stops() && outcome.survived() {
+                        outcome.end = End::Interrupted;
+                    }
                 }
                 let input = PaperInput { force: control.force, torque: control.torque, spin: 0.0 };
                 self.state = self.constants.paper_step(&self.state, |_| input, &disturbed.push, STEP_S);

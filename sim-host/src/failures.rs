@@ -2,65 +2,78 @@
 //! keys of a scenario's `[[fault]]`.
 //!
 //! ```text
-//! fault sensor=gnss kind=off                 from now on, or from_s=…
-//! fault kind=rotor index=0 effectiveness=0.5
-//! clear                                      ends all
-//! faults                                     lists those that act, and those to come
+//! sensor=gnss kind=off                 from now on, or from_s=…
+//! gnss off                             the same
+//! rotor index=0 effectiveness=0.5      kind=rotor
 //! ```
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail, ensure};
 use firmware::airframe::ROTORS;
 use firmware::failure::{Failure, Injectable, Manner, Unit};
 use firmware::signals::{TICK_S_EXACT, Tick};
 use toml::{Table, Value};
 
-use crate::sensors::faults::{Kind, SLOTS, Sensor};
+use crate::sensors::faults::{KINDS, Kind, SLOTS, Sensor};
 use crate::sensors::{Fault, Suite};
+use crate::refusal::did_you_mean as meant;
 
-/// What a line asks for.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Order {
-    /// A fault.
-    Fault(Fault),
-    /// The end of all faults.
-    Clear,
-    /// What there is.
-    List,
-}
-
-/// Reads a line at a tick; an empty one asks for nothing.
+/// Reads a fault from its words: `KEY=VALUE`, or the name of a sensor or of a kind alone. Without `from_s` it begins at
+/// `now`.
 ///
 /// # Errors
 /// In one line, what is wrong with it.
-pub fn parse(line: &str, now: Tick) -> Result<Option<Order>> {
-    let mut words = line.split_whitespace();
-    let order = match words.next() {
-        None => return Ok(None),
-        Some("fault") => {
-            let mut table: Table = words.by_ref().map(key_and_value).collect::<Result<_>>()?;
-            table.entry("from_s").or_insert(Value::Float(f64::from(now) * TICK_S_EXACT));
-            Order::Fault(Fault::try_from(table).map_err(|error| anyhow!("{error}"))?)
-        }
-        Some("clear") => Order::Clear,
-        Some("faults") => Order::List,
-        Some(other) => bail!("`{other}` is not known here: use `fault KEY=VALUE …`, `clear` or `faults`"),
+pub fn parse<'a>(words: impl Iterator<Item = &'a str>, now: Tick) -> Result<Fault> {
+    let mut table = Table::new();
+    for word in words {
+        let (key, value) = key_and_value(word)?;
+        ensure!(table.insert(key.to_owned(), value).is_none(), "`{key}` is given twice");
+    }
+    ensure!(table.contains_key("kind"), "say how it fails: kind={}", KINDS.join("|"));
+    table.entry("from_s").or_insert(Value::Float(f64::from(now) * TICK_S_EXACT));
+    Fault::try_from(table).map_err(|error| anyhow!("{error}"))
+}
+
+/// A word as the key and the value that it stands for.
+fn key_and_value(word: &str) -> Result<(&str, Value)> {
+    let sensors = Sensor::ALL.map(Sensor::name);
+    let (key, text) = match word.split_once('=') {
+        Some(pair) => pair,
+        None if sensors.contains(&word) => ("sensor", word),
+        None if KINDS.contains(&word) => ("kind", word),
+        None => bail!("`{word}` is no sensor and no kind of fault: {}", meant(word, &[&sensors[..], &KINDS].concat())),
     };
-    match words.next() {
-        None => Ok(Some(order)),
-        Some(rest) => bail!("`{rest}` is too much in `{}`", line.trim()),
+    match key {
+        "sensor" if !sensors.contains(&text) => bail!("there is no sensor `{text}`: {}", meant(text, &sensors)),
+        "kind" if !KINDS.contains(&text) => bail!("there is no kind of fault `{text}`: {}", meant(text, &KINDS)),
+        "sensor" | "kind" => Ok((key, Value::String(text.to_owned()))),
+        _ => Ok((key, crate::scenario::value(text))),
     }
 }
 
-fn key_and_value(word: &str) -> Result<(String, Value)> {
-    let (key, text) = word.split_once('=').with_context(|| format!("`{word}`: use KEY=VALUE"))?;
-    Ok((key.to_owned(), crate::scenario::value(text)))
+/// A fault as a line would write it.
+pub fn describe(fault: &Fault) -> String {
+    words(fault, |key, value| format!("{key}={value}"))
 }
 
-/// A fault as a line would ask for it.
-pub fn describe(fault: &Fault) -> String {
-    let words = |table: Table| table.into_iter().map(|(key, value)| format!("{key}={}", plain(&value))).collect();
-    let words: Vec<String> = Table::try_from(fault).map_or_else(|_| Vec::new(), words);
-    format!("fault {}", words.join(" "))
+/// A fault in short, without its times: the sensor, the kind, and the keys of the kind.
+pub fn brief(fault: &Fault) -> String {
+    let timeless = Fault { from_s: 0.0, to_s: None, ..*fault };
+    words(&timeless, |key, value| match key {
+        "sensor" | "kind" => value.to_owned(),
+        "from_s" => String::new(),
+        _ => format!("{key}={value}"),
+    })
+}
+
+/// Sensor and kind first, then the other keys, each written by `write`.
+fn words(fault: &Fault, write: impl Fn(&str, &str) -> String) -> String {
+    // What was read from a table can be written into one.
+    let mut table = Table::try_from(fault).unwrap_or_default();
+    let first = ["sensor", "kind"].into_iter().filter_map(|key| table.remove_entry(key));
+    let mut pairs: Vec<_> = first.collect();
+    pairs.extend(table);
+    let written = pairs.iter().map(|(key, value)| write(key, &plain(value)));
+    written.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 /// A value without quotes and spaces.
@@ -162,51 +175,59 @@ mod tests {
     use crate::flight;
     use crate::scenario::Scenario;
 
+    fn read(line: &str) -> Result<Fault> {
+        parse(line.split_whitespace(), 1500)
+    }
+
     fn fault(line: &str) -> Fault {
-        match parse(line, 1500).expect(line) {
-            Some(Order::Fault(fault)) => fault,
-            other => panic!("{other:?}"),
-        }
+        read(line).expect(line)
     }
 
     #[test]
     fn lines_are_the_faults_of_files_from_now_on() {
-        let rotor = fault("fault kind=rotor index=0 effectiveness=0.5");
+        let rotor = fault("kind=rotor index=0 effectiveness=0.5");
         assert_eq!(rotor.kind, Kind::Rotor { index: 0, effectiveness: 0.5 });
         assert_eq!((rotor.from_s, rotor.to_s, rotor.sensor), (1.5, None, None));
-        let gnss = fault("  fault sensor=gnss kind=glitch size_m=50 direction=[1,0,0] from_s=20 to_s=30 ");
+        let gnss = fault("  sensor=gnss kind=glitch size_m=50 direction=[1,0,0] from_s=20 to_s=30 ");
         assert_eq!(gnss.kind, Kind::Glitch { size_m: 50.0, direction: Some([1.0, 0.0, 0.0]) });
         assert_eq!((gnss.from_s, gnss.to_s), (20.0, Some(30.0)));
-        assert_eq!(parse("clear", 0).expect("known"), Some(Order::Clear));
-        assert_eq!(parse(" faults", 0).expect("known"), Some(Order::List));
-        assert_eq!(parse("   ", 0).expect("nothing"), None);
     }
 
     #[test]
-    fn what_is_listed_can_be_asked_for() {
-        for line in
-            ["fault sensor=gnss kind=off", "fault kind=collapse factor=0.85", "fault sensor=gnss kind=glitch size_m=5"]
-        {
+    fn names_alone_are_enough_in_any_order() {
+        assert_eq!(fault("gnss off"), fault("sensor=gnss kind=off"));
+        assert_eq!(fault("stuck baro"), fault("kind=stuck sensor=baro"));
+        assert_eq!(fault("rotor index=1 effectiveness=0"), fault("kind=rotor index=1 effectiveness=0.0"));
+    }
+
+    #[test]
+    fn what_is_listed_can_be_typed_again() {
+        for (line, short) in [
+            ("gnss off", "gnss off"),
+            ("collapse factor=0.85 from_s=3 to_s=5", "collapse factor=0.85"),
+            ("gnss glitch size_m=5", "gnss glitch size_m=5.0"),
+        ] {
             let asked = fault(line);
-            let again = describe(&asked);
-            assert_eq!(fault(&again), asked, "{again}");
+            assert_eq!(fault(&describe(&asked)), asked, "{}", describe(&asked));
+            assert_eq!(brief(&asked), short);
         }
     }
 
     #[test]
     fn bad_lines_are_refused_by_what_is_wrong_with_them() {
         for (line, culprit) in [
-            ("explode", "explode"),
-            ("fault", "kind"),
-            ("fault sensor=gnss", "kind"),
-            ("fault sensor=gnss off", "off"),
-            ("fault sensor=gps kind=off", "gps"),
-            ("fault sensor=gyro kind=off", "gyro"),
-            ("fault kind=rotor index=9 effectiveness=0.5", "index"),
-            ("fault sensor=gnss kind=off colour=1", "colour"),
-            ("clear gnss", "gnss"),
+            ("explode", "`explode` is no sensor and no kind"),
+            ("", "kind="),
+            ("sensor=gnss", "kind="),
+            ("sensor=gps kind=off", "there is no sensor `gps`: use one of imu"),
+            ("gns off", "did you mean `gnss`?"),
+            ("gnss kind=stck", "there is no kind of fault `stck`: did you mean `stuck`?"),
+            ("gnss off stuck", "`kind` is given twice"),
+            ("sensor=gyro kind=off", "gyro"),
+            ("rotor index=9 effectiveness=0.5", "index"),
+            ("sensor=gnss kind=off colour=1", "colour"),
         ] {
-            let error = format!("{:#}", parse(line, 0).expect_err(line));
+            let error = format!("{:#}", read(line).expect_err(line));
             assert!(error.contains(culprit) && !error.contains('\n'), "{line}: {error}");
         }
     }
@@ -253,9 +274,9 @@ mod tests {
         assert!(injectable(None, true).is_none());
         let scenario = Scenario::load("pad", &[]).expect("built in");
         let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("flies");
-        let refusal = flight.inject(&fault("fault sensor=gnss kind=off")).expect_err("ideal");
+        let refusal = flight.inject(&fault("sensor=gnss kind=off")).expect_err("ideal");
         assert!(refusal.to_string().contains("sensors"), "{refusal}");
-        let refusal = flight.inject(&fault("fault kind=collapse factor=0.5")).expect_err("no battery");
+        let refusal = flight.inject(&fault("kind=collapse factor=0.5")).expect_err("no battery");
         assert!(refusal.to_string().contains("battery"), "{refusal}");
     }
 
@@ -268,8 +289,8 @@ mod tests {
         };
         flight.step(&mut ());
         let (lift, full) = (flight.plant().constants().geometry[(0, 2)], volts(&flight));
-        flight.inject(&fault("fault kind=rotor index=2 effectiveness=0.5 from_s=0")).expect("a fault");
-        flight.inject(&fault("fault kind=collapse factor=0.8 from_s=0")).expect("a fault");
+        flight.inject(&fault("kind=rotor index=2 effectiveness=0.5 from_s=0")).expect("a fault");
+        flight.inject(&fault("kind=collapse factor=0.8 from_s=0")).expect("a fault");
         flight.step(&mut ());
         let left = flight.plant().constants().geometry[(0, 2)] / lift;
         assert!((left - 0.5).abs() < 1e-3 && (volts(&flight) / full - 0.8).abs() < 1e-3, "{left} {}", volts(&flight));

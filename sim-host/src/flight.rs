@@ -20,6 +20,7 @@ use crate::plant::ground::Ground;
 use crate::plant::paper::PaperPlant;
 use crate::plant::rigid_body::RigidBody;
 use crate::record::Recorder;
+use crate::report::Touchdown;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sensors::Suite;
 use crate::sil::{Flight, Outcome};
@@ -83,6 +84,12 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
 /// # Errors
 /// What of the scenario the firmware refuses.
 pub fn fly(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Outcome> {
+    let mut touchdown = ground(scenario).map(Touchdown::new);
+    let outcome = on_its_plant(scenario, seed, &mut (recorder, &mut touchdown))?;
+    Ok(outcome.after(touchdown.as_ref()))
+}
+
+fn on_its_plant(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Outcome> {
     Ok(match scenario.file.plant {
         PlantKind::RigidBody => on_plant(scenario, seed, rigid_body(scenario, seed), recorder)?,
         PlantKind::Paper => {
@@ -108,7 +115,7 @@ pub fn assess(scenario: &Scenario, assess: &Assess, seed: u64) -> Result<Measure
     let ground = rigid_body(scenario, seed).ground().cloned();
     let mut assessor = Assessor::new(assess, file.duration_s, &start, ground, &places);
     let outcome = fly(scenario, seed, &mut assessor)?;
-    Ok(assessor.finish(outcome.survived))
+    Ok(assessor.finish(!outcome.end.is_lost()))
 }
 
 /// Flies a scenario on a plant by the control laws that it asks for.

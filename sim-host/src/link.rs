@@ -9,6 +9,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, anyhow, bail};
 
+use crate::stations::{News, Stations};
+
 /// Where `serve` listens unless told otherwise.
 pub const DEFAULT_LISTEN: &str = "127.0.0.1:14580";
 /// Whom `serve` sends to unless told otherwise: ground stations, and programs that use MAVSDK.
@@ -85,6 +87,7 @@ pub struct UdpLink {
     socket: UdpSocket,
     peers: Vec<SocketAddr>,
     guests: Vec<Guest>,
+    stations: Stations,
 }
 
 impl UdpLink {
@@ -98,7 +101,7 @@ impl UdpLink {
         }
         let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, &error))?;
         socket.set_nonblocking(true).with_context(|| format!("cannot use UDP address {listen}"))?;
-        Ok(Self { socket, peers: peers.to_vec(), guests: Vec::new() })
+        Ok(Self { socket, peers: peers.to_vec(), guests: Vec::new(), stations: Stations::default() })
     }
 
     /// Where it listens; tells the port if 0 was asked for.
@@ -115,7 +118,9 @@ impl UdpLink {
         for _ in 0..BURST {
             match self.socket.recv_from(&mut datagram) {
                 Ok((length, from)) => {
-                    self.welcome(from, Instant::now());
+                    let now = Instant::now();
+                    self.welcome(from, now);
+                    self.stations.hear(from, &datagram[..length], now);
                     buffer.extend_from_slice(&datagram[..length]);
                 }
                 // An earlier datagram found nobody at its port: no news about what has arrived.
@@ -123,6 +128,11 @@ impl UdpLink {
                 Err(_) => break,
             }
         }
+    }
+
+    /// The next change among those who are heard, if there is any.
+    pub fn news(&mut self) -> Option<News> {
+        self.stations.news(Instant::now())
     }
 
     /// Sends one datagram to everyone. Nobody listening is not an error.

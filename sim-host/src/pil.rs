@@ -28,7 +28,7 @@ use nalgebra::Vector3;
 use qemu::Qemu;
 
 /// Where `cargo fw-pil` leaves the image, seen from the workspace's root.
-pub const IMAGE: &str = "target/thumbv7em-none-eabihf/release/mps2-pil";
+pub const IMAGE: &str = "target/thumbv7em-none-eabihf/image/mps2-pil";
 
 /// What to start.
 #[derive(Clone, Debug)]

@@ -127,7 +127,7 @@ fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass: f64) -> Option<Approach>
     scenario.file.truth.mass_factor *= mass;
     let mut approach = Approach::default();
     let outcome = flight::fly(&scenario, 0, &mut approach).ok()?;
-    outcome.survived.then_some(approach)
+    outcome.survived().then_some(approach)
 }
 
 /// Cost of a plan, by flying it: that of the worst of its vehicles. A plan that suits only one is tuned to the last

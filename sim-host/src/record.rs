@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use crate::plant::Motion;
 use crate::plant::battery::BatteryState;
+use crate::sil::End;
 
 /// One tick of a flight. World frame NWU, body frame FLU, SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,11 +54,16 @@ impl Row {
         }
     }
 
-    /// False if the vehicle is lost: further than 50 m from its reference, or its motion no longer finite.
-    pub fn is_tracking(&self) -> bool {
+    /// Whether the flight ends here, and why.
+    pub fn end(&self) -> End {
         let near = self.position.iter().zip(&self.reference).all(|(is, ought)| (is - ought).abs() < LOST_M);
         let mut rest = self.velocity.iter().chain(&self.attitude).chain(&self.rates);
-        near && rest.all(|value| value.is_finite())
+        let finite = rest.all(|value| value.is_finite());
+        if near && finite {
+            return End::DurationReached;
+        }
+        let finite = finite && self.position.iter().all(|value| value.is_finite());
+        if finite { End::LeftReference } else { End::NotFinite }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Scenarios: what to fly, typed. Built into the binary, or read from a file; every key can be set from outside.
 
 mod csv;
+mod files;
 mod load;
 mod settings;
 #[cfg(test)]

@@ -76,12 +76,12 @@ impl Scorer {
     /// The score of the flight that ended so.
     pub fn score(&self, outcome: &Outcome) -> Score {
         let flown = Score {
-            survived: outcome.survived,
+            survived: outcome.survived(),
             flown_s: f64::from(outcome.ticks) / 1e3,
             saturated_fraction: f64::from(outcome.saturated_ticks) / f64::from(outcome.ticks.max(1)),
             ..Score::default()
         };
-        if !outcome.survived {
+        if !outcome.survived() {
             return flown;
         }
         Score {
@@ -148,6 +148,7 @@ fn attitude_error(row: &Row) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sil::End;
 
     /// The score of a flight of `scenario` for `seconds` whose row at t is `row(t)`.
     fn scored(scenario: &str, settings: &[&str], seconds: f64, row: impl Fn(f64) -> Row, survived: bool) -> Score {
@@ -157,7 +158,8 @@ mod tests {
         for k in 0..ticks {
             scorer.record(&row(f64::from(k) / 1e3));
         }
-        scorer.score(&Outcome { ticks, saturated_ticks: ticks / 4, survived })
+        let end = if survived { End::DurationReached } else { End::LeftReference };
+        scorer.score(&Outcome { ticks, saturated_ticks: ticks / 4, end, touchdown: None })
     }
 
     fn level(t: f64) -> Row {

@@ -2,20 +2,26 @@
 //!
 //! Owns the wall clock, which nobody else reads. The vehicle is told of time only by being ticked; `speed` says
 //! how often that is, never what a tick does. A process that was held up catches up, but only so far: what it
-//! missed beyond that is left out rather than flown in a rush. Lines of text are executed between ticks.
+//! missed beyond that is left out rather than flown in a rush. Typed lines are carried out
+//! between ticks.
 
-use std::io::Write as _;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, channel};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
+
+use core::ops::RangeInclusive;
 
 use anyhow::ensure;
 use firmware::mavlink::{RX_CAPACITY, TxBytes};
 use firmware::schedule::GROUND;
 use firmware::signals::TICK_S_EXACT;
 
+use crate::console::terminal::Terminal;
+use crate::console::{Control, Line, Session};
 use crate::link::UdpLink;
+use crate::stations::{LOST_AFTER, News};
+
+/// Simulated seconds per second that may be asked for.
+pub const SPEEDS: RangeInclusive<f64> = 0.01..=1000.0;
 
 /// A vehicle in its world.
 pub trait Vehicle {
@@ -23,53 +29,51 @@ pub trait Vehicle {
     /// goes to it as one datagram, so it consists of whole messages.
     fn tick(&mut self, received: &[u8]) -> Option<TxBytes>;
 
-    /// Does what a line of text asks. What is returned is for whoever has written it.
-    ///
-    /// # Errors
-    /// In one line, why it is not done.
-    fn execute(&mut self, line: &str) -> anyhow::Result<String>;
+    /// Does what a typed line says. What is returned is for whoever runs the loop.
+    fn enter(&mut self, line: &str) -> Option<Control>;
+
+    /// Takes notice of a ground station that comes or goes.
+    fn notice(&mut self, news: &News);
+
+    /// What it has said since the last call.
+    fn take_lines(&mut self) -> Vec<Line>;
 }
 
-/// Lines of text for the vehicle, and where answers and complaints go.
-#[derive(Debug)]
-pub struct Console {
-    lines: Receiver<String>,
-}
-
-impl Console {
-    /// Of lines that come from somewhere. One whose sender has gone stays silent.
-    pub fn new(lines: Receiver<String>) -> Self {
-        Self { lines }
+impl Vehicle for Session {
+    fn tick(&mut self, received: &[u8]) -> Option<TxBytes> {
+        Self::tick(self, received)
     }
 
-    /// Of standard input, read by a thread of its own; its end is no reason to stop.
-    pub fn on_standard_input() -> Self {
-        let (sender, lines) = channel();
-        std::thread::spawn(move || {
-            let lines = std::io::stdin().lines().map_while(Result::ok);
-            lines.map(|line| sender.send(line)).take_while(Result::is_ok).for_each(drop);
-        });
-        Self::new(lines)
+    fn enter(&mut self, line: &str) -> Option<Control> {
+        Self::enter(self, line)
     }
 
-    /// Executes the lines that have come.
-    fn pass_on(&self, vehicle: &mut impl Vehicle) {
-        for line in self.lines.try_iter() {
-            match vehicle.execute(&line) {
-                // Nobody may be there to read the answer.
-                Ok(answer) if !answer.is_empty() => drop(writeln!(std::io::stdout(), "{answer}")),
-                Ok(_) => {}
-                Err(error) => eprintln!("sim-host: {}", format!("{error:#}").replace('\n', " ")),
-            }
+    fn notice(&mut self, news: &News) {
+        match *news {
+            News::Heard { address, system } => self.station_heard(address, system),
+            News::Lost { address, system } => self.station_lost(address, system, LOST_AFTER.as_secs()),
         }
+    }
+
+    fn take_lines(&mut self) -> Vec<Line> {
+        Self::take_lines(self)
     }
 }
 
 /// How simulated time relates to the wall clock's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pacing {
-    /// Simulated seconds a second.
+    /// Simulated seconds per second.
     pub speed: f64,
+}
+
+/// How long was flown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flown {
+    /// Simulated, s.
+    pub simulated_s: f64,
+    /// By the wall clock, s.
+    pub wall_s: f64,
 }
 
 /// What the firmware can take between two jobs, spread over the ticks between them.
@@ -83,36 +87,46 @@ const NAP: Duration = Duration::from_millis(1);
 /// Wall time that is caught up at most, s.
 const CATCH_UP_S: f64 = 0.1;
 
-/// Flies until `stop` is set.
+/// Flies until `stop` says so, or a line asks for the end.
 ///
 /// # Errors
-/// A speed that is not a positive number.
+/// A speed outside of [`SPEEDS`].
 pub fn serve(
     vehicle: &mut impl Vehicle,
     link: &mut UdpLink,
-    console: &Console,
+    terminal: &mut impl Terminal,
     pacing: Pacing,
-    stop: &AtomicBool,
-) -> anyhow::Result<()> {
-    ensure!(pacing.speed.is_finite() && pacing.speed > 0.0, "speed must be a positive number, not {}", pacing.speed);
-    let start = Instant::now();
-    let mut pacer = Pacer { speed: pacing.speed, done: 0, skipped: 0 };
+    stop: impl Fn() -> bool,
+) -> anyhow::Result<Flown> {
+    let (low, high) = (SPEEDS.start(), SPEEDS.end());
+    ensure!(SPEEDS.contains(&pacing.speed), "--speed must be between {low} and {high}, not {}", pacing.speed);
+    let (start, mut ticks) = (Instant::now(), 0);
+    let mut pacer = Pacer::starting(start, pacing.speed);
     let mut inbox = Vec::new();
-    while !stop.load(Ordering::Relaxed) {
+    while !stop() {
         if inbox.len() < INBOX_MAX {
             link.receive(&mut inbox);
         }
-        console.pass_on(vehicle);
-        let due = pacer.due(start.elapsed()).min(BATCH);
+        while let Some(news) = link.news() {
+            vehicle.notice(&news);
+        }
+        match terminal.next_line().and_then(|line| vehicle.enter(&line)) {
+            Some(Control::Quit) => break,
+            Some(Control::Speed(speed)) => pacer = Pacer::starting(Instant::now(), speed),
+            None => {}
+        }
+        let due = pacer.due(Instant::now()).min(BATCH);
         for _ in 0..due {
             tick(vehicle, link, &mut inbox);
         }
         pacer.done += due;
+        ticks += due;
+        vehicle.take_lines().iter().for_each(|line| terminal.print(line));
         if due < BATCH {
             sleep(NAP);
         }
     }
-    Ok(())
+    Ok(Flown { simulated_s: ticks as f64 * TICK_S_EXACT, wall_s: start.elapsed().as_secs_f64() })
 }
 
 fn tick(vehicle: &mut impl Vehicle, link: &mut UdpLink, inbox: &mut Vec<u8>) {
@@ -127,6 +141,7 @@ fn tick(vehicle: &mut impl Vehicle, link: &mut UdpLink, inbox: &mut Vec<u8>) {
 /// How many ticks simulated time is behind.
 #[derive(Debug)]
 struct Pacer {
+    start: Instant,
     speed: f64,
     /// Ticks flown.
     done: u64,
@@ -135,10 +150,15 @@ struct Pacer {
 }
 
 impl Pacer {
-    /// Ticks to fly by now. What is too far behind is left out for good.
-    fn due(&mut self, elapsed: Duration) -> u64 {
+    /// From a time on, at a speed.
+    fn starting(start: Instant, speed: f64) -> Self {
+        Self { start, speed, done: 0, skipped: 0 }
+    }
+
+    /// Ticks to fly by `now`. What is too far behind is left out for good.
+    fn due(&mut self, now: Instant) -> u64 {
         let ticks_a_second = self.speed / TICK_S_EXACT;
-        let target = (elapsed.as_secs_f64() * ticks_a_second) as u64;
+        let target = (now.saturating_duration_since(self.start).as_secs_f64() * ticks_a_second) as u64;
         let behind = target.saturating_sub(self.done + self.skipped);
         let allowed = ((CATCH_UP_S * ticks_a_second) as u64).max(1);
         self.skipped += behind.saturating_sub(allowed);
@@ -148,7 +168,11 @@ impl Pacer {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::VecDeque;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
     use super::*;
+    use crate::console::Tone;
 
     /// Sends a datagram every ten ticks, and keeps what it receives; stops itself in the end.
     struct Counter<'a> {
@@ -156,6 +180,7 @@ mod tests {
         end: u64,
         received: Vec<u8>,
         largest: usize,
+        said: Vec<Line>,
         stop: &'a AtomicBool,
     }
 
@@ -170,23 +195,64 @@ mod tests {
             self.ticks.is_multiple_of(10).then(|| TxBytes::from_slice(b"whole").expect("fits"))
         }
 
-        fn execute(&mut self, line: &str) -> anyhow::Result<String> {
-            ensure!(line == "end", "no");
-            self.end = self.ticks + 1;
-            Ok(String::new())
+        fn enter(&mut self, line: &str) -> Option<Control> {
+            match line {
+                "end" => self.end = self.ticks + 1,
+                "quit" => return Some(Control::Quit),
+                "faster" => return Some(Control::Speed(100.0)),
+                _ => self.said.push(Line { t_s: None, tone: Tone::Refused, text: line.to_owned() }),
+            }
+            None
         }
+
+        fn notice(&mut self, _: &News) {}
+
+        fn take_lines(&mut self) -> Vec<Line> {
+            core::mem::take(&mut self.said)
+        }
+    }
+
+    /// Lines that have been typed, and what was printed.
+    #[derive(Default)]
+    struct Script {
+        typed: VecDeque<&'static str>,
+        printed: Vec<Line>,
+    }
+
+    impl Script {
+        fn typing(lines: &[&'static str]) -> Self {
+            Self { typed: lines.iter().copied().collect(), printed: Vec::new() }
+        }
+    }
+
+    impl Terminal for Script {
+        fn next_line(&mut self) -> Option<String> {
+            self.typed.pop_front().map(str::to_owned)
+        }
+
+        fn print(&mut self, line: &Line) {
+            self.printed.push(line.clone());
+        }
+    }
+
+    fn counter(end: u64, stop: &AtomicBool) -> Counter<'_> {
+        Counter { ticks: 0, end, received: Vec::new(), largest: 0, said: Vec::new(), stop }
+    }
+
+    fn unheard() -> UdpLink {
+        UdpLink::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port")
     }
 
     fn fly(speed: f64, end: u64, sent: &[u8]) -> (Duration, u64, Vec<u8>, usize) {
         let stop = AtomicBool::new(false);
-        let mut vehicle = Counter { ticks: 0, end, received: Vec::new(), largest: 0, stop: &stop };
+        let mut vehicle = counter(end, &stop);
         let local = "127.0.0.1:0".parse().expect("an address");
         let mut link = UdpLink::bind(local, &[]).expect("a free port");
         let station = std::net::UdpSocket::bind(local).expect("a free port");
         station.send_to(sent, link.local_address().expect("bound")).expect("sent");
         let start = Instant::now();
-        let (_, lines) = channel();
-        serve(&mut vehicle, &mut link, &Console::new(lines), Pacing { speed }, &stop).expect("flies");
+        serve(&mut vehicle, &mut link, &mut Script::default(), Pacing { speed }, || stop.load(Ordering::Relaxed))
+            .expect("flies");
         (start.elapsed(), vehicle.ticks, vehicle.received, vehicle.largest)
     }
 
@@ -206,39 +272,52 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_executed_and_bad_ones_do_no_harm() {
+    fn lines_are_carried_out_and_what_is_said_is_printed() {
         let stop = AtomicBool::new(false);
-        let mut vehicle = Counter { ticks: 0, end: u64::MAX, received: Vec::new(), largest: 0, stop: &stop };
-        let mut link = UdpLink::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port");
-        let (sender, lines) = channel();
-        for line in ["", "nonsense", "end"] {
-            sender.send(line.to_owned()).expect("there is a receiver");
-        }
-        drop(sender);
-        serve(&mut vehicle, &mut link, &Console::new(lines), Pacing { speed: 10.0 }, &stop).expect("it ends");
-        assert!(vehicle.ticks > 0 && vehicle.ticks < 1000, "{}", vehicle.ticks);
+        let mut vehicle = counter(u64::MAX, &stop);
+        let mut script = Script::typing(&["", "nonsense", "faster", "end"]);
+        let flown =
+            serve(&mut vehicle, &mut unheard(), &mut script, Pacing { speed: 10.0 }, || stop.load(Ordering::Relaxed))
+                .expect("it ends");
+        assert_eq!(flown.simulated_s, vehicle.ticks as f64 * TICK_S_EXACT);
+        let printed: Vec<&str> = script.printed.iter().map(|line| line.text.as_str()).collect();
+        assert_eq!(printed, ["", "nonsense"]);
+    }
+
+    #[test]
+    fn a_line_can_end_it() {
+        let stop = AtomicBool::new(false);
+        let mut vehicle = counter(u64::MAX, &stop);
+        let mut script = Script::typing(&["nonsense", "quit", "more"]);
+        serve(&mut vehicle, &mut unheard(), &mut script, Pacing { speed: 1.0 }, || stop.load(Ordering::Relaxed))
+            .expect("it ends");
+        assert_eq!((script.typed.len(), script.printed.len()), (1, 1));
     }
 
     #[test]
     fn a_delay_is_caught_up_only_so_far() {
-        let mut pacer = Pacer { speed: 2.0, done: 0, skipped: 0 };
-        assert_eq!(pacer.due(Duration::from_millis(50)), 100);
+        let start = Instant::now();
+        let mut pacer = Pacer::starting(start, 2.0);
+        let at = |ms: u64| start + Duration::from_millis(ms);
+        assert_eq!(pacer.due(at(50)), 100);
         pacer.done += 100;
-        assert_eq!(pacer.due(Duration::from_millis(50)), 0);
-        assert_eq!(pacer.due(Duration::from_secs(10)), 200);
+        assert_eq!(pacer.due(at(50)), 0);
+        assert_eq!(pacer.due(at(10_000)), 200);
         pacer.done += 200;
-        assert_eq!(pacer.due(Duration::from_secs(10)), 0, "the rest is left out");
-        assert_eq!(pacer.due(Duration::from_millis(10_001)), 2);
+        assert_eq!(pacer.due(at(10_000)), 0, "the rest is left out");
+        assert_eq!(pacer.due(at(10_001)), 2);
     }
 
     #[test]
     fn nonsense_speeds_are_refused() {
         let stop = AtomicBool::new(true);
-        let mut vehicle = Counter { ticks: 0, end: 1, received: Vec::new(), largest: 0, stop: &stop };
-        let mut link = UdpLink::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port");
-        for speed in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let (_, lines) = channel();
-            assert!(serve(&mut vehicle, &mut link, &Console::new(lines), Pacing { speed }, &stop).is_err(), "{speed}");
+        for speed in [0.0, -1.0, 1e4, f64::NAN, f64::INFINITY] {
+            let mut script = Script::default();
+            let flown = serve(&mut counter(1, &stop), &mut unheard(), &mut script, Pacing { speed }, || {
+                stop.load(Ordering::Relaxed)
+            });
+            let refusal = flown.expect_err("refused").to_string();
+            assert!(refusal.contains("between 0.01 and 1000"), "{refusal}");
         }
     }
 }

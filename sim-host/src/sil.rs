@@ -23,19 +23,88 @@ use crate::plant::{Motion, Plant};
 use crate::record::{Activity, Navigation, Recorder, Row};
 use crate::reference;
 use crate::report::angles::roll_pitch_yaw;
+use crate::report::touchdown::{Contact, Crash, Touchdown};
 use crate::sensors::faults::Kind;
 use crate::sensors::{BatteryTruth, Fault, FaultId, Suite, Truth};
 use crate::weather::Weather;
 
-/// How a flight ended.
+/// Why a flight ended, by the truth and not by what the vehicle believes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum End {
+    /// It was flown for as long as the scenario says.
+    #[default]
+    DurationReached,
+    /// It went further than 50 m from its reference.
+    LeftReference,
+    /// Its motion was no longer finite.
+    NotFinite,
+    /// The user ended it.
+    Interrupted,
+    /// It stood on the ground all the time.
+    NeverFlew,
+    /// It hit the ground; what is simulated goes on.
+    Crashed(Crash),
+}
+
+impl End {
+    /// As JSON has it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::DurationReached => "duration-reached",
+            Self::LeftReference => "left-reference",
+            Self::NotFinite => "not-finite",
+            Self::Interrupted => "interrupted",
+            Self::NeverFlew => "never-flew",
+            Self::Crashed(_) => "crashed",
+        }
+    }
+
+    /// Whether it was flown to its end, unharmed.
+    pub fn survived(&self) -> bool {
+        matches!(self, Self::DurationReached)
+    }
+
+    /// Whether the simulation ended there because the vehicle was lost.
+    pub fn is_lost(&self) -> bool {
+        matches!(self, Self::LeftReference | Self::NotFinite)
+    }
+
+    /// The same with what contact with the ground has shown.
+    #[must_use]
+    pub fn after(self, touchdown: &Touchdown) -> Self {
+        match touchdown.crash() {
+            Some(crash) => Self::Crashed(crash),
+            None if self == Self::DurationReached && !touchdown.has_flown() => Self::NeverFlew,
+            None => self,
+        }
+    }
+}
+
+/// How a flight went.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// Ticks flown.
     pub ticks: u32,
     /// Ticks in which the mixer could not give the whole demand.
     pub saturated_ticks: u32,
-    /// False if the vehicle was lost: further than 50 m from its reference, or its motion no longer finite.
-    pub survived: bool,
+    /// Why it ended.
+    pub end: End,
+    /// The first touchdown after it had flown, where there is ground.
+    pub touchdown: Option<Contact>,
+}
+
+impl Outcome {
+    /// Whether it was flown to its end, unharmed.
+    pub fn survived(&self) -> bool {
+        self.end.survived()
+    }
+
+    /// The same with what contact with the ground has shown, where there is ground.
+    #[must_use]
+    pub fn after(self, touchdown: Option<&Touchdown>) -> Self {
+        let Some(seen) = touchdown else { return self };
+        Self { end: self.end.after(seen), touchdown: seen.first(), ..self }
+    }
 }
 
 /// The longest delay between a motor command and the rotors, ticks.
@@ -92,14 +161,13 @@ pub struct Flight<P, A = SlidingAttitude, L = SlidingPosition> {
 impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// Before the first tick.
     pub fn new(autopilot: Autopilot<A, L>, plant: P, noise: Noise, trajectory: Trajectory) -> Self {
-        let outcome = Outcome { survived: true, ..Outcome::default() };
         Self {
             autopilot,
             plant,
             noise,
             trajectory,
             tick: 0,
-            outcome,
+            outcome: Outcome::default(),
             delay: None,
             weather: None,
             sensors: None,
@@ -199,6 +267,22 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         Ok(())
     }
 
+    /// The steady part of the wind, in the world, m/s.
+    pub fn steady_wind(&self) -> Vector3<f64> {
+        self.weather.as_ref().map_or_else(Vector3::zeros, |weather| weather.steady_wind())
+    }
+
+    /// Sets the steady part of the wind from now on (m/s, in the world). Changes no random number of the flight.
+    ///
+    /// # Errors
+    /// A plant on which no wind acts.
+    pub fn set_steady_wind(&mut self, mean: Vector3<f64>) -> Result<()> {
+        let drag = self.plant.drag().filter(|drag| drag.iter().any(|k| *k > 0.0));
+        let drag = drag.context("no wind acts on this vehicle: its airframe has no drag")?;
+        self.weather.get_or_insert_with(|| Box::new(Weather::calm(drag))).set_steady_wind(mean);
+        Ok(())
+    }
+
     fn suite(&mut self) -> Result<&mut Suite> {
         self.sensors.as_deref_mut().context("nothing fails on ideal state: fly a scenario with `sensors`")
     }
@@ -250,21 +334,31 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         }
         let (motors, saturated) = (inner.motors, inner.saturated);
         self.actuate(&motors, saturated);
-        self.outcome.survived
+        self.outcome.survived()
     }
 
     /// Second half of a tick, with what a firmware has made of the sample: record, move. Returns false once the
     /// vehicle is lost.
     pub fn complete(&mut self, inner: &InnerOutput, outer: &OuterOutput, recorder: &mut impl Recorder) -> bool {
         let row = self.row(inner, outer);
-        self.outcome.survived &= row.is_tracking();
+        self.judge(&row);
         recorder.record(&row);
         recorder.observe(&self.activity(row.t));
         if self.sensors.is_some() {
             recorder.navigate(&self.navigation(row.t));
         }
         self.actuate(&inner.motors, inner.saturated);
-        self.outcome.survived
+        if recorder.stops() && self.outcome.survived() {
+            self.outcome.end = End::Interrupted;
+        }
+        self.outcome.survived()
+    }
+
+    /// What a row shows, unless the flight has ended before.
+    fn judge(&mut self, row: &Row) {
+        if self.outcome.survived() {
+            self.outcome.end = row.end();
+        }
     }
 
     /// The motor command acts on the plant until the next.
@@ -292,7 +386,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
             }
         }
         let row = self.row(self.autopilot.inner.inner_output(), self.autopilot.inner.outer_output());
-        self.outcome.survived &= row.is_tracking();
+        self.judge(&row);
         self.outcome
     }
 

@@ -4,10 +4,10 @@ use anyhow::{Context, Result};
 use serde::Serialize;
 
 use crate::flight;
+use crate::paper::claims::DISTURBANCE_REMOVED;
 use crate::record::{Recorder, Row};
 use crate::report::Metrics;
 use crate::report::metrics::{Recovery, angle_errors, errors};
-use crate::report::table::DISTURBANCE_REMOVED;
 use crate::scenario::{Disturbance, Scenario};
 
 /// A flight at one strength of the disturbance.
@@ -102,7 +102,7 @@ fn fly(scenario: &Scenario, base: &Disturbance, factor: f64, seed: u64) -> Resul
     let mut recorder = (Metrics::new(), Extremes { acting: base.from_s..base.to_s, position: 0.0, angle: 0.0 });
     let outcome = flight::fly(&scenario, seed, &mut recorder)?;
     let (metrics, extremes) = recorder;
-    let recovery = if outcome.survived { metrics.recovery(base.from_s) } else { Recovery::default() };
+    let recovery = if outcome.survived() { metrics.recovery(base.from_s) } else { Recovery::default() };
     let in_time = |time: &Option<f64>| time.is_some_and(|time| time <= DISTURBANCE_REMOVED.time_s);
     Ok(Strength {
         factor,

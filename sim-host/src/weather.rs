@@ -34,6 +34,22 @@ impl Weather {
         })
     }
 
+    /// Calm air, for a plant with this drag (k1..k3 over m, 1/s).
+    pub fn calm(drag: Vector3<f64>) -> Self {
+        Self { wind: None, drag, scheduled: Vec::new(), sum: Push::default() }
+    }
+
+    /// The steady part of the wind, in the world, m/s.
+    pub fn steady_wind(&self) -> Vector3<f64> {
+        self.wind.as_ref().map_or_else(Vector3::zeros, Wind::mean)
+    }
+
+    /// Sets the steady part of the wind (m/s, in the world); turbulence, gusts and pushes stay as they are.
+    pub fn set_steady_wind(&mut self, mean: Vector3<f64>) {
+        let calm = || Wind::new(&crate::scenario::Wind::default(), 0, TICK_S_EXACT);
+        self.wind.get_or_insert_with(calm).set_mean(mean);
+    }
+
     /// A tick's push with the wind and the schedule added, in air of a density (ρ/ρ0). To be asked for once a tick. Out
     /// of the way of the flights without.
     #[cold]

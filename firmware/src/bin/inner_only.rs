@@ -1,5 +1,5 @@
-//! Nothing but the top of the schedule, flying on sensors, to look at: if anything in a tick could panic, the linked image would hold
-//! functions of `core::panicking`. It is never run.
+//! An image with only the inner task, on sensors and on ideal state: if anything in a tick could panic, it would
+//! contain functions of `core::panicking`. It is inspected, and never run.
 
 #![cfg_attr(all(target_arch = "arm", target_os = "none"), no_std, no_main)]
 
@@ -20,7 +20,7 @@ mod image {
         let motion = SensorFrame::Motion(NavState::at_rest());
         let measured = SensorFrame::Measured(Measurements::default());
         loop {
-            // On ideal state, on sensors, and with none of either.
+            // On ideal state, on sensors, and without a sample.
             for sample in [Some(&motion), Some(&measured), None] {
                 black_box(inner.tick(black_box(&mut mail), black_box(sample)));
             }

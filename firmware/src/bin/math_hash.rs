@@ -1,4 +1,4 @@
-//! Prints the hash of `selftest` from the target, for comparison with the desktop's.
+//! Prints the hash of `selftest` as computed on the target, for comparison with the desktop's.
 
 #![cfg_attr(all(target_arch = "arm", target_os = "none"), no_std, no_main)]
 

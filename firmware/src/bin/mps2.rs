@@ -1,4 +1,4 @@
-//! Glissade on QEMU's mps2-an386, standing on the pad: MAVLink on UART 0, log on the semihosting console.
+//! Glissade on QEMU's mps2-an386, standing on the ground: MAVLink on UART 0, log on the semihosting console.
 
 #![cfg_attr(all(target_arch = "arm", target_os = "none"), no_std, no_main)]
 

@@ -1,21 +1,21 @@
 //! Counts instructions, exactly, by QEMU's clock: with `-icount shift=10` each instruction takes 1,024 ns of it, and
 //! TIMER1 counts every 40 ns.
 //!
-//! Around what is counted two empty functions are called, `mark_begin_NAME` and `mark_end`, by whose addresses a
-//! plugin of QEMU or a debugger finds the same sections.
+//! Two empty functions, `mark_begin_NAME` and `mark_end`, are called around each counted section, so that a QEMU plugin
+//! or a debugger can find the same sections by their addresses.
 
 use super::mps2::FreeRunning;
 
 /// Counts of the timer in five instructions: 5 · 1,024 ns / 40 ns.
 const COUNTS_IN_FIVE: u32 = 128;
 
-/// Instructions of [`known_number`], its call and its return among them.
+/// Instructions of [`known_number`], including its call and return.
 const KNOWN: u32 = 1_002;
 
-/// An empty function by which the beginning of a section is found.
+/// An empty function that marks the beginning of a section.
 pub type Mark = extern "C" fn();
 
-/// Defines empty functions with names of their own in the image's table of symbols.
+/// Defines empty functions with unique names in the image's symbol table.
 macro_rules! marks {
     ($($(#[$doc:meta])* $name:ident)*) => {$(
         $(#[$doc])*
@@ -44,19 +44,19 @@ marks! {
     mark_begin_mixer
     /// The mixer at a limit.
     mark_begin_mixer_saturated
-    /// The nominal state's prediction.
+    /// Prediction of the nominal state.
     mark_begin_prediction
     /// Notches and low-pass ahead of the controller.
     mark_begin_gyro_filter
-    /// The covariance's prediction.
+    /// Prediction of the covariance.
     mark_begin_covariance
-    /// A correction by three numbers.
+    /// Correction by a measurement of three components.
     mark_begin_correction_3
-    /// A correction by one number.
+    /// Correction by a measurement of one component.
     mark_begin_correction_1
-    /// A job of the estimator's filter without a fix of the satellites.
+    /// A job of the estimator's filter without a GNSS fix.
     mark_begin_filter
-    /// A job with one.
+    /// A job with a GNSS fix.
     mark_begin_filter_gnss
     /// The end of any section.
     mark_end
@@ -71,18 +71,18 @@ pub struct Counter {
 }
 
 impl Counter {
-    /// Finds out what counting itself takes.
+    /// Calibrates the overhead of counting.
     pub fn new(clock: FreeRunning) -> Self {
         let counter = Self { clock, empty: 0 };
         Self { empty: counter.timed(mark_begin_nothing, || ()).0, ..counter }
     }
 
-    /// False if the emulator's clock does not go by instructions as it ought to.
+    /// False if the emulator's clock does not count instructions as configured.
     pub fn is_exact(&self) -> bool {
         self.count(mark_begin_known, || known_number()).0 == KNOWN
     }
 
-    /// Instructions that `section` takes, and its result.
+    /// Number of instructions that `section` executes, and its result.
     #[inline]
     pub fn count<R>(&self, begin: Mark, section: impl FnOnce() -> R) -> (u32, R) {
         let (counts, result) = self.timed(begin, section);
@@ -90,7 +90,7 @@ impl Counter {
         (instructions, result)
     }
 
-    /// Counts of the timer from before the one mark until after the other.
+    /// Timer counts from before the first mark until after the second.
     #[inline]
     fn timed<R>(&self, begin: Mark, section: impl FnOnce() -> R) -> (u32, R) {
         let start = self.clock.now();
@@ -101,7 +101,7 @@ impl Counter {
     }
 }
 
-/// A thousand instructions that do nothing.
+/// A thousand `nop` instructions.
 #[unsafe(naked)]
 extern "C" fn known_number() {
     core::arch::naked_asm!(".rept 1000", "nop", ".endr", "bx lr")

@@ -1,11 +1,11 @@
-//! The end of a flight that cannot go on: rotors stopped first, then everything else.
+//! Fatal faults: the rotors are stopped first, then everything else.
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use super::mps2;
 
-/// Stops the rotors and everything that could start them again. True the first time; a second time something has
-/// gone wrong on the way out, and all that is left is [`end`].
+/// Stops the rotors and everything that could start them again. Returns true the first time; false means a fault during
+/// fault handling, after which only [`end`] remains.
 pub fn stop_rotors() -> bool {
     static STOPPED: AtomicBool = AtomicBool::new(false);
     cortex_m::interrupt::disable();
@@ -18,10 +18,10 @@ pub fn end() -> ! {
     semihosting::process::exit(1)
 }
 
-/// Defines the handlers of hard faults and of interrupts that nobody expects; both call the given function of no
-/// arguments, an `extern "C" fn() -> !`.
+/// Defines the handlers of hard faults and unexpected interrupts. Both call the given function, an `extern "C" fn() ->
+/// !`.
 ///
-/// It runs on a fresh stack: the old one may be why it is called. An application needs this once.
+/// It runs on a fresh stack, because the old one may be the cause. An application needs this once.
 #[macro_export]
 macro_rules! fault_handlers {
     ($stopped:path) => {

@@ -1,7 +1,7 @@
-//! Drivers for processor in the loop: IMU and rotors are the host, over two FIFOs by semihosting.
+//! Drivers for processor in the loop: the host is IMU and rotors, over two semihosting FIFOs.
 //!
-//! A read blocks the emulated machine until the host answers, and takes no time of its own clock. The rotors of the
-//! board are driven all the same. See `pil` for the frames.
+//! A read blocks the emulated machine until the host answers, and takes no time on its clock. The board's own rotor
+//! outputs are driven too. See `pil` for the frames.
 
 use core::cell::RefCell;
 use core::ffi::CStr;
@@ -22,10 +22,10 @@ use crate::signals::{SensorFrame, Tick};
 /// Longest path of the FIFOs' directory.
 const PATH_MAX: usize = 256;
 
-/// The FIFO to the host, once it is open: for the inner task, and for what stops it.
+/// The FIFO to the host, once it is open: used by the inner task and by the fault handlers.
 static TO_HOST: Mutex<RefCell<Option<File>>> = Mutex::new(RefCell::new(None));
 
-/// Samples come from the host.
+/// An IMU whose samples come from the host.
 pub struct Imu {
     from_host: File,
     asked: Option<commander::Request>,
@@ -52,7 +52,7 @@ impl super::Imu for Imu {
                 fault::stop_rotors();
                 semihosting::process::exit(0)
             }
-            // The host has gone, or asks for two things in a tick.
+            // The host has gone, or has sent two requests in a tick.
             None | Some(Request::Ask(_)) => {
                 fault::stop_rotors();
                 fault::end()
@@ -65,7 +65,7 @@ impl super::Imu for Imu {
     }
 }
 
-/// Commands go to the host, and to the board's own outputs.
+/// Rotors whose commands go to the host and to the board's own outputs.
 pub struct Rotors {
     pwm: PwmRotors<RecordingPwm>,
 }
@@ -78,7 +78,7 @@ impl super::Rotors for Rotors {
     }
 }
 
-/// What the host wants done in the partitions beside their jobs.
+/// Busy-waits and faults that the host adds to the partitions' jobs.
 #[derive(Clone, Copy)]
 pub struct Diagnostics {
     clock: FreeRunning,
@@ -108,16 +108,16 @@ impl Diagnostics {
     }
 }
 
-/// The flight that the host wants, from the FIFOs in the directory that is the image's only argument.
+/// Reads the flight's configuration from the host, over the FIFOs in the directory given as the image's only argument.
 ///
 /// # Errors
-/// The host cannot be reached, or its flight cannot be read.
+/// The host cannot be reached, or its frame is malformed.
 pub fn start(pwm: [RecordingPwm; ROTORS], clock: FreeRunning) -> Result<Start<Imu, Rotors, Diagnostics>, StartError> {
     let arguments = semihosting::experimental::env::args::<PATH_MAX>().map_err(|_| StartError::NoHost)?;
     let directory = (&arguments).next().and_then(Result::ok).ok_or(StartError::NoHost)?;
     let to_host = open(directory, "from-image", |path| File::create(path))?;
     interrupt::free(|section| TO_HOST.borrow(section).replace(Some(to_host)));
-    // Second, because it waits for the host: when the host has its end of this one, both are open.
+    // Opened second, because it waits for the host: once the host has opened its end of this one, both are open.
     let mut from_host = open(directory, "to-image", |path| File::open(path))?;
     let mut bytes = [0; HELLO_BYTES];
     from_host.read_exact(&mut bytes).map_err(|_| StartError::NoHost)?;
@@ -126,7 +126,7 @@ pub fn start(pwm: [RecordingPwm; ROTORS], clock: FreeRunning) -> Result<Start<Im
     Ok(Start { config, imu: Imu { from_host, asked: None }, rotors, diagnostics: Diagnostics { clock, busy, fault } })
 }
 
-/// Tells the host whether the flight begins.
+/// Sends the host whether the flight begins.
 pub fn answer(result: Result<(), StartError>) {
     let answer = match result {
         Ok(()) => Answer::Ready,
@@ -135,12 +135,12 @@ pub fn answer(result: Result<(), StartError>) {
     send(&answer.encode());
 }
 
-/// Tells the host that the rotors were stopped for good.
+/// Sends the host that the rotors were stopped for good.
 pub fn stopped(cause: Cause) {
     send(&Reply::stopped(cause).encode());
 }
 
-/// Opens a file of a directory by `how`.
+/// Opens a file in a directory with the function `how`.
 fn open(
     directory: &str,
     name: &str,
@@ -156,11 +156,11 @@ fn open(
 
 fn send(bytes: &[u8; REPLY_BYTES]) {
     interrupt::free(|section| {
-        // Borrowed already only if this call comes from a fault in the middle of another: then there is no way out.
+        // Already borrowed only if this call comes from a fault during another call: then nothing can be sent.
         if let Ok(mut to_host) = TO_HOST.borrow(section).try_borrow_mut()
             && let Some(file) = to_host.as_mut()
         {
-            // A host that has gone is noticed at the next read.
+            // If the host has gone, the next read fails.
             let _ = file.write_all(bytes);
         }
     });
@@ -168,7 +168,7 @@ fn send(bytes: &[u8; REPLY_BYTES]) {
 
 fn provoke(fault: Fault) {
     match fault {
-        Fault::Panic => panic!("as the host wished"),
+        Fault::Panic => panic!("requested by the host"),
         Fault::UndefinedInstruction => cortex_m::asm::udf(),
         Fault::StackOverflow => {
             core::hint::black_box(recurse(0));

@@ -1,12 +1,13 @@
-//! What differs between boards; compiled for the target only.
+//! Board support, compiled for the target only.
 //!
-//! [`mps2`] is the chip of QEMU's mps2-an386: interrupts, timers, serial port, and PWM outputs that only remember.
-//! An application takes its IMU and rotors from a drivers module: [`pad`] for a board without sensors, standing
-//! still, `host` for processor in the loop. Each drivers module has the same items: `start`, `answer` and `stopped`,
-//! and the types `Imu`, `Rotors` and `Diagnostics`. [`fault`] stops the rotors when nothing else is sure.
+//! [`mps2`] is the chip of QEMU's mps2-an386: interrupts, timers, serial port, and PWM outputs that only record their
+//! duty cycle. An application takes its IMU and rotors from a drivers module: [`pad`] for a board without sensors that
+//! stands still, `host` for processor in the loop. Each drivers module has the same items: the functions `start`,
+//! `answer` and `stopped`, and the types `Imu`, `Rotors` and `Diagnostics`. [`fault`] stops the rotors after a panic or
+//! hard fault.
 //!
-//! Beside the square root's instruction in `math`, the only module of the crate with `unsafe` code; each block says why
-//! it is sound.
+//! Apart from the square root instruction in `math`, this is the only module of the crate with `unsafe` code; each
+//! block states why it is sound.
 
 #[cfg(feature = "pil")]
 pub mod counter;
@@ -24,11 +25,11 @@ use crate::validate::ConfigError;
 
 /// The source of the inner loop's samples.
 pub trait Imu {
-    /// The sample of the tick that has just begun; none if it is missing. Called once a tick by the inner task,
+    /// The sample of the tick that has just begun; `None` if it is missing. Called once per tick by the inner task,
     /// which waits for it.
     fn sample(&mut self) -> Option<SensorFrame>;
 
-    /// What a pilot has asked for since the last tick, beside MAVLink. Called once a tick, after the sample.
+    /// A request since the last tick that did not come by MAVLink. Called once per tick, after the sample.
     fn asked(&mut self) -> Option<Request> {
         None
     }
@@ -36,34 +37,34 @@ pub trait Imu {
 
 /// The sink of the inner loop's motor commands.
 pub trait Rotors {
-    /// Puts into effect what the inner loop has decided in this tick. Called once a tick by the inner task, after
-    /// its step; must not wait for the rotors.
+    /// Outputs the inner loop's motor commands of this tick. Called once per tick by the inner task, after its step;
+    /// must not wait for the rotors.
     fn drive(&mut self, flight: &InnerTask, overruns: [u32; 3]);
 }
 
-/// What a drivers module gives the application at boot.
+/// What a drivers module returns to the application at boot.
 pub struct Start<I, R, D> {
-    /// What to fly.
+    /// Configuration of the flight.
     pub config: FlightConfig,
     /// Source of samples.
     pub imu: I,
     /// Sink of commands.
     pub rotors: R,
-    /// What to do in the partitions beside their job.
+    /// Additions to the partitions' jobs, for tests.
     pub diagnostics: D,
 }
 
-/// Why a board does not fly.
+/// Error of starting a board.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StartError {
     /// The application was started twice.
     Peripherals,
-    /// The configuration holds a value that is out of its range.
+    /// The configuration is invalid.
     Config(ConfigError),
     /// The host cannot be reached.
     #[cfg(feature = "pil")]
     NoHost,
-    /// What the host sent is not a flight for this build.
+    /// The host's first frame cannot be decoded.
     #[cfg(feature = "pil")]
     Hello(crate::pil::HelloError),
 }
@@ -71,7 +72,7 @@ pub enum StartError {
 impl core::fmt::Display for StartError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::Peripherals => f.write_str("the peripherals are taken"),
+            Self::Peripherals => f.write_str("the peripherals are already in use"),
             Self::Config(error) => error.fmt(f),
             #[cfg(feature = "pil")]
             Self::NoHost => f.write_str("the host cannot be reached"),

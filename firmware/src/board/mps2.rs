@@ -1,4 +1,4 @@
-//! QEMU's mps2-an386 (Cortex-M4F at 25 MHz): the device as RTIC wants it, and drivers for what the application uses.
+//! QEMU's mps2-an386 (Cortex-M4F at 25 MHz): the device in the form that RTIC needs, and drivers of its peripherals.
 
 mod device;
 mod pwm;
@@ -14,20 +14,20 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 use crate::airframe::ROTORS;
 
-/// What of the chip the application uses; there is one of each.
+/// The peripherals that the application uses; there is one of each.
 pub struct Peripherals {
     /// TIMER0: the tick.
     pub tick: PeriodicTimer,
-    /// TIMER1: a clock that does not depend on the tick's being served.
+    /// TIMER1: a clock that is independent of the tick interrupt.
     pub clock: FreeRunning,
     /// UART0.
     pub uart: Uart,
-    /// One output a rotor.
+    /// One output per rotor.
     pub pwm: [RecordingPwm; ROTORS],
 }
 
 impl Peripherals {
-    /// The peripherals, the first time it is called.
+    /// Returns the peripherals on the first call, then `None`.
     pub fn take() -> Option<Self> {
         static TAKEN: AtomicBool = AtomicBool::new(false);
         (!TAKEN.swap(true, Ordering::Relaxed)).then(|| {

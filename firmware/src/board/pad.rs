@@ -1,4 +1,4 @@
-//! Drivers of a board without sensors: it stands at its start position, level and at rest.
+//! Drivers of a board without sensors: it reports standing at its start position, level and at rest.
 
 use super::{Start, StartError};
 use crate::airframe::ROTORS;
@@ -9,7 +9,7 @@ use crate::pil::Cause;
 use crate::rotors::PwmRotors;
 use crate::signals::{NavState, SensorFrame, Tick};
 
-/// Always the same sample.
+/// An IMU that always returns the same sample.
 pub struct Imu {
     sample: SensorFrame,
 }
@@ -32,7 +32,7 @@ impl super::Rotors for Rotors {
     }
 }
 
-/// Nothing but the job itself.
+/// No additions to the partitions' jobs.
 #[derive(Clone, Copy)]
 pub struct Diagnostics;
 
@@ -57,8 +57,8 @@ pub fn start(pwm: [RecordingPwm; ROTORS], _clock: FreeRunning) -> Result<Start<I
     Ok(Start { config, imu: Imu { sample: SensorFrame::Motion(nav) }, rotors, diagnostics: Diagnostics })
 }
 
-/// Nobody asked.
+/// Does nothing: there is no host.
 pub fn answer(_result: Result<(), StartError>) {}
 
-/// Nobody listens.
+/// Does nothing: there is no host.
 pub fn stopped(_cause: Cause) {}

@@ -87,9 +87,10 @@ mod tests {
 
     /// Length of the text in a MAVLink `STATUSTEXT`.
     const STATUSTEXT: usize = 50;
+    const DOCUMENT: &str = include_str!("../../../docs/mavlink.md");
 
     #[test]
-    fn texts_fit_into_a_statustext() {
+    fn texts_fit_into_a_statustext_and_are_documented() {
         let zero = [0.0; 3];
         let requests = [
             Request::Arm { force: false },
@@ -119,6 +120,7 @@ mod tests {
         for (request, refusal) in requests.iter().flat_map(|request| refusals.map(|refusal| (request, refusal))) {
             let text = format!("{} refused: {}", request.name(), refusal.reason());
             assert!(text.len() <= STATUSTEXT, "{text}");
+            assert!(DOCUMENT.contains(&format!("| {} |", refusal.reason())), "{text}");
         }
         for event in [
             Event::SensorsLost,
@@ -129,10 +131,10 @@ mod tests {
             Event::PositionLost,
             Event::BatteryLow,
             Event::BatteryCritical,
-            Event::RotorFailed { rotor: 3 },
-            Event::RotorFailed { rotor: 4 },
+            Event::RotorFailed { rotor: 0 },
         ] {
             assert!(event.text().len() <= STATUSTEXT, "{}", event.text());
+            assert!(DOCUMENT.contains(&format!("| {} |", event.text())), "{}", event.text());
         }
     }
 }

@@ -1,11 +1,13 @@
-//! Attitude control: sliding mode on the rotation group, or on the paper's Euler angles, then the torque that makes
-//! it so.
+//! Attitude control: sliding mode on the rotation group, or on the paper's Euler angles, and the inverse model to
+//! torque.
 //!
-//! Both forms give the angular acceleration that is wanted, `η̈d + λ ė + u_r(s)`; the inverse model [`torque`] gives
-//! the torques. On the group the error is [`PointingError`]'s and the surface `s = λ e + R(qe) Ωd − Ω`, defined at any
-//! attitude. The Euler form is Eq. 25–27: surfaces on φ, θ, ψ. Fed with η̇ and η̈ themselves [`euler_demand`] and
-//! [`torque`] are those equations to the letter, where φ̇ ≈ p; in flight η̇, η̈ are taken to body rates and
-//! accelerations by the exact kinematics, which hold short of θ = ±90°.
+//! Both forms return the demanded angular acceleration `η̈d + λ ė + u_r(s)`; the inverse model [`torque`] converts it
+//! to torques. On the group the error is [`PointingError`]'s and the surface `s = λ e + R(qe) Ωd − Ω`, defined at any
+//! attitude.
+//!
+//! The Euler form is Eq. 25–27: surfaces on φ, θ, ψ. With η̇ and η̈ themselves as inputs, [`euler_demand`] and
+//! [`torque`] are those equations exactly as printed, where φ̇ ≈ p. In flight η̇ and η̈ are converted to body rates and
+//! accelerations by the exact kinematics, which are defined for |θ| < 90°.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -19,11 +21,11 @@ use crate::math;
 use crate::signals::{AttitudeTarget, TICK_S};
 use crate::validate::ConfigError;
 
-/// In which coordinates the surfaces are.
+/// Coordinates of the sliding surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum AttitudeForm {
-    /// On the rotation group, without a singularity.
+    /// The rotation group, without a singularity.
     #[default]
     Group,
     /// Euler angles, as in the paper.
@@ -36,17 +38,17 @@ pub enum AttitudeForm {
 pub struct AttitudeGains {
     /// Roll, pitch, yaw.
     pub axes: [AxisGains; 3],
-    /// In which coordinates.
+    /// Coordinates of the surfaces.
     pub form: AttitudeForm,
     /// Observer of the angular acceleration's disturbance, rad/s².
     pub observer: ObserverGains,
 }
 
 impl AttitudeGains {
-    /// Refuses gains with which the law is not defined.
+    /// Checks that the law is defined for these gains.
     ///
     /// # Errors
-    /// The first gain that is out of its range.
+    /// The first gain that is out of range.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let [roll, pitch, yaw] = &self.axes;
         roll.validate("control.roll")?;
@@ -79,7 +81,7 @@ impl SlidingAttitude {
         }
     }
 
-    /// s, and the angular acceleration Ω̇ wanted: on the group.
+    /// s and the demanded angular acceleration Ω̇, on the group.
     #[inline]
     fn on_group(&mut self, input: &AttitudeInput) -> (Vector3<f32>, Vector3<f32>) {
         let pointing = PointingError::between(input.attitude, &input.target.attitude);
@@ -96,8 +98,8 @@ impl SlidingAttitude {
         (Vector3::new(roll.s, pitch.s, yaw.s), feedforward + correction)
     }
 
-    /// The same by Eq. 25–27, with the exact kinematics; apart, and given copies, so that the loop on the group
-    /// keeps what it works with in registers.
+    /// The same by Eq. 25–27, with the exact kinematics. A separate function with arguments by value, so that the loop
+    /// on the group keeps its values in registers.
     #[inline(never)]
     fn on_euler_angles(
         &mut self,
@@ -138,7 +140,7 @@ impl AttitudeLaw for SlidingAttitude {
     }
 }
 
-/// Sliding variables s1..s3 and the angular acceleration they ask for.
+/// Sliding variables s1..s3 and the demanded angular acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EulerDemand {
     /// s1, s2, s3 (Eq. 18–20), rad/s.
@@ -147,7 +149,7 @@ pub struct EulerDemand {
     pub acceleration: Vector3<f32>,
 }
 
-/// The part of Eq. 25–27 inside the brackets that does not depend on the model: `η̈d + λ ė + u_r(s)`. `hold` as in
+/// The terms inside the brackets of Eq. 25–27 that do not depend on the model: `η̈d + λ ė + u_r(s)`. `hold` as in
 /// [`SlidingAxis::correction`].
 #[inline]
 pub fn euler_demand(
@@ -172,14 +174,14 @@ pub fn euler_demand(
 /// Torques U2..U4 that give the body the acceleration Ω̇ at rates Ω, `spin` being Ωr of the rotors' speeds:
 /// `τ = I Ω̇ + Ω × IΩ + Ω × (0, 0, Jr Ωr) + (k4 p|p|, k5 q|q|, k6 r|r|)`.
 ///
-/// With Ω = η̇ these are Eq. 25–27 to the letter: `U2 = Ix[φ̈ − c1 θ̇ψ̇ − c2 φ̇|φ̇| − c3 Ωr θ̇]` and so on.
+/// With Ω = η̇ these are Eq. 25–27 as printed: `U2 = Ix[φ̈ − c1 θ̇ψ̇ − c2 φ̇|φ̇| − c3 Ωr θ̇]` and so on.
 #[inline]
 pub fn torque(airframe: &Airframe, acceleration: &Vector3<f32>, rates: &Vector3<f32>, spin: f32) -> Vector3<f32> {
     let inertia = Vector3::from(airframe.inertia_kg_m2);
     holding_torque(airframe, rates, spin) + inertia.component_mul(acceleration)
 }
 
-/// The part of [`torque`] that keeps the rates as they are, against gyroscopic effects and drag.
+/// The terms of [`torque`] that keep the rates constant, against gyroscopic effects and drag.
 #[inline]
 fn holding_torque(airframe: &Airframe, rates: &Vector3<f32>, spin: f32) -> Vector3<f32> {
     let [ix, iy, iz] = airframe.inertia_kg_m2;

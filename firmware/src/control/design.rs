@@ -1,29 +1,29 @@
-//! Gains from physical numbers: what disturbs an axis, what can be done about it, and how soon.
+//! Gain design from physical bounds: disturbance, authority and response time of an axis.
 //!
-//! The time τ that the axis takes to answer (sampling, delay and actuator lag together) bounds how fast a loop around it
-//! may be. Inside its layer a sliding mode axis is the loop
+//! The response time τ of the axis (sampling, delay and actuator lag together) bounds the bandwidth of a loop around
+//! it. Inside its boundary layer a sliding mode axis is the loop
 //!
 //! ```text
 //! L(p) = ((1 + λT) p + λ)/(T p²) · e^(−τp)        T: layer's time; λ ė + u_r with u_r = s/T
 //! ```
 //!
-//! With T = 2.5 τ and λ = 1/(4T) it crosses over at 1.27/T with a phase margin of 52°, a gain margin of 3.0 (9.6 dB) and
-//! a delay margin of 1.8 τ, for every τ. (Implicit super-twisting, with its integral, has 43°, 2.9 and 1.5 τ; an integral
-//! surface 41°, 2.4 and 1.2 τ.) The other numbers follow:
+//! With T = 2.5 τ and λ = 1/(4T) it crosses over at 1.27/T with a phase margin of 52°, a gain margin of 3.0 (9.6 dB)
+//! and a delay margin of 1.8 τ, for every τ. (Implicit super-twisting, with its integral, has 43°, 2.9 and 1.5 τ; an
+//! integral surface 41°, 2.4 and 1.2 τ.) The other gains follow:
 //!
 //! ```text
-//! K = A                 all of the authority: an implicit law does not chatter by it (needs K > D)
-//! ρ = K T               for the layers that are given by their width
-//! braking = A − D       what is left to brake a large error with
-//! k2 = 1.1 L, K = 1.5 √L      super-twisting, L a bound on the disturbance's rate: what Levant (1998) recommends; the
-//!                             inequality in the law's text is sufficient, and asks for six times this K
+//! K = A                       the whole authority: an implicit law does not chatter with it (needs K > D)
+//! ρ = K T                     for layers that are specified by their width
+//! braking = A − D             the deceleration that remains for a large error
+//! k2 = 1.1 L, K = 1.5 √L      super-twisting, L a bound on the disturbance's rate, as Levant (1998) recommends; the
+//!                             inequality in the law's docs is sufficient, and would require six times this K
 //! ```
 
 use crate::control::sliding::{AxisGains, ReachingLaw, Surface};
 use crate::math;
 use crate::validate::ConfigError;
 
-/// Which reaching law to design.
+/// Reaching law to design.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Design {
@@ -31,40 +31,40 @@ pub enum Design {
     Sat,
     /// The same with tanh.
     Tanh,
-    /// Half of the layer's slope by an exponential term, which works beyond the layer too.
+    /// Half of the layer's slope comes from an exponential term, which also acts beyond the layer.
     Exponential,
     /// Backward Euler of sgn.
     #[default]
     ImplicitSgn,
-    /// Super-twisting, explicit: for an axis that answers within a step.
+    /// Super-twisting, explicit: for an axis that responds within a step.
     SuperTwisting,
     /// Super-twisting by backward Euler.
     ImplicitSuperTwisting,
 }
 
-/// What is known of an axis.
+/// Known bounds of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct AxisBounds {
-    /// τ, from a measurement to the effect of what is made of it, s.
+    /// Response time τ, from a measurement to the effect of the resulting command, s.
     pub answer_s: f32,
-    /// D, the greatest disturbance, in m/s² or rad/s².
+    /// Greatest disturbance D, in m/s² or rad/s².
     pub disturbance: f32,
-    /// L, how fast it may change, in m/s³ or rad/s³.
+    /// Greatest rate of change L of the disturbance, in m/s³ or rad/s³.
     pub disturbance_rate: f32,
-    /// A, the greatest acceleration that the actuators can give, in m/s² or rad/s².
+    /// Authority A: the greatest acceleration that the actuators can give, in m/s² or rad/s².
     pub authority: f32,
-    /// Which law.
+    /// Reaching law.
     #[cfg_attr(feature = "serde", serde(default))]
     pub law: Design,
-    /// On which surface.
+    /// Sliding surface.
     #[cfg_attr(feature = "serde", serde(default))]
     pub surface: Surface,
 }
 
-/// Layer's time over the answer time.
+/// T/τ: the layer's time constant over the response time.
 const LAYER_PER_ANSWER: f32 = 2.5;
-/// Layer's time over the surface's, 1/λ.
+/// λT: the layer's time constant over the surface's, 1/λ.
 const LAYER_PER_SURFACE: f32 = 0.25;
 
 impl AxisBounds {

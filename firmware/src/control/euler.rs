@@ -1,7 +1,7 @@
 //! Euler angles φ, θ, ψ and their kinematics: the paper's coordinates of an attitude.
 //!
-//! With `R = Rz(ψ)·Ry(θ)·Rx(φ)`, Ω = E(η) η̇ and its derivative, exact at any tilt short of θ = ±90°, where the angles
-//! are not defined.
+//! With `R = Rz(ψ)·Ry(θ)·Rx(φ)`: Ω = E(η) η̇ and its derivative, exact for |θ| < 90°. At θ = ±90° the angles are not
+//! defined.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
@@ -21,18 +21,18 @@ pub struct Euler {
     pub yaw: (f32, f32),
 }
 
-/// cos θ is kept away from zero by this much: at θ = ±90° the Euler angles are not defined.
+/// Lower bound on cos θ: at θ = ±90° the Euler angles are not defined.
 const COS_PITCH_MIN: f32 = 0.02;
 
 impl Euler {
-    /// Of a rotation from body to world.
+    /// From a rotation from body to world.
     #[inline]
     pub fn from_quaternion(attitude: &UnitQuaternion<f32>) -> Self {
         let q = attitude.quaternion();
         let (w, x, y, z) = (q.w, q.i, q.j, q.k);
         let sin_pitch = 2.0 * (w * y - z * x);
         let cos_squared = math::max(1.0 - sin_pitch * sin_pitch, COS_PITCH_MIN * COS_PITCH_MIN);
-        // Root and reciprocal do not wait for each other.
+        // Root and reciprocal are independent, so the core can overlap them.
         let cos_pitch = math::sqrt(cos_squared);
         let inverse = cos_pitch * (1.0 / cos_squared);
         let (roll_y, roll_x) = (2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y));
@@ -52,7 +52,7 @@ impl Euler {
         self.rates(&(body - without))
     }
 
-    /// Of three angles, rad.
+    /// From three angles, rad.
     pub fn from_angles(angles: Vector3<f32>) -> Self {
         let (sin_pitch, cos_pitch) = math::sin_cos(angles.y);
         Self {
@@ -109,7 +109,7 @@ impl Euler {
         let ((sr, cr), (sp, cp)) = (self.roll, self.pitch);
         let (roll, pitch, yaw) = (rates.x, rates.y, rates.z);
         let (a_roll, a_pitch, a_yaw) = (accelerations.x, accelerations.y, accelerations.z);
-        // Across the roll axis: y' = θ̇, z' = ψ̇ cos θ, turned by φ.
+        // Perpendicular to the roll axis: y' = θ̇, z' = ψ̇ cos θ, rotated by φ.
         let z_rate = cp * yaw;
         let z_acceleration = cp * a_yaw - sp * pitch * yaw;
         Vector3::new(
@@ -127,7 +127,7 @@ fn half_angle((sin, cos): (f32, f32)) -> (f32, f32) {
     (0.5 * sin / half_cos, half_cos)
 }
 
-/// Angles, rates and accelerations that the attitude is to follow.
+/// Reference angles with rates and accelerations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EulerReference {
     /// φd, θd, ψd, rad.
@@ -139,7 +139,7 @@ pub struct EulerReference {
 }
 
 impl EulerReference {
-    /// The same attitude, rates and accelerations as those of a target.
+    /// The angles, rates and accelerations of an attitude target.
     pub fn of_target(target: &AttitudeTarget) -> Self {
         let euler = Euler::from_quaternion(&target.attitude);
         let rates = euler.rates(&target.rates);

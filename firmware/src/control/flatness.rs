@@ -1,9 +1,9 @@
-//! From a force and its derivatives to angles and theirs: Eq. 11 as a differentially flat map.
+//! From a force and its derivatives to an attitude and its derivatives: Eq. 11 as a differentially flat map.
 //!
-//! The specific force f (thrust a unit of mass) fixes where the body's z axis must point, n = f/|f|; turned by
-//! −ψ, the corrected Eq. 11 reads φd = asin(−n′y) = asin(Ux sψ − Uy cψ), θd = asin(n′x/cφd). Differentiating it
-//! twice gives the rates and accelerations that the attitude loop needs for exact tracking. The angles themselves are
-//! never computed: their sines and cosines are n′'s components, and those of their halves make the quaternion.
+//! The specific force f (thrust per unit of mass) determines the direction of the body's z axis, n = f/|f|. Rotated by
+//! −ψ, the corrected Eq. 11 reads φd = asin(−n′y) = asin(Ux sψ − Uy cψ), θd = asin(n′x/cφd). Its first two derivatives
+//! are the rates and accelerations that the attitude loop needs for exact tracking. The angles themselves are never
+//! computed: their sines and cosines are components of n′, and those of the half angles make the quaternion.
 
 use nalgebra::Vector3;
 
@@ -33,7 +33,7 @@ pub struct Heading {
     pub acceleration: f32,
 }
 
-/// Below this specific force (m/s²) its direction is not worth following.
+/// Smallest specific force (m/s²) whose direction is followed.
 const FORCE_MIN: f32 = 0.05;
 
 /// A unit vector with two derivatives.
@@ -44,13 +44,13 @@ struct Direction {
 }
 
 impl ForceProfile {
-    /// What holds a vehicle still under gravity `g`, m/s².
+    /// The constant force that balances gravity `g`, m/s².
     pub fn hover(g: f32) -> Self {
         let zero = Vector3::zeros();
         Self { force: Vector3::new(0.0, 0.0, g), rate: zero, acceleration: zero }
     }
 
-    /// True if every number of it is finite.
+    /// True if every component is finite.
     #[inline]
     pub fn is_finite(&self) -> bool {
         [&self.force, &self.rate, &self.acceleration].iter().all(|v| math::all_finite(v.as_slice()))
@@ -69,7 +69,7 @@ impl ForceProfile {
     }
 }
 
-/// The vector `v` turned by −ψ about z, given (sin ψ, cos ψ).
+/// The vector `v` rotated by −ψ about z, given (sin ψ, cos ψ).
 fn turn_back(v: &Vector3<f32>, (sin, cos): (f32, f32)) -> Vector3<f32> {
     Vector3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z)
 }
@@ -79,15 +79,15 @@ fn quarter_turn(v: &Vector3<f32>) -> Vector3<f32> {
     Vector3::new(-v.y, v.x, 0.0)
 }
 
-/// The attitude by the corrected Eq. 11, ψ's angle and rates as given, with rates and accelerations.
+/// The attitude target by the corrected Eq. 11, with rates and accelerations, for a force and a heading.
 ///
-/// Defined for a force that points above the horizon (|θd| < 90°); roll is kept off ±90° by 1 % in its cosine.
+/// Defined for a force above the horizon (|θd| < 90°); roll is limited so that its cosine is at least 0.01.
 #[inline]
 pub fn attitude_target(profile: &ForceProfile, heading: &Heading) -> AttitudeTarget {
     let direction = profile.direction();
     let (sin_half, cos_half) = math::sin_cos(0.5 * heading.angle);
     let turn = (2.0 * sin_half * cos_half, 1.0 - 2.0 * sin_half * sin_half);
-    // In the frame that turns with ψ: d/dt [Rz(−ψ) n] = Rz(−ψ)(ṅ − ψ̇ e3×n), and once more.
+    // In the frame that turns with ψ: d/dt [Rz(−ψ) n] = Rz(−ψ)(ṅ − ψ̇ e3×n), and the same again for n̈.
     let n = turn_back(&direction.n, turn);
     let n_rate = turn_back(&direction.rate, turn);
     let rate = n_rate - quarter_turn(&n) * heading.rate;
@@ -129,7 +129,7 @@ mod tests {
         EulerReference::of_target(&attitude_target(profile, heading))
     }
 
-    /// A made-up smooth force and heading, in f64 and exactly differentiable.
+    /// A smooth test force and heading with exact derivatives, computed in f64.
     fn sample(t: f64) -> (ForceProfile, Heading) {
         let (s, c) = t.sin_cos();
         let v = |a: f64, b: f64, z: f64| Vector3::new(a as f32, b as f32, z as f32);

@@ -1,22 +1,22 @@
-//! The error of an attitude on the rotation group: tilt first, heading apart.
+//! Attitude error on the rotation group, with tilt and heading separated.
 //!
-//! The error rotation `qe = q⁻¹ ⊗ qd = (w, x, y, z)` is split into the shortest rotation that brings the thrust axis
-//! where it belongs and a turn about that axis (Brescianini and D'Andrea, IEEE TCST 2018). With N = w² + z²:
+//! The error rotation `qe = q⁻¹ ⊗ qd = (w, x, y, z)` is split into the shortest rotation that aligns the thrust axis
+//! and a rotation about that axis (Brescianini and D'Andrea, IEEE TCST 2018). With N = w² + z²:
 //!
 //! ```text
 //! e1 = 2 (wx − yz)/√N    e2 = 2 (wy + xz)/√N    e3 = 2 sgn(w) z/√N
 //! ```
 //!
-//! (e1, e2) is 2 sin(α/2) along the axis of the tilt error α, e3 is 2 sin(β/2) of the heading error β: like angles where
-//! they are small, and largest, 2, where the vehicle is upside down or heads backwards. There is no singularity at
-//! 90°; q and −q give the same error, so it never unwinds; and since the tilt does not depend on the heading, a vehicle
-//! that is short of yaw torque still points its thrust the shortest way.
+//! (e1, e2) is 2 sin(α/2) along the axis of the tilt error α, and e3 is 2 sin(β/2) of the heading error β. Small errors
+//! are angles; the largest value, 2, means upside down or heading backwards. There is no singularity at 90°, and q and
+//! −q give the same error, so there is no unwinding. The tilt error does not depend on the heading, so a vehicle short
+//! of yaw torque still aligns its thrust the shortest way.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::math;
 
-/// Error of an attitude towards a desired one. Everything is in the body's frame.
+/// Error of an attitude with respect to a desired one. All vectors are in the body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointingError {
     /// e1..e3, rad for small errors.
@@ -31,12 +31,12 @@ pub struct PointingError {
     twice: Vector3<f32>,
 }
 
-/// Below this N, within 3.6° of it, the thrust axis points the wrong way so exactly that every way back is as short: the
-/// vehicle rolls, and its error does not change.
+/// Below this N, within 3.6° of upside down, every rotation back is equally short: the vehicle rolls, with a constant
+/// error.
 const INVERTED: f32 = 1e-3;
 
 impl PointingError {
-    /// Of the attitude `is` towards `ought`, both body to world.
+    /// The error of the attitude `is` with respect to the desired attitude `ought`, both body to world.
     #[inline]
     pub fn between(is: &UnitQuaternion<f32>, ought: &UnitQuaternion<f32>) -> Self {
         let (a, b) = (is.quaternion(), ought.quaternion());
@@ -50,7 +50,7 @@ impl PointingError {
         let square = w * w + z * z;
         let upright = square > INVERTED;
         let per_root = if upright { 1.0 / math::sqrt(square) } else { 0.0 };
-        // Products of two components do not know the sign of the quaternion; what turns about the axis does.
+        // Products of two components do not depend on the sign of the quaternion, but the heading error does.
         let signed_per_root = if w < 0.0 { -per_root } else { per_root };
         let error = if upright {
             Vector3::new(2.0 * per_root * tilt.0, 2.0 * per_root * tilt.1, 2.0 * signed_per_root * z)
@@ -61,8 +61,8 @@ impl PointingError {
         Self { error, tilt, per_root, signed_per_root, w, vector, twice: vector + vector }
     }
 
-    /// R(qe) v, which takes a vector of the desired body's frame to the body's: `v + w t + q × t` with `t = 2 q × v`,
-    /// cheaper for two vectors than the matrix.
+    /// R(qe) v, which transforms a vector from the desired body frame to the body frame: `v + w t + q × t` with `t = 2
+    /// q × v`, cheaper for two vectors than the matrix.
     #[inline]
     pub fn to_body(&self, v: &Vector3<f32>) -> Vector3<f32> {
         let (w, q, t) = (self.w, &self.vector, self.twice.cross(v));
@@ -73,7 +73,7 @@ impl PointingError {
         )
     }
 
-    /// ė, given the rate error R(qe) Ωd − Ω in the body's frame.
+    /// ė, given the rate error R(qe) Ωd − Ω in the body frame.
     ///
     /// With T = (wx − yz, wy + xz): Ṫ = ½((2N−1)a − 2c T2, (2N−1)b + 2c T1) and Ṅ = −(a T1 + b T2) for a rate error of
     /// (a, b, c), which follow from q̇e = ½ (0, a, b, c) ⊗ qe.
@@ -100,7 +100,7 @@ mod tests {
     use super::*;
     use nalgebra::UnitQuaternion as Q;
 
-    /// Attitudes all over the rotation group.
+    /// Attitudes spread over the rotation group.
     fn attitudes() -> impl Iterator<Item = Q<f32>> {
         (0..400).map(|i| {
             let t = i as f32;

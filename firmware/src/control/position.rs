@@ -1,8 +1,8 @@
 //! Position control, Eq. 28, 30 and 31: sliding mode on x, y, z, as a specific force and its derivatives.
 //!
-//! The paper's three laws share one form. With Ux U1/m, Uy U1/m and U1 cφcθ/m the components of the specific
-//! force f (Eq. 2), each reads `f = r̈d − c ṙ + λ ė + u_r(s)`, plus g on z. Written so, the division by U1 and
-//! by cφ cθ disappears and with it their singularities; [`paper_inputs`] gives U1, Ux, Uy as printed.
+//! The paper's three laws share one form. With Ux U1/m, Uy U1/m and U1 cφcθ/m as the components of the specific force f
+//! (Eq. 2), each reads `f = r̈d − c ṙ + λ ė + u_r(s)`, plus g on z. In this form the divisions by U1 and by cφ cθ
+//! disappear, and with them their singularities; [`paper_inputs`] returns U1, Ux, Uy as printed.
 
 use nalgebra::Vector3;
 
@@ -24,15 +24,15 @@ pub struct PositionGains {
     pub axes: [AxisGains; 3],
     /// Observer of the acceleration's disturbance, m/s².
     pub observer: ObserverGains,
-    /// Rate γ at which the observer's disturbance along the thrust is taken for wrong thrust, 1/s; 0 for never.
+    /// Rate γ at which the thrust effectiveness adapts to the disturbance along the thrust, 1/s; 0 to disable.
     pub effectiveness_rate: f32,
 }
 
 impl PositionGains {
-    /// Refuses gains with which the law is not defined.
+    /// Checks that the law is defined for these gains.
     ///
     /// # Errors
-    /// The first gain that is out of its range.
+    /// The first gain that is out of range.
     pub fn validate(&self) -> Result<(), ConfigError> {
         let [x, y, z] = &self.axes;
         x.validate("control.x")?;
@@ -43,7 +43,7 @@ impl PositionGains {
     }
 }
 
-/// What of the model the position laws compensate, ready for the loop.
+/// The translational model that position laws compensate, ready for the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Translation {
     /// k1..k3 over m: −c9..c11, 1/s.
@@ -53,7 +53,7 @@ pub struct Translation {
 }
 
 impl Translation {
-    /// Of an airframe.
+    /// For an airframe.
     pub fn new(airframe: &Airframe) -> Self {
         Self { specific_drag: Vector3::from(airframe.drag_n_s_m) / airframe.mass_kg, gravity: airframe.gravity_m_s2 }
     }
@@ -66,7 +66,7 @@ impl Translation {
         acceleration
     }
 
-    /// f that gives an acceleration r̈: the inverse of [`acceleration`](Self::acceleration).
+    /// The f that gives an acceleration r̈: the inverse of [`acceleration`](Self::acceleration).
     #[inline]
     pub fn force(&self, acceleration: &Vector3<f32>, velocity: &Vector3<f32>) -> Vector3<f32> {
         let mut force = acceleration + self.drag(velocity);
@@ -91,7 +91,7 @@ pub struct SlidingPosition {
 }
 
 impl SlidingPosition {
-    /// Stepped once a job of the outer partition, with valid gains.
+    /// With valid gains; evaluated once per job of the outer partition.
     pub fn new(airframe: &Airframe, gains: &PositionGains) -> Self {
         let step_s = OUTER.period as f32 * TICK_S;
         let observer = gains.observer;
@@ -103,7 +103,7 @@ impl SlidingPosition {
         }
     }
 
-    /// What the vehicle is accelerated by beyond the model, m/s², and d̂ in it: the rest is wrong thrust.
+    /// The acceleration that the model does not explain, m/s², and d̂, the component of it that is not a thrust error.
     #[inline]
     fn observe(&mut self, input: &PositionInput) -> (Vector3<f32>, Vector3<f32>) {
         let Some(observer) = &mut self.observer else { return (Vector3::zeros(), Vector3::zeros()) };
@@ -116,14 +116,14 @@ impl SlidingPosition {
 }
 
 impl PositionLaw for SlidingPosition {
-    /// Eq. 28, 30, 31 as a specific force, less the disturbance, with its derivatives: ḟ is exact but for the motion
-    /// of the disturbance, of v of super-twisting, and of drag off the reference; f̈ holds the reference's snap and drag
-    /// only, since the feedback's second derivative would need the jerk.
+    /// Eq. 28, 30, 31 as a specific force, minus the disturbance, with its derivatives. ḟ neglects the derivatives of
+    /// the disturbance, of v of super-twisting, and of the drag off the reference. f̈ contains only the reference's
+    /// snap and drag, because the second derivative of the feedback would need the jerk.
     #[inline]
     fn step(&mut self, input: &PositionInput) -> PositionDemand {
         let reference = input.reference;
         let (beyond, disturbance) = self.observe(input);
-        // The motion was carried forward by the model alone.
+        // The motion was predicted by the model alone, without the disturbance.
         let velocity = input.velocity + beyond * OUTER_AHEAD_S;
         let demand = demand(&mut self.axes, &self.model, reference, input.position, &velocity, input.limited);
         let error = reference.position - input.position;
@@ -159,7 +159,7 @@ impl PositionLaw for SlidingPosition {
     }
 }
 
-/// Sliding variables sx, sy, sz and the specific force they ask for.
+/// Sliding variables sx, sy, sz and the demanded specific force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceDemand {
     /// Eq. 21–23, m/s.
@@ -199,18 +199,18 @@ pub struct ForceLimits {
 }
 
 impl ForceLimits {
-    /// Of an airframe, and a greatest tilt (rad).
+    /// For an airframe and a greatest tilt (rad).
     pub fn new(airframe: &Airframe, tilt_max_rad: f32) -> Self {
         let (sin_tilt, cos_tilt) = math::sin_cos(tilt_max_rad);
         Self { force_max: airframe.thrust_max_n() / airframe.mass_kg, tan_tilt_max: sin_tilt / cos_tilt }
     }
 
-    /// Brings a specific force within what the rotors can give: not below `FLOOR`, at most the greatest in size, tilted
-    /// at most the greatest tilt. Height is kept before horizontal acceleration. Returns whether a limit acted; then
-    /// the derivatives are those of a force that is not flown, and are dropped.
+    /// Limits a specific force: the vertical component from below, the magnitude and the tilt from above. The vertical
+    /// component has priority over the horizontal ones. Returns whether a limit acted; the derivatives are then those
+    /// of another force, and are set to zero.
     #[inline]
     pub fn apply(&self, profile: &mut ForceProfile) -> bool {
-        /// Least vertical part, as a part of the greatest force: the thrust axis must not point down.
+        /// Least vertical component as a fraction of the greatest force: the thrust axis must not point down.
         const FLOOR: f32 = 0.02;
         let (force, force_max) = (profile.force, self.force_max);
         let vertical = math::clamp(force.z, FLOOR * force_max, force_max);
@@ -228,9 +228,9 @@ impl ForceLimits {
     }
 }
 
-/// U1, Ux, Uy as printed in Eq. 28, 30 and 31, from the demand's force and the vehicle's roll and pitch cosines.
+/// U1, Ux, Uy as printed in Eq. 28, 30 and 31, from the demanded force and the cosines of roll and pitch.
 ///
-/// Ux and Uy are not limited; they are not finite where U1 is zero.
+/// Ux and Uy are not limited; they are not finite if U1 is zero.
 pub fn paper_inputs(airframe: &Airframe, force: &Vector3<f32>, cos_roll: f32, cos_pitch: f32) -> (f32, f32, f32) {
     let thrust = airframe.mass_kg * force.z / (cos_roll * cos_pitch);
     let scale = airframe.mass_kg / thrust;

@@ -19,7 +19,7 @@ use super::update::Verdict;
 use super::watch::{Scatter, Watch};
 use crate::frames::LocalFrame;
 use crate::math;
-use crate::sensors::{BaroSample, GnssSample, MagSample, PoseSample};
+use crate::sensors::{BaroSample, GnssSample, MagSample, Measurements, PoseSample};
 use crate::signals::{NavHealth, TICK_S, Tick};
 
 /// Readings since the last job: the newest of each sensor.
@@ -33,6 +33,16 @@ pub struct Readings {
     pub gnss: Option<GnssSample>,
     /// Motion capture.
     pub pose: Option<PoseSample>,
+}
+
+impl Readings {
+    /// Keeps the newest reading of each sensor.
+    pub fn keep(&mut self, measured: &Measurements) {
+        self.mag = measured.mag.or(self.mag);
+        self.baro = measured.baro.or(self.baro);
+        self.gnss = measured.gnss.or(self.gnss);
+        self.pose = measured.pose.or(self.pose);
+    }
 }
 
 /// Snapshot for the filter.

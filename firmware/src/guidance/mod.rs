@@ -161,7 +161,23 @@ fn flat(x: [f32; 5], y: [f32; 5], z: [f32; 5], yaw: f32) -> FlatReference {
     }
 }
 
-/// A trajectory made ready for the loop, with the path that joins it.
+/// A trajectory prepared for the loop, with the path that joins it.
+///
+/// ```
+/// use firmware::guidance::{Guidance, JoinPlan, Trajectory};
+/// use nalgebra::Vector3;
+///
+/// // The paper's helix, joined from rest at the origin within 3 s.
+/// let plan = JoinPlan { duration_s: 3.0, start_acceleration_m_s2: [0.0; 3], middle_m: Default::default() };
+/// let guidance = Guidance::new(Trajectory::PAPER_HELIX, Some(&plan), Vector3::zeros()).expect("finite values");
+///
+/// assert_eq!(guidance.at(0).position, Vector3::zeros());
+/// // From 3 s on: (4 sin t, 5 cos t, 2 + t), here at t = 5 s.
+/// let reference = guidance.at(5_000);
+/// let exact = Vector3::new(4.0 * 5.0_f32.sin(), 5.0 * 5.0_f32.cos(), 7.0);
+/// assert!((reference.position - exact).norm() < 1e-5);
+/// assert!((reference.velocity.z - 1.0).abs() < 1e-6);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guidance {
     phase: Phase,

@@ -1,4 +1,4 @@
-//! The reference of a vehicle that is told where to go, or how fast, while it flies.
+//! Online setpoint generator: the reference towards a place, a height or a velocity that may change at any time.
 //!
 //! ```text
 //! target ─► braking law ─► speed within limits ─► ∫ ─► course ─► lag ─► lag ─► lag ─► reference
@@ -6,17 +6,17 @@
 //! ```
 //!
 //! The *course* is a point that goes to the target with limited speed and acceleration, along a straight line if it
-//! sets out from rest, and stops there by the braking law that is exact for its steps. Its acceleration leaps. So the
-//! reference follows it through three equal lags of the first order, applied to position, velocity and acceleration
-//! alike. That is one convolution with a kernel that is nowhere negative and has an area of 1, and therefore
+//! starts from rest, and stops there by a braking law that is exact in discrete time. Its acceleration jumps. So the
+//! reference follows it through three equal first-order lags, applied to position, velocity and acceleration alike.
+//! That is a convolution with a non-negative kernel of area 1. Therefore
 //!
-//! - the reference's velocity and acceleration keep every limit that the course's keep, in any direction;
-//! - it overshoots no target that the course does not;
+//! - the reference's velocity and acceleration respect every limit that the course's respect, in any direction;
+//! - it overshoots no target that the course does not overshoot;
 //! - position to jerk are continuous whatever the target does, the jerk is at most `2 h a`, with h = 2 e⁻²/τ the peak
-//!   of the kernel, and τ is chosen such that this is the jerk's limit;
-//! - its velocity is exactly the derivative of its position, step by step, for as long as it is so for the course.
+//!   of the kernel, and τ is chosen such that this is the jerk limit;
+//! - its velocity is exactly the derivative of its position, step by step, as long as this holds for the course.
 //!
-//! The price is 3τ of delay, half a second with the usual limits. Heading is carried along as a fourth component.
+//! The price is 3τ of delay, half a second with the usual limits. The heading is a fourth component.
 
 use nalgebra::{Vector3, Vector4};
 
@@ -31,24 +31,24 @@ const STEP_S: f32 = OUTER.period as f32 * TICK_S;
 /// 4 e⁻²: twice the peak of the kernel of three lags, times their time constant.
 const KERNEL: f32 = 0.541_341_1;
 
-/// Where to go, or how fast.
+/// Target of the generator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
-    /// To a place and heading, and stay.
+    /// Go to a place and heading, and stay.
     Place {
         /// In the world, m.
         position: Vector3<f32>,
-        /// ψ, rad; `None` for as it is.
+        /// ψ, rad; `None` to keep the heading.
         yaw: Option<f32>,
     },
-    /// Stop sideways, and go to a height; keep the heading.
+    /// Stop horizontally, and go to a height; keep the heading.
     Height {
         /// z in the world, m.
         height_m: f32,
-        /// At most, m/s.
+        /// Greatest speed, m/s.
         speed_m_s: f32,
     },
-    /// With a velocity and a rate of the heading.
+    /// Move with a velocity and a yaw rate.
     Velocity {
         /// In the world, m/s.
         velocity: Vector3<f32>,
@@ -57,7 +57,7 @@ pub enum Target {
     },
 }
 
-/// One of the lags: how far it is behind the one before, and what it makes of velocity and acceleration.
+/// One of the lags: its distance behind the one before, and its velocity and acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Lag {
     behind: Vector4<f32>,
@@ -65,11 +65,11 @@ struct Lag {
     acceleration: Vector4<f32>,
 }
 
-/// The generator.
+/// The setpoint generator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setpoint {
     limits: ModeSettings,
-    /// Part of the way to its input that a lag goes in a step, 1 − e^(−h/τ).
+    /// Fraction of the distance to its input that a lag covers per step, 1 − e^(−h/τ).
     step_fraction: f32,
     /// x, y, z and ψ of the course, and their rates.
     place: Vector4<f32>,
@@ -81,16 +81,16 @@ fn four(vector: &Vector3<f32>, yaw: f32) -> Vector4<f32> {
     Vector4::new(vector.x, vector.y, vector.z, yaw)
 }
 
-/// The speed after this step with which a point can still stop in `distance` (m) by `deceleration` (m/s²), if it now
-/// moves with `speed` (m/s): the root of `s²/2a + h(v + s)/2 = d`, which goes down by a·h a step, exactly.
+/// The greatest speed after this step from which a point can still stop within `distance` (m) by `deceleration` (m/s²),
+/// if it now moves with `speed` (m/s): the root of `s²/2a + h(v + s)/2 = d`, which decreases by exactly a·h per step.
 fn braking_speed(distance: f32, speed: f32, deceleration: f32) -> f32 {
     let half = 0.5 * STEP_S * deceleration;
     let square = half * half + deceleration * (2.0 * distance - STEP_S * speed);
     math::max(math::sqrt(math::max(square, 0.0)) - half, 0.0)
 }
 
-/// The way that a step goes and the change of the speed in it, along a line towards a point `distance` away, with the
-/// speed and its change within `most` and `acceleration`. `grain` is what of the distance is rounding, m.
+/// The displacement and the change of speed in a step, along a line towards a point `distance` away, with the speed
+/// limited to `most` and its change by `acceleration`. `grain` is the rounding error of the distance, m.
 fn approach(distance: f32, speed: f32, most: f32, acceleration: f32, grain: f32) -> (f32, f32) {
     let change_max = acceleration * STEP_S;
     if math::abs(distance) <= change_max * STEP_S + grain && math::abs(speed) <= change_max {
@@ -101,19 +101,19 @@ fn approach(distance: f32, speed: f32, most: f32, acceleration: f32, grain: f32)
     moved(speed, math::limit(wanted - speed, change_max))
 }
 
-/// The way that a step goes with a change of the speed, and the change.
+/// The displacement in a step with a change of speed, and the change.
 fn moved(speed: f32, change: f32) -> (f32, f32) {
     ((speed + 0.5 * change) * STEP_S, change)
 }
 
-/// Part of the acceleration that braking is planned with; the rest keeps the course on its line.
+/// Fraction of the acceleration that braking is planned with; the rest keeps the course on its line.
 const BRAKING: f32 = 0.95;
 
-/// Part of itself to which a number is known.
+/// Relative rounding error of a coordinate: several units in the last place of an f32.
 const GRAIN: f32 = 1e-6;
 
 impl Setpoint {
-    /// At rest at the origin, with valid limits.
+    /// A generator at rest at the origin, with valid limits.
     pub fn new(limits: &ModeSettings) -> Self {
         let fastest = math::max(limits.acceleration_m_s2, limits.vertical_acceleration_m_s2);
         let time_constant = KERNEL * fastest / limits.jerk_m_s3;
@@ -127,8 +127,8 @@ impl Setpoint {
         }
     }
 
-    /// Goes on from a reference without a leap in position to snap: the course is set ahead of it by what the lags
-    /// will take away.
+    /// Continues from a reference without a jump in position to snap: the course is set ahead of it by the distance
+    /// that the lags are behind.
     pub fn start(&mut self, from: &FlatReference) {
         let ahead_s = STEP_S / self.step_fraction;
         let mut velocity = four(&from.velocity, from.yaw_rate);
@@ -147,7 +147,7 @@ impl Setpoint {
         self.speed = velocity;
     }
 
-    /// The reference a step later.
+    /// Advances by a step towards a target, and returns the new reference.
     pub fn advance(&mut self, target: &Target) -> FlatReference {
         let (way, change) = self.translate(target);
         let (angle, rate_change) = self.turn(target);
@@ -159,19 +159,19 @@ impl Setpoint {
         self.reference()
     }
 
-    /// Puts the reference at a place, its motion kept.
+    /// Moves the reference to a horizontal position (m), keeping its velocity and higher derivatives.
     pub fn put_horizontally(&mut self, x: f32, y: f32) {
         let behind = self.behind();
         self.place.x = x + behind.x;
         self.place.y = y + behind.y;
     }
 
-    /// Puts the reference at a height (m), its motion kept.
+    /// Moves the reference to a height (m), keeping its velocity and higher derivatives.
     pub fn put_vertically(&mut self, z: f32) {
         self.place.z = z + self.behind().z;
     }
 
-    /// The way of the course in this step, and the change of its velocity.
+    /// The displacement of the course in this step, and the change of its velocity.
     fn translate(&self, target: &Target) -> (Vector3<f32>, Vector3<f32>) {
         let (place, speed, limits) = (self.place.xyz(), self.speed.xyz(), &self.limits);
         match *target {
@@ -189,7 +189,7 @@ impl Setpoint {
         }
     }
 
-    /// Along the straight line to a place `away`, as far as the motion is not another.
+    /// Moves the course along the straight line to a place `away`; motion off that line is braked.
     fn go(&self, away: &Vector3<f32>, grain: f32) -> (Vector3<f32>, Vector3<f32>) {
         let speed = self.speed.xyz();
         let distance = math::sqrt(away.norm_squared());
@@ -200,13 +200,13 @@ impl Setpoint {
             return (*away, -speed);
         }
         let now = speed.dot(&direction);
-        // What is more than can be had in a step would be had sooner along one axis than along another.
+        // A larger change than one step allows would be reached sooner along one axis than along another.
         let most = math::min(self.speed_along(&direction), math::max(now, 0.0) + change_max);
         let along = math::min(braking_speed(distance, now, BRAKING * acceleration), most);
         self.change_speed(&(direction * along - speed))
     }
 
-    /// A change of the velocity as far as the acceleration's limits allow, and the way of the course with it.
+    /// A change of velocity limited by the acceleration, and the displacement of the course with it.
     fn change_speed(&self, change: &Vector3<f32>) -> (Vector3<f32>, Vector3<f32>) {
         let horizontal = shorten(change.x, change.y, self.limits.acceleration_m_s2 * STEP_S);
         let vertical = math::limit(change.z, self.limits.vertical_acceleration_m_s2 * STEP_S);
@@ -214,7 +214,7 @@ impl Setpoint {
         ((self.speed.xyz() + change * 0.5) * STEP_S, change)
     }
 
-    /// A velocity brought within the limits.
+    /// A velocity limited in its horizontal and vertical components.
     fn within_limits(&self, velocity: &Vector3<f32>) -> Vector3<f32> {
         let (x, y) = shorten(velocity.x, velocity.y, self.limits.cruise_m_s);
         Vector3::new(x, y, math::clamp(velocity.z, -self.limits.sink_m_s, self.limits.climb_m_s))
@@ -231,7 +231,7 @@ impl Setpoint {
         within(direction, self.limits.acceleration_m_s2, self.limits.vertical_acceleration_m_s2)
     }
 
-    /// The angle that the course turns by in this step, and the change of its rate.
+    /// The yaw angle that the course turns by in this step, and the change of its rate.
     fn turn(&self, target: &Target) -> (f32, f32) {
         let (rate, most, acceleration) =
             (self.speed.w, self.limits.yaw_rate_rad_s, self.limits.yaw_acceleration_rad_s2);
@@ -245,7 +245,7 @@ impl Setpoint {
         }
     }
 
-    /// The lags follow the course for a step in which it goes a `way` with an acceleration.
+    /// Advances the lags by a step in which the course moves by `way` with an acceleration.
     fn follow(&mut self, way: &Vector4<f32>, acceleration: &Vector4<f32>) {
         let gain = self.step_fraction;
         let (mut way, mut velocity, mut acceleration) = (*way, self.speed, *acceleration);
@@ -259,7 +259,7 @@ impl Setpoint {
         }
     }
 
-    /// How far the reference is behind the course.
+    /// Distance of the reference behind the course.
     fn behind(&self) -> Vector4<f32> {
         self.lags.iter().fold(Vector4::zeros(), |sum, lag| sum + lag.behind)
     }
@@ -284,15 +284,15 @@ impl Setpoint {
     }
 }
 
-/// The greatest size of a vector in a direction whose horizontal and vertical parts are limited.
+/// The greatest length of a vector along a direction, with limits on its horizontal and vertical components.
 fn within(direction: &Vector3<f32>, horizontal: f32, vertical: f32) -> f32 {
     let level = math::sqrt(direction.x * direction.x + direction.y * direction.y);
     let up = math::abs(direction.z);
-    // One of the two is 0.7 at least, but for no direction at all.
+    // One of the two is 0.7 at least, unless the direction is zero.
     math::min(horizontal / math::max(level, 1e-6), vertical / math::max(up, 1e-6))
 }
 
-/// A horizontal vector made `most` long at most.
+/// A horizontal vector limited to the length `most`.
 fn shorten(x: f32, y: f32, most: f32) -> (f32, f32) {
     let size = math::sqrt(x * x + y * y);
     let scale = if size > most { most / size } else { 1.0 };

@@ -1,4 +1,4 @@
-//! What the generator promises: limits, continuity, straight lines, no overshoot, and arrival in time.
+//! The guarantees of the generator: limits, continuity, straight lines, no overshoot, and arrival in time.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;

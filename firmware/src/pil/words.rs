@@ -166,7 +166,7 @@ impl Words for Vector3<f32> {
     }
 }
 
-/// w, x, y, z, not brought to unit size.
+/// w, x, y, z, not normalised.
 impl Words for UnitQuaternion<f32> {
     const WORDS: usize = 4;
 
@@ -181,7 +181,7 @@ impl Words for UnitQuaternion<f32> {
     }
 }
 
-/// A struct is its fields' words, in the order given.
+/// Encodes a struct as the words of its fields, in the order given.
 macro_rules! as_words {
     ($name:ident { $($field:ident: $type:ty),+ }) => {
         impl $crate::pil::words::Words for $name {
@@ -199,7 +199,7 @@ macro_rules! as_words {
 }
 pub(super) use as_words;
 
-/// Its kind, and up to four numbers.
+/// The kind, and up to four values.
 impl Words for Request {
     const WORDS: usize = 5;
 

@@ -8,6 +8,7 @@ use super::consistency::Consistency;
 use crate::plant::ground::Ground;
 use crate::record::{Navigation, Recorder, Row};
 use crate::report::Touchdown;
+use crate::report::touchdown::{HARDEST_M_S, UPRIGHT};
 use crate::statistics::MeanSquare;
 
 /// A number that a flight has measured; over the time that is judged, unless it says otherwise. Errors are true minus
@@ -128,9 +129,6 @@ const AIRBORNE_M: f64 = 0.5;
 const LIFTED_M: f64 = 0.05;
 /// A place that the next one is counted after, m.
 const PASSED_M: f64 = 2.0;
-/// Fastest touchdown that a vehicle survives, m/s, and cosine of the tilt that it may end in.
-const HARDEST_M_S: f64 = 4.0;
-const UPRIGHT: f64 = 0.5;
 /// Ticks between two distances that are kept: a day has millions.
 const KEPT_EVERY: u64 = 20;
 /// Height that counts as reached, m.
@@ -244,8 +242,8 @@ impl Assessor {
         self.roll.take(crate::report::angles::roll_pitch_yaw(row.attitude)[0].abs().to_degrees());
     }
 
-    /// What the flight has measured; `survived` as its outcome has it.
-    pub fn finish(self, survived: bool) -> Measures {
+    /// What the flight has measured; `tracked` unless the vehicle was lost.
+    pub fn finish(self, tracked: bool) -> Measures {
         let events = self.events;
         let mean = self.height_sum.0 / self.height_sum.1;
         let mut horizontal = self.horizontal;
@@ -275,7 +273,7 @@ impl Assessor {
             Measure::DisarmedS => events.disarmed,
             Measure::MissMaxM => miss,
             Measure::FlownPart => Some(self.in_air as f64 / self.judged.max(1) as f64),
-            Measure::Survived => Some(f64::from(survived && self.sound && whole)),
+            Measure::Survived => Some(f64::from(tracked && self.sound && whole)),
         };
         Measures { values: Measure::ALL.map(value), consistency: self.consistency }
     }

@@ -60,7 +60,7 @@ pub(super) fn attitudes() -> impl Iterator<Item = UnitQuaternion<f32>> {
 fn fly(scenario: &Scenario) -> Vec<Row> {
     let mut rows = Vec::new();
     let outcome = flight::fly(scenario, 1, &mut rows).expect("can be flown");
-    assert!(outcome.survived, "{}", scenario.controller.name());
+    assert!(outcome.survived(), "{}", scenario.controller.name());
     rows
 }
 

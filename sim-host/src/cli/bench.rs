@@ -50,6 +50,6 @@ fn fly(scenario: &Scenario, ticks: u32) -> Result<f64> {
     let outcome = flight.run(ticks, &mut ());
     let wall_s = start.elapsed().as_secs_f64();
     // Looked at, so that the flight cannot be optimised away.
-    ensure!(outcome.survived && outcome.ticks == ticks, "the benchmark's flight was lost");
+    ensure!(outcome.survived() && outcome.ticks == ticks, "the benchmark's flight was lost");
     Ok(f64::from(ticks) * 1e-3 / wall_s)
 }

@@ -1,23 +1,47 @@
-//! No command: a tour on sensors, and the paper's disturbed case with figures like the paper's 2 to 7, in runs/.
+//! No command: a tour on sensors, and the paper's disturbed case, with their figures in runs/.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 
-use super::run;
-use crate::report::table;
+use super::fly;
+use crate::interrupt::{self, Interrupted};
+use crate::report::{Paint, Staged, table};
 use crate::scenario::Scenario;
 
+const NEXT: &str = "next:
+  sim-host run x500-helix --out runs/x500-helix   another flight (`sim-host scenarios` lists them)
+  sim-host run outdoor-tour --seeds 1..20         the same tour in twenty winds, with twenty sets of sensors
+  sim-host serve                                  fly it yourself from QGroundControl";
+
 pub(super) fn run() -> Result<()> {
+    interrupt::listen()?;
+    let paint = Paint::for_stdout();
     for name in ["outdoor-tour", "paper-disturbed"] {
         let folder = Path::new("runs").join(name);
-        let summary = run::fly(&Scenario::load(name, &[])?, 1, Some(&folder), true)?;
-        let files = if summary.sensed.is_some() { "truth.csv, estimate.csv" } else { "truth.csv" };
-        super::say(&format!(
-            "{}figures, {files} and summary.json are in {}\n ",
-            table::render(&summary),
-            folder.display()
-        ))?;
+        let scenario = Scenario::load(name, &[])?;
+        let staged = Staged::begin(&folder)?;
+        let summary = fly::fly_into(&staged.folder(), &scenario, &[], 1, true)?;
+        let contents = staged.finish()?;
+        let about = paint.dim(&format!("  {}\n", scenario.file.summary));
+        let heading = table::heading(&summary, paint) + &about + "\n" + &table::result(&summary);
+        super::say(&format!("{heading}{}\n ", pictures(&folder, &contents)))?;
+        ensure!(!interrupt::requested(), Interrupted);
     }
-    super::say("More: `sim-host scenarios` lists what can be flown, `sim-host serve` flies for a ground station.")
+    super::say(NEXT)
+}
+
+/// Where the pictures are, and which to look at first.
+fn pictures(folder: &Path, contents: &str) -> String {
+    let first = path_in_space(folder).map_or_else(String::new, |path| format!("; look first at {}", path.display()));
+    format!("wrote {}: {contents}{first}", folder.display())
+}
+
+/// The figure of the whole path.
+fn path_in_space(folder: &Path) -> Option<PathBuf> {
+    let is_path = |path: &PathBuf| {
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        name.ends_with(".svg") && (name.contains("path") || name.contains("helix"))
+    };
+    std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path())).find(is_path)
 }

@@ -9,6 +9,8 @@ mod assess;
 mod bench;
 mod compare;
 mod demo;
+mod fly;
+mod paper;
 mod pil;
 mod plan;
 mod run;
@@ -26,6 +28,7 @@ use anyhow::{Context, Result};
 use clap::error::{ContextKind, ContextValue};
 use clap::{Args, CommandFactory as _, Parser, Subcommand};
 
+use crate::interrupt::{self, Interrupted};
 use crate::link;
 use crate::refusal::did_you_mean;
 use crate::scenario::{self, Scenario};
@@ -100,6 +103,15 @@ enum Command {
     },
     /// Fly every controller in every scenario under every disturbance of a matrix, and compare them.
     Compare(CompareArgs),
+    /// Fly the paper's simulations, make its Figures 2 to 7, and hold its claims against what was flown.
+    Paper {
+        /// Write the figures, paper.md and paper.json there.
+        #[arg(long, value_name = "DIR", default_value = "runs/paper")]
+        out: PathBuf,
+        /// Print a JSON object.
+        #[arg(long)]
+        json: bool,
+    },
     /// Plan the path that joins a scenario's trajectory, and print it as that scenario's `[join]` table.
     Plan {
         #[command(flatten)]
@@ -256,7 +268,7 @@ struct ServeArgs {
     /// Address to send to: `HOST:PORT`, or `HOST` for port 14550. Repeatable.
     #[arg(long = "peer", value_name = "ADDRESS", default_values = link::DEFAULT_PEERS, value_parser = peer_address)]
     peers: Vec<SocketAddr>,
-    /// Simulated seconds a second.
+    /// Simulated seconds per second, 0.01 to 1000.
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     speed: f64,
     /// Seed of the random numbers.
@@ -336,14 +348,21 @@ pub fn main() -> ExitCode {
         Some(Command::Bench { seconds, runs, json }) => bench::run(seconds, runs, json),
         Some(Command::Sweep { which, seed, json }) => sweep::run(&which, seed, json),
         Some(Command::Compare(args)) => compare::run(&args),
+        Some(Command::Paper { out, json }) => paper::run(&out, json),
         Some(Command::Plan { which, seed, flights }) => plan::run(&which, seed, flights),
         Some(Command::Tune(args)) => tune::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        // What was flown has been reported.
+        Err(error) if error.is::<Interrupted>() => ExitCode::from(interrupt::EXIT_CODE),
         Err(error) => {
             eprintln!("sim-host: {}", one_line(&error));
-            ExitCode::from(if pil::is_finding(&error) || error.is::<assess::Unmet>() { 1 } else { 2 })
+            ExitCode::from(if error.is::<run::SomeFailed>() || pil::is_finding(&error) || error.is::<assess::Unmet>() {
+                1
+            } else {
+                2
+            })
         }
     }
 }

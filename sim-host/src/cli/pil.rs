@@ -8,14 +8,15 @@ use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
 use serde_json::json;
 
-use super::{PilArgs, run};
+use super::{PilArgs, fly as report_of};
 use crate::flight;
+use crate::interrupt::{self, Interrupted};
 use crate::pil::{BusyWait, Difference, Overrun, Pil, PilOptions, PilOutput, Stopped, compare};
 use crate::plant::rigid_body::RigidBody;
 use crate::record::Recorder;
-use crate::report::{Metrics, OutFolder, Progress, Summary, TruthWriter, table};
+use crate::report::{Metrics, Paint, Progress, Staged, Summary, Touchdown, TruthWriter, table};
 use crate::scenario::Scenario;
-use crate::sil::Flight;
+use crate::sil::{End, Flight};
 
 pub(super) fn run(args: &PilArgs) -> Result<()> {
     let scenario = args.which.load()?;
@@ -29,17 +30,24 @@ pub(super) fn run(args: &PilArgs) -> Result<()> {
     let pil = Pil::start(&options)?;
 
     let bar = Progress::new(scenario.file.duration_s, !args.json);
-    let (summary, wall_s) = match &args.out {
-        Some(path) => {
-            let folder = OutFolder::create(path)?;
+    interrupt::listen()?;
+    let staged = args.out.as_deref().map(Staged::begin).transpose()?;
+    let (summary, wall_s) = match &staged {
+        Some(staged) => {
+            let folder = staged.folder();
             let flown = fly(&scenario, args.seed, pil, folder.truth()?, bar)?;
             folder.summary(&flown.0)?;
             flown
         }
         None => fly(&scenario, args.seed, pil, TruthWriter::hash_only(), bar)?,
     };
+    staged.map(Staged::finish).transpose()?;
+    if summary.ended == End::Interrupted {
+        super::say(&table::render(&summary, Paint::for_stdout()))?;
+        return Err(Interrupted.into());
+    }
     // The desktop alone, without the image, must leave the same bytes.
-    let sil = run::fly(&scenario, args.seed, None, false)?;
+    let sil = report_of::fly(&scenario, args.seed, false)?;
     if sil.truth_sha256 != summary.truth_sha256 {
         return Err(TruthDiffers { desktop: sil.truth_sha256, image: summary.truth_sha256 }.into());
     }
@@ -91,7 +99,8 @@ fn fly<W: std::io::Write>(
     bar: Progress,
 ) -> Result<(Summary, f64)> {
     let mut flight = flight::lockstep(scenario, seed, flight::rigid_body(scenario, seed))?;
-    let mut recorder = ((Metrics::new(), truth), bar);
+    let touchdown = flight::ground(scenario).map(Touchdown::new);
+    let mut recorder = (((Metrics::new(), truth), bar), touchdown);
     let start = Instant::now();
     for _ in 0..scenario.ticks() {
         if !step(&mut flight, &mut pil, &mut recorder)? {
@@ -100,10 +109,10 @@ fn fly<W: std::io::Write>(
     }
     let wall_s = start.elapsed().as_secs_f64();
     pil.finish()?;
-    let ((metrics, truth), bar) = recorder;
+    let (((metrics, truth), bar), touchdown) = recorder;
     bar.finish();
-    let flown = run::Flown { outcome: flight.outcome(), wall_s };
-    Ok((run::summarise(scenario, seed, &flown, truth.finish()?, &metrics), wall_s))
+    let flown = report_of::Flown { outcome: flight.outcome().after(touchdown.as_ref()), wall_s };
+    Ok((report_of::summarise(scenario, seed, &flown, truth.finish()?, &metrics), wall_s))
 }
 
 /// One tick. What moves the plant and what truth.csv records of the firmware is the image's; the desired attitude,
@@ -140,7 +149,7 @@ fn report(args: &PilArgs, summary: &Summary, wall_s: f64) -> Result<()> {
     }
     super::say(&format!(
         "{}image and desktop  the same, bit for bit: {} ticks, and truth.csv ({microseconds_a_tick:.0} µs a tick)",
-        table::render(summary),
+        table::render(summary, Paint::for_stdout()),
         (summary.duration_s * 1e3).round()
     ))
 }

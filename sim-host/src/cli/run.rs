@@ -1,189 +1,127 @@
 //! `run`: flies a scenario, for one seed or many, and reports.
 
-use std::path::Path;
-use std::time::Instant;
-
-use anyhow::Result;
-use firmware::guidance::Trajectory;
+use anyhow::{Result, bail, ensure};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
-use super::RunArgs;
-use crate::flight;
-use crate::noise::Noise;
-use crate::record::{Recorder, Row};
-use crate::report::estimate::Belief;
-use crate::report::{Disturbance, Figures, Flight, Metrics, OutFolder, Progress, Summary, TruthWriter};
-use crate::report::{Sensed, SensedRecorder, Timeline, TimelineRecorder, progress, summary, table};
+use super::{RunArgs, fly};
+use crate::interrupt::{self, Interrupted};
+use crate::report::summary::{self, Row};
+use crate::report::{OutFolder, Paint, Staged, progress, table};
 use crate::scenario::Scenario;
-use crate::sil::Outcome;
-
-/// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
-const FIGURES_UP_TO_S: f64 = 600.0;
+use crate::seeds::Seeds;
+use crate::sil::End;
 
 pub(super) fn run(args: &RunArgs) -> Result<()> {
     let scenario = args.which.load()?;
     super::note_idle_seeds(&scenario, args.seeds.is_some() || args.seed != 1);
-    let Some(seeds) = args.seeds else {
-        let summary = fly(&scenario, args.seed, args.out.as_deref(), !args.json)?;
-        return super::say(&if args.json { summary.to_json() } else { table::render(&summary) });
-    };
-    let bar = progress::of_flights(seeds.count(), !args.json);
-    let pool = args.threads.pool(seeds.count())?;
-    let summaries: Vec<Summary> = pool.install(|| {
-        let fly_one = |seed: u64| {
-            let folder = args.out.as_ref().map(|out| out.join(format!("seed-{seed}")));
-            let summary = fly(&scenario, seed, folder.as_deref(), false);
-            bar.inc(1);
-            summary
-        };
-        (seeds.first..=seeds.last).into_par_iter().map(fly_one).collect::<Result<_>>()
-    })?;
-    bar.finish_and_clear();
-    super::say(&if args.json { summary::to_json_array(&summaries) } else { seeds_table(&summaries) })
-}
-
-/// A flight and how long it took, s.
-pub(super) struct Flown {
-    pub(super) outcome: Outcome,
-    pub(super) wall_s: f64,
-}
-
-fn timed(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Flown> {
-    let start = Instant::now();
-    let outcome = flight::fly(scenario, seed, recorder)?;
-    Ok(Flown { outcome, wall_s: start.elapsed().as_secs_f64() })
-}
-
-/// Flies one seed; with a folder, leaves truth.csv, summary.json and the figures there.
-pub(super) fn fly(scenario: &Scenario, seed: u64, out: Option<&Path>, visible: bool) -> Result<Summary> {
-    let bar = Progress::new(scenario.file.duration_s, visible);
-    let Some(path) = out else {
-        let mut recorder = (((Metrics::new(), TruthWriter::hash_only()), bar), sensed(scenario));
-        let flown = timed(scenario, seed, &mut recorder)?;
-        let (((metrics, truth), bar), sensed) = recorder;
-        bar.finish();
-        let (sensed, _) = finish(sensed)?;
-        return Ok(summarise(scenario, seed, &flown, truth.finish()?, &metrics).with_sensed(sensed));
-    };
-    let folder = OutFolder::create(path)?;
-    let sensed = match sensed(scenario) {
-        Some(recorder) => Some(recorder.writing(folder.estimate()?, is_drawn(scenario))),
-        None => None,
-    };
-    let course = TimelineRecorder::new(&scenario.file.command);
-    let mut recorder = (((((Metrics::new(), folder.truth()?), bar), Rows::new(scenario)), sensed), course);
-    let flown = timed(scenario, seed, &mut recorder)?;
-    let (((((metrics, truth), bar), rows), sensed), course) = recorder;
-    let timeline = course.finish(&scenario.file.fault);
-    bar.finish();
-    let (sensed, beliefs) = finish(sensed)?;
-    let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics).with_sensed(sensed);
-    folder.summary(&summary)?;
-    draw(scenario, seed, &folder, &rows.kept, &timeline)?;
-    if !beliefs.is_empty() {
-        folder.beliefs(&beliefs, &timeline)?;
-    }
-    Ok(summary)
-}
-
-fn is_drawn(scenario: &Scenario) -> bool {
-    scenario.file.duration_s <= FIGURES_UP_TO_S
-}
-
-/// Takes what a flight on sensors leaves besides its truth.
-fn sensed(scenario: &Scenario) -> Option<SensedRecorder> {
-    scenario.file.sensors.as_ref().map(|_| SensedRecorder::new(flight::ground(scenario)))
-}
-
-fn finish(sensed: Option<SensedRecorder>) -> Result<(Option<Sensed>, Vec<Belief>)> {
-    let finished = sensed.map(SensedRecorder::finish).transpose()?;
-    Ok(finished.map_or_else(Default::default, |(sensed, beliefs)| (Some(sensed), beliefs)))
-}
-
-/// Keeps the rows of a flight that is short enough to be drawn.
-struct Rows {
-    kept: Vec<Row>,
-    keep: bool,
-}
-
-impl Rows {
-    fn new(scenario: &Scenario) -> Self {
-        Self { kept: Vec::new(), keep: is_drawn(scenario) }
+    interrupt::listen()?;
+    let staged = args.out.as_deref().map(Staged::begin).transpose()?;
+    match args.seeds {
+        Some(seeds) => many(args, &scenario, seeds, staged),
+        None => one(args, &scenario, staged),
     }
 }
 
-impl Recorder for Rows {
-    fn record(&mut self, row: &Row) {
-        if self.keep {
-            self.kept.push(*row);
-        }
-    }
-}
-
-pub(super) fn summarise(
-    scenario: &Scenario,
-    seed: u64,
-    flown: &Flown,
-    truth_sha256: String,
-    metrics: &Metrics,
-) -> Summary {
-    let outcome = flown.outcome;
-    let duration_s = f64::from(outcome.ticks) / 1e3;
-    let flight = Flight {
-        scenario: scenario.name.clone(),
-        seed,
-        duration_s,
-        truth_sha256,
-        real_time_factor: duration_s / flown.wall_s,
-        saturated_fraction: f64::from(outcome.saturated_ticks) / f64::from(outcome.ticks.max(1)),
-        papers_helix: scenario.file.trajectory == Trajectory::PAPER_HELIX,
-        time_optimal_s: scenario.file.time_optimal_s,
-        disturbance_onset_s: scenario.file.disturbance.map(|d| d.from_s),
-        survived: outcome.survived,
+fn one(args: &RunArgs, scenario: &Scenario, staged: Option<Staged>) -> Result<()> {
+    let visible = !args.json;
+    let summary = match &staged {
+        Some(staged) => fly::fly_into(&staged.folder(), scenario, &args.which.settings.set, args.seed, visible)?,
+        None => fly::fly(scenario, args.seed, visible)?,
     };
-    Summary::new(flight, metrics)
-}
-
-fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, rows: &[Row], timeline: &Timeline) -> Result<()> {
-    if rows.is_empty() {
-        return Ok(());
-    }
-    let samples = disturbance_samples(scenario, seed);
-    let disturbance = scenario.file.disturbance.map(|d| {
-        let (linear_unit, angular_unit) = if d.is_on_accelerations() { ("m/s²", "rad/s²") } else { ("m", "rad") };
-        Disturbance { samples: &samples, linear_unit, angular_unit, acting: (d.from_s, d.to_s) }
-    });
-    folder.figures(&Figures { rows, disturbance, timeline })?;
+    let text = if args.json { summary.to_json() } else { table::render(&summary, Paint::for_stdout()) };
+    report(args, &text, staged)?;
+    ensure!(summary.ended != End::Interrupted, Interrupted);
     Ok(())
 }
 
-/// The disturbances of a scenario as they were applied, a sample a tick: on the accelerations, or, where there are
-/// none, on the outputs.
-fn disturbance_samples(scenario: &Scenario, seed: u64) -> Vec<(f64, [f64; 6])> {
-    let mut noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
-    let sample = |tick: u32| {
-        let now = noise.at(tick);
-        let (a, b) = if scenario.file.disturbance.is_some_and(|d| d.is_on_accelerations()) {
-            (now.push.acceleration, now.push.angular_acceleration)
-        } else {
-            (now.position, now.angles)
-        };
-        (f64::from(tick) * 1e-3, [a.x, a.y, a.z, b.x, b.y, b.z])
-    };
-    if scenario.file.disturbance.is_some() { (0..scenario.ticks()).map(sample).collect() } else { Vec::new() }
+/// Puts the folder in its place and prints the result, with where it has been written.
+fn report(args: &RunArgs, text: &str, staged: Option<Staged>) -> Result<()> {
+    let contents = staged.map(Staged::finish).transpose()?;
+    match (contents, &args.out) {
+        (Some(contents), Some(out)) if !args.json => super::say(&format!("{text}wrote {}: {contents}", out.display())),
+        _ => super::say(text),
+    }
 }
 
-/// One line a seed.
-fn seeds_table(summaries: &[Summary]) -> String {
-    let mut lines =
-        vec![format!("{:>8}  {:>9}  {:>9}  {:>9}  {:>9}  end", "seed", "settle s", "x RMS m", "y RMS m", "z RMS m")];
-    for s in summaries {
-        let number = |value: Option<f64>, digits: usize| value.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
-        let axes = [&s.axes.x, &s.axes.y, &s.axes.z];
-        let settle = axes.iter().try_fold(0.0_f64, |most, axis| Some(most.max(axis.settle_5cm_s?)));
-        let [x, y, z] = axes.map(|axis| number(axis.rms_m, 6));
-        let end = if s.survived { "survived" } else { "LOST" };
-        lines.push(format!("{:>8}  {:>9}  {x:>9}  {y:>9}  {z:>9}  {end}", s.seed, number(settle, 3)));
+fn many(args: &RunArgs, scenario: &Scenario, seeds: Seeds, staged: Option<Staged>) -> Result<()> {
+    let folder = staged.as_ref().map(Staged::folder);
+    let mut rows = fly_all(args, scenario, seeds, folder.as_ref())?;
+    if let Some(reason) = common_failure(&rows) {
+        bail!(reason);
     }
-    lines.join("\n")
+    if let Some(folder) = &folder {
+        folder.text("summary.json", &summary::to_file_array(&rows))?;
+    }
+    let text = if args.json { summary::to_json_array(&rows) } else { table::seeds(&rows) };
+    report(args, &text, staged)?;
+    ensure!(!interrupt::requested(), Interrupted);
+    let flown = rows.len();
+    rows.retain(|row| matches!(row, Row::Failed { .. }));
+    ensure!(rows.is_empty(), SomeFailed { failed: rows.len(), of: flown });
+    Ok(())
+}
+
+/// Flies all seeds that are begun before the user asks for an end.
+fn fly_all(args: &RunArgs, scenario: &Scenario, seeds: Seeds, folder: Option<&OutFolder>) -> Result<Vec<Row>> {
+    let bar = progress::of_flights(seeds.count(), !args.json);
+    let pool = args.threads.pool(seeds.count())?;
+    let fly_one = |seed: u64| {
+        let row = (!interrupt::requested()).then(|| fly_seed(args, scenario, seed, folder));
+        bar.inc(1);
+        row
+    };
+    let rows = pool.install(|| (seeds.first..=seeds.last).into_par_iter().filter_map(fly_one).collect());
+    bar.finish_and_clear();
+    Ok(rows)
+}
+
+fn fly_seed(args: &RunArgs, scenario: &Scenario, seed: u64, folder: Option<&OutFolder>) -> Row {
+    let flown = match folder {
+        Some(folder) => folder
+            .below(&format!("seed-{seed}"))
+            .and_then(|folder| fly::fly_into(&folder, scenario, &args.which.settings.set, seed, false)),
+        None => fly::fly(scenario, seed, false),
+    };
+    match flown {
+        Ok(summary) => Row::Flown(Box::new(summary)),
+        Err(error) => Row::Failed { seed, error: super::one_line(&error) },
+    }
+}
+
+/// The reason for which all seeds failed, where it is the same for all: then there is nothing to report but that.
+fn common_failure(rows: &[Row]) -> Option<String> {
+    let mut errors = rows.iter().map(|row| if let Row::Failed { error, .. } = row { Some(error) } else { None });
+    let first = errors.next()??;
+    errors.all(|error| error == Some(first)).then(|| first.clone())
+}
+
+/// Some of several flights could not be flown; the others have been reported.
+#[derive(Debug)]
+pub(super) struct SomeFailed {
+    failed: usize,
+    of: usize,
+}
+
+impl std::fmt::Display for SomeFailed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} of {} seeds could not be flown", self.failed, self.of)
+    }
+}
+
+impl std::error::Error for SomeFailed {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn failed(seed: u64, error: &str) -> Row {
+        Row::Failed { seed, error: error.into() }
+    }
+
+    #[test]
+    fn a_reason_that_all_share_is_told_once() {
+        assert_eq!(common_failure(&[failed(1, "no"), failed(2, "no")]), Some("no".into()));
+        assert_eq!(common_failure(&[failed(1, "no"), failed(2, "disk full")]), None);
+        assert_eq!(common_failure(&[]), None);
+    }
 }

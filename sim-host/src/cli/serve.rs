@@ -1,59 +1,51 @@
-//! `serve`: flies in real time for a ground station.
+//! `serve`: flies in real time, with a console and for ground stations.
 
-use std::sync::atomic::AtomicBool;
+use std::net::SocketAddr;
 
 use anyhow::{Result, ensure};
-use firmware::mavlink::TxBytes;
 
 use super::ServeArgs;
-use crate::failures::{self, Order};
+use crate::console::Session;
+use crate::console::terminal::Stdio;
 use crate::flight;
+use crate::interrupt::{self, Interrupted};
 use crate::link::UdpLink;
-use crate::plant::Plant as _;
-use crate::plant::rigid_body::RigidBody;
 use crate::scenario::Scenario;
-use crate::serve::{Console, Pacing, Vehicle, serve};
-use crate::sil::Flight;
-
-impl Vehicle for Flight<RigidBody> {
-    fn tick(&mut self, received: &[u8]) -> Option<TxBytes> {
-        self.autopilot.inner.receive(received);
-        self.step(&mut ());
-        for failure in self.autopilot.inner.take_failures() {
-            let tick = self.next_tick();
-            for (slot, fault) in failures::of(&failure, tick) {
-                // The firmware is allowed failures on sensors alone, where this cannot fail.
-                let _ = self.hold_fault(slot, fault.as_ref());
-            }
-        }
-        self.autopilot.inner.has_transmit().then(|| self.autopilot.inner.take_transmit())
-    }
-
-    fn execute(&mut self, line: &str) -> Result<String> {
-        let tick = self.next_tick();
-        match failures::parse(line, tick)? {
-            None => Ok(String::new()),
-            Some(Order::Fault(fault)) => self.inject(&fault).map(|_| failures::describe(&fault)),
-            Some(Order::Clear) => self.clear_faults().map(|()| "no faults".to_owned()),
-            Some(Order::List) => {
-                let faults = self.sensors().map(|suite| suite.faults().list(tick));
-                let lines: Vec<_> = faults.into_iter().flatten().map(|fault| failures::describe(&fault)).collect();
-                Ok(if lines.is_empty() { "no faults".to_owned() } else { lines.join("\n") })
-            }
-        }
-    }
-}
+use crate::serve::{Flown, Pacing, SPEEDS, serve};
 
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
     scenario.require_rigid_body()?;
-    ensure!(args.speed.is_finite() && args.speed > 0.0, "--speed must be a number above zero, not {}", args.speed);
-    let mut vehicle = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;
-    let injectable = failures::injectable(vehicle.sensors(), vehicle.plant().battery().is_some());
-    vehicle.autopilot.inner.allow_failures(injectable);
+    let (low, high) = (SPEEDS.start(), SPEEDS.end());
+    ensure!(SPEEDS.contains(&args.speed), "--speed must be between {low} and {high}, not {}", args.speed);
+    let flight = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;
+    let mut session = Session::new(flight);
     let mut link = UdpLink::bind(args.listen, &args.peers)?;
-    let peers: Vec<String> = args.peers.iter().map(ToString::to_string).collect();
-    eprintln!("flying `{}`; MAVLink on {}, to {}; stop with Ctrl-C", scenario.name, args.listen, peers.join(" and "));
-    let (console, pacing) = (Console::on_standard_input(), Pacing { speed: args.speed });
-    serve(&mut vehicle, &mut link, &console, pacing, &AtomicBool::new(false))
+    eprint!("{}", greeting(&scenario, link.local_address()?, &args.peers));
+    interrupt::listen()?;
+    let mut terminal = Stdio::new();
+    let flown = serve(&mut session, &mut link, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
+    drop(terminal);
+    eprintln!("{}", farewell(&flown));
+    if interrupt::requested() { Err(Interrupted.into()) } else { Ok(()) }
+}
+
+/// What flies, and how to talk to it.
+fn greeting(scenario: &Scenario, listen: SocketAddr, peers: &[SocketAddr]) -> String {
+    let peers: Vec<String> = peers.iter().map(ToString::to_string).collect();
+    format!(
+        "`{}`: {}\n\
+         MAVLink goes to {}, and comes in on {listen}. QGroundControl connects by itself on port 14550;\n\
+         MAVProxy: mavproxy.py --master=udp:127.0.0.1:14550; MAVSDK: udpin://0.0.0.0:14540\n\
+         Type `help` for the commands; `arm`, `takeoff 5`, `land` is a first flight. `quit` or Ctrl-C ends it.\n",
+        scenario.name,
+        scenario.file.summary,
+        peers.join(" and "),
+    )
+}
+
+/// How long was flown, and how fast.
+fn farewell(flown: &Flown) -> String {
+    let Flown { simulated_s, wall_s } = *flown;
+    format!("flown {simulated_s:.1} s in {wall_s:.1} s: ran at {:.2} x real time", simulated_s / wall_s.max(1e-9))
 }

@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use super::Which;
-use crate::report::table::DISTURBANCE_REMOVED;
+use crate::paper::claims::DISTURBANCE_REMOVED;
 use crate::sweep::{Strength, sweep};
 
 /// Halvings of the interval in which the failure lies: to 3 % of the factor.

@@ -138,6 +138,18 @@ impl Wind {
         Self { mean, axes: axes(&mean), filters, gusts: wind.gust.clone(), asked: 0, step_s }
     }
 
+    /// The steady part, in the world, m/s.
+    pub fn mean(&self) -> Vector3<f64> {
+        self.mean
+    }
+
+    /// Sets the steady part (m/s, in the world). The turbulence keeps its strength and its random numbers, and turns with
+    /// the wind.
+    pub fn set_mean(&mut self, mean: Vector3<f64>) {
+        self.mean = mean;
+        self.axes = axes(&mean);
+    }
+
     /// The wind of this tick in the world, m/s. To be asked for once a tick.
     pub fn sample(&mut self) -> Vector3<f64> {
         let wind = self.blowing();
@@ -312,6 +324,19 @@ mod tests {
         let steady = scenario::Wind { mean_m_s: [1.0, -2.0, 0.5], ..scenario::Wind::default() };
         let mut wind = Wind::new(&steady, 1, STEP_S);
         assert!((0..100).all(|_| wind.sample() == Vector3::new(1.0, -2.0, 0.5)));
+    }
+
+    #[test]
+    fn another_steady_part_leaves_the_random_numbers_alone() {
+        let (mut unchanged, mut changed) = (wind(7, [2.0, 0.0, 0.0]), wind(7, [2.0, 0.0, 0.0]));
+        for _ in 0..100 {
+            assert_eq!(unchanged.sample(), changed.sample());
+        }
+        changed.set_mean(Vector3::new(5.0, 0.0, 0.5));
+        for _ in 0..100 {
+            let turbulence = unchanged.sample() - unchanged.mean();
+            assert!((changed.sample() - changed.mean() - turbulence).norm() < 1e-12);
+        }
     }
 
     #[test]

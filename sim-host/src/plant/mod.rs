@@ -134,6 +134,11 @@ pub trait Plant {
     /// What is left of its rotors' thrust and of its battery's voltage from now on, whatever was scheduled.
     fn apply_faults(&mut self, _faults: &PlantFaults) {}
 
+    /// Drag over mass (k1..k3 over m, 1/s), by which a wind acts on it; none for a model without wind.
+    fn drag(&self) -> Option<Vector3<f64>> {
+        None
+    }
+
     /// Its battery, if it has one.
     fn battery(&self) -> Option<BatteryState> {
         None

@@ -362,6 +362,10 @@ impl Plant for RigidBody {
         self.set_rotor_effectiveness(faults.rotor_effectiveness);
     }
 
+    fn drag(&self) -> Option<Vector3<f64>> {
+        Some(self.constants.drag / self.constants.mass)
+    }
+
     fn battery(&self) -> Option<BatteryState> {
         Some(self.effects.as_ref()?.effects.supply.as_ref()?.battery.state())
     }

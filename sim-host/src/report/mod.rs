@@ -30,6 +30,10 @@ pub mod comparison;
 pub mod estimate;
 pub mod measures;
 pub mod metrics;
+pub mod mission;
+pub mod out;
+pub mod paint;
+pub mod paper;
 pub mod plots;
 pub mod progress;
 pub mod sensed;
@@ -39,116 +43,13 @@ pub mod timeline;
 pub mod touchdown;
 pub mod truth;
 
-use std::fs::{self, File};
-use std::io::BufWriter;
-use std::path::{Path, PathBuf};
-
-use anyhow::{Context, Result};
-
-use crate::compare::Comparison;
-use estimate::{Belief, EstimateWriter};
 pub use metrics::{Metrics, Settling};
-pub use plots::{Disturbance, Figures};
+pub use out::{OutFolder, Staged};
+pub use paint::Paint;
+pub use plots::Figures;
 pub use progress::Progress;
 pub use sensed::{Sensed, SensedRecorder};
 pub use summary::{Flight, Summary};
 pub use timeline::{Timeline, TimelineRecorder};
 pub use touchdown::Touchdown;
 pub use truth::TruthWriter;
-
-/// The folder that `--out` names.
-#[derive(Clone, Debug)]
-pub struct OutFolder(PathBuf);
-
-impl OutFolder {
-    /// Creates the folder and those above it, unless they exist.
-    ///
-    /// # Errors
-    /// When it cannot be created; the message names it.
-    pub fn create(path: &Path) -> Result<Self> {
-        fs::create_dir_all(path).with_context(|| {
-            format!("cannot create {}: choose a folder you can write to with --out", path.display())
-        })?;
-        Ok(Self(path.to_owned()))
-    }
-
-    /// Opens truth.csv for the rows to come.
-    ///
-    /// # Errors
-    /// When the file cannot be created; the message names it.
-    pub fn truth(&self) -> Result<TruthWriter<File>> {
-        TruthWriter::create(&self.0.join("truth.csv"))
-    }
-
-    /// Opens estimate.csv for the beliefs to come.
-    ///
-    /// # Errors
-    /// When the file cannot be created; the message names it.
-    pub fn estimate(&self) -> Result<EstimateWriter<BufWriter<File>>> {
-        EstimateWriter::create(&self.0.join("estimate.csv"))
-    }
-
-    /// Writes summary.json.
-    ///
-    /// # Errors
-    /// When the file cannot be written; the message names it.
-    pub fn summary(&self, summary: &Summary) -> Result<PathBuf> {
-        summary.write(&self.0)
-    }
-
-    /// Writes compare.json, compare.csv, compare.md and the figures of a comparison.
-    ///
-    /// # Errors
-    /// When a file cannot be written; the message names it.
-    pub fn comparison(&self, comparison: &Comparison) -> Result<()> {
-        comparison::write(comparison, &self.0)?;
-        plots::comparison::draw(comparison, &self.0)
-    }
-
-    /// Draws every figure that applies.
-    ///
-    /// # Errors
-    /// When a file cannot be written; the message names it.
-    pub fn figures(&self, figures: &Figures) -> Result<Vec<PathBuf>> {
-        figures.draw(&self.0)
-    }
-
-    /// Draws what a vehicle believed beside what was true.
-    ///
-    /// # Errors
-    /// When a file cannot be written; the message names it.
-    pub fn beliefs(&self, beliefs: &[Belief], timeline: &Timeline) -> Result<Vec<PathBuf>> {
-        plots::estimate::draw(&self.0, beliefs, timeline)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::record::Recorder as _;
-
-    #[test]
-    fn a_flight_leaves_its_files() {
-        let path = std::env::temp_dir().join(format!("glissade-{}-out/deep", std::process::id()));
-        let folder = OutFolder::create(&path).expect("the temporary folder can be written");
-        let rows = plots::tests::flight(1.0);
-        let mut recorder = (Metrics::new(), folder.truth().expect("a file"));
-        for row in &rows {
-            recorder.record(row);
-        }
-        let truth_sha256 = recorder.1.finish().expect("the disk has room");
-        let summary = Summary::new(Flight { truth_sha256, ..summary::tests::flight(true) }, &recorder.0);
-        folder.summary(&summary).expect("a file");
-        let lines = fs::read_to_string(path.join("truth.csv")).expect("truth.csv is there").lines().count();
-        assert_eq!(lines, 1 + rows.len());
-        let text = fs::read_to_string(path.join("summary.json")).expect("summary.json is there");
-        assert_eq!(text, summary.to_file_text());
-        fs::remove_dir_all(path.parent().expect("it has one")).expect("the folder is there");
-    }
-
-    #[test]
-    fn a_folder_that_is_a_file_is_named() {
-        let error = OutFolder::create(Path::new("Cargo.toml")).expect_err("it is a file");
-        assert!(format!("{error:#}").contains("Cargo.toml"));
-    }
-}

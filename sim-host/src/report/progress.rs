@@ -4,15 +4,17 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::interrupt;
 use crate::record::{Recorder, Row};
 
 /// Simulated time between two updates, ms: 400 updates in a 20 s flight, nothing beside its 20,000 ticks.
 const UPDATE_MS: u64 = 50;
 
-/// A recorder that shows how far a flight is.
+/// A recorder that shows how far a flight is, and ends it when the user asks for that.
 pub struct Progress {
     bar: ProgressBar,
     next_ms: u64,
+    stops: bool,
 }
 
 impl Progress {
@@ -20,7 +22,7 @@ impl Progress {
     pub fn new(duration_s: f64, visible: bool) -> Self {
         let bar = bar((duration_s * 1e3).round() as u64, visible);
         bar.set_style(style("flying {bar:40} {percent:>3} %, {eta} left"));
-        Self { bar, next_ms: UPDATE_MS }
+        Self { bar, next_ms: UPDATE_MS, stops: false }
     }
 
     /// Takes the bar off the screen.
@@ -35,7 +37,12 @@ impl Recorder for Progress {
         if now_ms >= self.next_ms {
             self.bar.set_position(now_ms);
             self.next_ms = now_ms.saturating_add(UPDATE_MS);
+            self.stops = interrupt::requested();
         }
+    }
+
+    fn stops(&self) -> bool {
+        self.stops
     }
 }
 

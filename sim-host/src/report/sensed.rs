@@ -8,8 +8,7 @@ use nalgebra::UnitQuaternion;
 use serde::Serialize;
 
 use super::estimate::{Belief, EstimateWriter, Sampler};
-use super::touchdown::{Contact, Touchdown};
-use crate::plant::ground::Ground;
+use super::touchdown::Contact;
 use crate::record::{Navigation, Recorder, Row};
 use crate::statistics::MeanSquare;
 
@@ -38,14 +37,13 @@ pub struct Sensed {
 }
 
 /// Takes a flight on sensors.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct SensedRecorder {
     sampler: Sampler,
     /// Where beliefs are written to.
     file: Option<EstimateWriter<BufWriter<File>>>,
     /// Beliefs for the figures, if they are wanted.
     kept: Option<Vec<Belief>>,
-    touchdown: Option<Touchdown>,
     /// Tilt, heading, position, velocity.
     known: [MeanSquare; 4],
     armed: bool,
@@ -53,17 +51,9 @@ pub struct SensedRecorder {
 }
 
 impl SensedRecorder {
-    /// On a ground, if there is any; neither writes nor keeps beliefs.
-    pub fn new(ground: Option<Ground>) -> Self {
-        Self {
-            sampler: Sampler::default(),
-            file: None,
-            kept: None,
-            touchdown: ground.map(Touchdown::new),
-            known: [MeanSquare::default(); 4],
-            armed: false,
-            disarmed_s: None,
-        }
+    /// Neither writes nor keeps beliefs.
+    pub fn new() -> Self {
+        Self::default()
     }
 
     /// Writes beliefs to a file, and keeps them if figures are to be drawn.
@@ -74,18 +64,18 @@ impl SensedRecorder {
         self
     }
 
-    /// What came of it, and the beliefs that were kept.
+    /// What came of a flight that touched down so, and the beliefs that were kept.
     ///
     /// # Errors
     /// When estimate.csv could not be written; the message names it.
-    pub fn finish(self) -> Result<(Sensed, Vec<Belief>)> {
+    pub fn finish(self, touchdown: Option<Contact>) -> Result<(Sensed, Vec<Belief>)> {
         if let Some(file) = self.file {
             file.finish()?;
         }
         let [tilt_rms_rad, heading_rms_rad, position_rms_m, velocity_rms_m_s] = self.known.map(MeanSquare::root);
         let sensed = Sensed {
             estimate: Knowledge { tilt_rms_rad, heading_rms_rad, position_rms_m, velocity_rms_m_s },
-            touchdown: self.touchdown.and_then(|touchdown| touchdown.first()),
+            touchdown,
             disarmed_s: self.disarmed_s,
         };
         Ok((sensed, self.kept.unwrap_or_default()))
@@ -104,9 +94,7 @@ impl SensedRecorder {
 }
 
 impl Recorder for SensedRecorder {
-    fn record(&mut self, row: &Row) {
-        self.touchdown.record(row);
-    }
+    fn record(&mut self, _row: &Row) {}
 
     fn navigate(&mut self, navigation: &Navigation) {
         let armed = navigation.commander.armed;

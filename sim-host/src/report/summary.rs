@@ -8,7 +8,12 @@ use anyhow::{Context, Result};
 use serde::Serialize;
 
 use super::metrics::{Axes, AxisFigures, ControlEffort, Metrics, Recovery, TiltFigures};
+use super::mission::Mission;
 use super::sensed::Sensed;
+use super::timeline::{Course, Leg, Timeline, order_text};
+use super::touchdown::Crash;
+use crate::pilot::Order;
+use crate::sil::End;
 
 /// What the loop knows about a flight and its rows do not tell.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,8 +36,41 @@ pub struct Flight {
     pub papers_helix: bool,
     /// When a disturbance set in, where one did, s.
     pub disturbance_onset_s: Option<f64>,
-    /// False when the flight diverged or crashed, and the rows end there.
-    pub survived: bool,
+    /// Why it ended.
+    pub end: End,
+}
+
+/// What a flight on sensors or with a pilot did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Told {
+    /// Whether it did what its pilot asked for; null without a pilot.
+    pub mission: Option<Mission>,
+    /// Where the pilot sent it, and how far off it was when the next command came.
+    pub places: Vec<Place>,
+    /// Charge of the battery at the start and at the end, 0 to 1; null without one.
+    pub battery: Option<[f64; 2]>,
+    /// Its phases and events.
+    #[serde(flatten)]
+    pub timeline: Timeline,
+}
+
+/// A place that the pilot sent the vehicle to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Place {
+    /// The command.
+    pub order: String,
+    /// True distance from it when the next command was given, or at the end, m.
+    pub off_m: f64,
+}
+
+impl Told {
+    /// Of a course, with the verdict on its mission.
+    pub fn new(course: Course, mission: Option<Mission>) -> Self {
+        let sent = |leg: &Leg| matches!(leg.order, Order::TakeOff { .. } | Order::GoTo { .. });
+        let place = |leg: &Leg| Some(Place { order: order_text(&leg.order), off_m: leg.off_m? });
+        let places = course.legs.iter().filter(|leg| sent(leg)).filter_map(place).collect();
+        Self { mission, places, battery: course.battery, timeline: course.timeline }
+    }
 }
 
 /// The summary of one flight. SI units; what is not defined or not finite is null.
@@ -50,9 +88,13 @@ pub struct Summary {
     /// therefore left out (`None`) of summary.json.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub real_time_factor: Option<f64>,
-    /// False when the flight diverged or crashed; the figures are those of the part that was flown, and nothing
-    /// counts as settled.
+    /// True if it flew, to its end and unharmed. Otherwise the figures are those of what was flown, and nothing counts
+    /// as settled.
     pub survived: bool,
+    /// Why it ended: `duration-reached`, `never-flew`, `crashed`, `left-reference`, `not-finite`, `interrupted`.
+    pub end: &'static str,
+    /// The contact with the ground that damaged it; null without one.
+    pub crash: Option<Crash>,
     /// How each axis followed the paper's reference.
     pub axes: Axes<AxisFigures>,
     /// The time-optimal bound for joining the reference, where known, s.
@@ -72,6 +114,12 @@ pub struct Summary {
     /// Of a flight on sensors, its keys stand among the others; of one on ideal state there are none.
     #[serde(flatten)]
     pub sensed: Option<Sensed>,
+    /// Of a flight on sensors or with a pilot, its keys stand among the others.
+    #[serde(flatten)]
+    pub told: Option<Told>,
+    /// Why it ended, with the details.
+    #[serde(skip)]
+    pub ended: End,
     /// Whether the paper's claims belong beside these figures.
     #[serde(skip)]
     pub papers_helix: bool,
@@ -80,7 +128,8 @@ pub struct Summary {
 impl Summary {
     /// Puts together what the loop and the rows tell.
     pub fn new(flight: Flight, metrics: &Metrics) -> Self {
-        let survived = flight.survived;
+        let survived = flight.end.survived();
+        let crash = if let End::Crashed(crash) = flight.end { Some(crash) } else { None };
         let recovery = flight.disturbance_onset_s.map(|onset| metrics.recovery(onset));
         Self {
             scenario: flight.scenario,
@@ -89,6 +138,9 @@ impl Summary {
             truth_sha256: flight.truth_sha256,
             real_time_factor: Some(flight.real_time_factor),
             survived,
+            end: flight.end.name(),
+            crash,
+            ended: flight.end,
             axes: if survived { metrics.axes() } else { unsettled(&metrics.axes()) },
             time_optimal_s: flight.time_optimal_s,
             chattering: metrics.chattering(),
@@ -98,6 +150,7 @@ impl Summary {
             attitude_error: metrics.tilt(),
             papers_helix: flight.papers_helix,
             sensed: None,
+            told: None,
             recovery_s: recovery.map(|r| if survived { r } else { Recovery::default() }),
         }
     }
@@ -106,6 +159,12 @@ impl Summary {
     #[must_use]
     pub fn with_sensed(self, sensed: Option<Sensed>) -> Self {
         Self { sensed, ..self }
+    }
+
+    /// With the course of a flight on sensors or with a pilot.
+    #[must_use]
+    pub fn with_course(self, told: Option<Told>) -> Self {
+        Self { told, ..self }
     }
 
     /// The object on one line, as `--json` prints it.
@@ -132,9 +191,33 @@ impl Summary {
     }
 }
 
+/// One of several flights: its summary, or why there is none.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub enum Row {
+    /// A flight.
+    Flown(Box<Summary>),
+    /// A seed that could not be flown.
+    Failed {
+        /// Which.
+        seed: u64,
+        /// Why.
+        error: String,
+    },
+}
+
 /// Several flights as one JSON array, as `--json` prints them for `--seeds`.
-pub fn to_json_array(summaries: &[Summary]) -> String {
-    one_line(summaries)
+pub fn to_json_array(rows: &[Row]) -> String {
+    one_line(rows)
+}
+
+/// The same for the summary.json of their folder: over several lines, without `real_time_factor`.
+pub fn to_file_array(rows: &[Row]) -> String {
+    let same_each_time = |row: &Row| match row {
+        Row::Flown(summary) => Row::Flown(Box::new(Summary { real_time_factor: None, ..Summary::clone(summary) })),
+        Row::Failed { seed, error } => Row::Failed { seed: *seed, error: error.clone() },
+    };
+    several_lines(&rows.iter().map(same_each_time).collect::<Vec<_>>()) + "\n"
 }
 
 /// Why serialising cannot fail.
@@ -157,7 +240,7 @@ fn unsettled(axes: &Axes<AxisFigures>) -> Axes<AxisFigures> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::record::{Recorder as _, Row};
+    use crate::record::{self, Recorder as _};
     use serde_json::Value;
     use std::collections::BTreeSet;
 
@@ -172,7 +255,7 @@ pub(super) mod tests {
             time_optimal_s: Some(1.31),
             papers_helix: true,
             disturbance_onset_s: None,
-            survived,
+            end: if survived { End::DurationReached } else { End::LeftReference },
         }
     }
 
@@ -185,15 +268,15 @@ pub(super) mod tests {
         metrics
     }
 
-    fn row(t: f64) -> Row {
-        Row {
+    fn row(t: f64) -> record::Row {
+        record::Row {
             t,
             position: [if t < 1.0 { -4.0 } else { -0.0015 }, 0.0, 0.0],
             attitude: [1.0, 0.0, 0.0, 0.0],
             omega: [26.0; 4],
             omega_command: [26.0; 4],
             u: [8.0, 0.0, 0.0, 0.0],
-            ..Row::default()
+            ..record::Row::default()
         }
     }
 
@@ -210,7 +293,7 @@ pub(super) mod tests {
         let json = parse(&Summary::new(flight(true), &metrics()).to_json());
         let documented = [
             ["scenario", "seed", "duration_s", "truth_sha256", "real_time_factor"].as_slice(),
-            &["axes", "chattering", "saturated_fraction", "time_optimal_s", "survived"],
+            &["axes", "chattering", "saturated_fraction", "time_optimal_s", "survived", "end", "crash"],
             &["chattering_after_4s", "control_effort", "attitude_error", "recovery_s"],
         ];
         assert_eq!(keys(&json), documented.concat().into_iter().collect());
@@ -275,9 +358,12 @@ pub(super) mod tests {
     #[test]
     fn several_flights_are_one_array() {
         let summary = Summary::new(flight(true), &metrics());
-        let json = parse(&to_json_array(&[summary.clone(), summary]));
+        let failed = Row::Failed { seed: 8, error: "no room".into() };
+        let rows = [Row::Flown(Box::new(summary)), failed];
+        let (json, file) = (parse(&to_json_array(&rows)), parse(&to_file_array(&rows)));
         assert_eq!(json.as_array().map(Vec::len), Some(2));
-        assert_eq!(json[1]["seed"], 7);
+        assert_eq!((&json[0]["seed"], &json[1]["error"]), (&7.into(), &"no room".into()));
+        assert!(file[0].get("real_time_factor").is_none() && file[0]["truth_sha256"] == json[0]["truth_sha256"]);
     }
 
     #[test]

@@ -1,49 +1,73 @@
 //! The summary as a table for the terminal, beside what the paper claims and what is physically possible.
 
+mod course;
+
 use std::fmt::Write as _;
 
 use super::metrics::{AxisFigures, Recovery};
-use super::sensed::{Knowledge, Sensed};
-use super::summary::Summary;
-use super::touchdown::Contact;
-
-/// A time the paper claims, s, and where it does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PaperClaim {
-    /// The time claimed, s.
-    pub time_s: f64,
-    /// Section and figure.
-    pub source: &'static str,
-}
-
-/// x follows 4 sin t from the start.
-pub const X_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.0, source: "Section 4.1, Figure 3" };
-/// y follows 5 cos t.
-pub const Y_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.4, source: "Section 4.1, Figure 3" };
-/// z follows 2 + t.
-pub const Z_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.35, source: "Section 4.1, Figure 2" };
-/// A Gaussian disturbance is removed in less than this.
-pub const DISTURBANCE_REMOVED: PaperClaim = PaperClaim { time_s: 0.2, source: "Section 4.2, Figure 6" };
-/// The whole system follows, on average, within this.
-pub const AVERAGE_FOLLOWS: PaperClaim = PaperClaim { time_s: 0.5, source: "Section 5.1" };
+use super::mission::{Mission, end_text};
+use super::paint::Paint;
+use super::summary::{Row, Summary};
+use crate::paper::claims::{AVERAGE_FOLLOWS, DISTURBANCE_REMOVED, PaperClaim, X_FOLLOWS, Y_FOLLOWS, Z_FOLLOWS};
+use crate::sil::End;
 
 /// Renders one flight, several lines with a newline at the end.
-pub fn render(summary: &Summary) -> String {
-    let mut text = heading(summary);
-    text.push_str(&axes_table(summary));
-    text.push_str(&bound(summary));
-    text.push_str(&summary.recovery_s.as_ref().map(recovery).unwrap_or_default());
-    text.push_str(&summary.sensed.as_ref().map(sensed).unwrap_or_default());
-    text.push_str(&figures(summary));
-    text
+pub fn render(summary: &Summary, paint: Paint) -> String {
+    heading(summary, paint) + "\n" + &result(summary) + &paint.dim(&figures(summary))
 }
 
-fn heading(summary: &Summary) -> String {
-    let end = if summary.survived { "survived" } else { "DID NOT SURVIVE" };
-    format!("{}, seed {}: {:.3} s flown, {end}\n\n", summary.scenario, summary.seed, summary.duration_s)
+/// The verdict in one line, with its newline; why not in a second one.
+pub fn heading(summary: &Summary, paint: Paint) -> String {
+    let name = format!("{}, seed {}: ", summary.scenario, summary.seed);
+    let (text, good) = verdict(summary);
+    let why = summary.told.as_ref().and_then(|told| told.mission.as_ref()?.reason.as_ref());
+    let why = why.map_or_else(String::new, |reason| format!("  {reason}\n"));
+    name + &paint.verdict(&text, good) + "\n" + &why
 }
 
-fn axes_table(summary: &Summary) -> String {
+/// The verdict, and whether it is a good one.
+fn verdict(summary: &Summary) -> (String, bool) {
+    let mission = summary.told.as_ref().and_then(|told| told.mission.as_ref());
+    match mission {
+        Some(Mission { completed: true, .. }) => ("mission completed".into(), true),
+        Some(_) => ("mission NOT completed".into(), false),
+        None if summary.ended == End::NeverFlew => {
+            let cure = format!("it has no commands; `sim-host serve {}` lets you fly it", summary.scenario);
+            (format!("never flew: {cure}"), false)
+        }
+        None => (end_text(&summary.ended, summary.duration_s), summary.survived),
+    }
+}
+
+/// What the flight was, without what matters less.
+pub fn result(summary: &Summary) -> String {
+    match &summary.told {
+        Some(told) => course::render(told, summary.sensed.as_ref()),
+        None if summary.ended == End::NeverFlew => String::new(),
+        None => {
+            let recovery = summary.recovery_s.as_ref().map(recovery).unwrap_or_default();
+            tracking(summary) + &bound(summary) + &recovery
+        }
+    }
+}
+
+/// How each axis followed its reference: when it settled, if it was elsewhere at the start.
+fn tracking(summary: &Summary) -> String {
+    let settles = summary.axes.named().iter().any(|(_, axis)| axis.overshoot.is_some());
+    if settles || summary.recovery_s.is_some() { settling_table(summary) } else { error_table(summary) }
+}
+
+fn error_table(summary: &Summary) -> String {
+    let mut rows =
+        vec![["axis", "error RMS", "maximum"].map(String::from), ["", "after 4 s", "after 4 s"].map(String::from)];
+    for (name, axis) in summary.axes.named() {
+        let unit = if name == "yaw" { "rad" } else { "m" };
+        rows.push([name.into(), error(axis.rms_m, unit), error(axis.max_m, unit)]);
+    }
+    aligned(&rows) + "\n"
+}
+
+fn settling_table(summary: &Summary) -> String {
     let claimed = summary.papers_helix;
     let (paper, from) = if claimed { ("the paper follows", "from") } else { ("", "") };
     let mut rows = vec![
@@ -54,10 +78,11 @@ fn axes_table(summary: &Summary) -> String {
     for ((name, axis), claim) in summary.axes.named().into_iter().zip(claims) {
         rows.push(axis_row(name, axis, claim));
     }
-    let average = mean_settling(summary);
-    let [blank_1, blank_2, blank_3, blank_4] = [const { String::new() }; 4];
-    let claim = if claimed { seconds(Some(AVERAGE_FOLLOWS.time_s)) } else { String::new() };
-    rows.push(["mean xyz".into(), seconds(average), blank_1, blank_2, blank_3, blank_4, claim]);
+    if let Some(average) = mean_settling(summary) {
+        let [blank_1, blank_2, blank_3, blank_4] = [const { String::new() }; 4];
+        let claim = if claimed { seconds(Some(AVERAGE_FOLLOWS.time_s)) } else { String::new() };
+        rows.push(["mean xyz".into(), seconds(Some(average)), blank_1, blank_2, blank_3, blank_4, claim]);
+    }
     aligned(&rows) + "yaw: within 0.05 rad and 0.002 rad; its errors are in mrad\n\n"
 }
 
@@ -89,7 +114,7 @@ fn last_settling(summary: &Summary) -> Option<f64> {
 fn bound(summary: &Summary) -> String {
     let Some(bound) = summary.time_optimal_s else { return String::new() };
     let reached = last_settling(summary).map_or_else(
-        || "xyz never all within 5 cm".into(),
+        || "not all of xyz are within 5 cm at the end".into(),
         |last| format!("all of xyz within 5 cm from {last:.3} s, {:.2} × the bound", last / bound),
     );
     format!("time-optimal bound  {bound:.2} s to join the reference exactly; {reached}\n")
@@ -106,26 +131,6 @@ fn recovery(recovery: &Recovery) -> String {
     )
 }
 
-/// What a flight on sensors knew, and how it ended.
-fn sensed(sensed: &Sensed) -> String {
-    let degrees = |value: Option<f64>| value.map_or_else(undefined, |v| format!("{:.2}°", v.to_degrees()));
-    let Knowledge { tilt_rms_rad, heading_rms_rad, position_rms_m, velocity_rms_m_s } = sensed.estimate;
-    let known = format!(
-        "knowledge           off by {} tilt, {} heading, {}, {}/s RMS while armed\n",
-        degrees(tilt_rms_rad),
-        degrees(heading_rms_rad),
-        error(position_rms_m, "m"),
-        error(velocity_rms_m_s, "m"),
-    );
-    let landed = |contact: Contact| format!("at {:.3} s with {:.2} m/s", contact.t_s, contact.descent_m_s);
-    let touchdown = sensed.touchdown.map_or_else(|| "none".into(), landed);
-    known + &format!("touchdown           {touchdown}; {}\n", disarmed(sensed.disarmed_s))
-}
-
-fn disarmed(time: Option<f64>) -> String {
-    time.map_or_else(|| "not disarmed".into(), |t| format!("disarmed at {t:.3} s"))
-}
-
 fn figures(summary: &Summary) -> String {
     let effort = &summary.control_effort;
     let number = |value: Option<f64>, digits| value.map_or_else(undefined, |v| format!("{v:.digits$}"));
@@ -133,48 +138,96 @@ fn figures(summary: &Summary) -> String {
         [effort.thrust_rms_n, effort.roll_rms_n_m, effort.pitch_rms_n_m, effort.yaw_rms_n_m];
     let mut text = String::new();
     let mut line = |name: &str, value: &str| writeln!(text, "{name:<18}  {value}").expect("a string takes every byte");
-    line(
-        "chattering",
-        &format!(
-            "{} (rad/s)²/s, {} after 4 s: total variation of ω²",
-            number(summary.chattering, 0),
-            number(summary.chattering_after_4s, 0)
-        ),
-    );
-    line(
-        "control effort",
-        &format!(
-            "U1 {} N, U2 {} N m, U3 {} N m, U4 {} N m RMS",
-            number(thrust, 2),
-            number(roll, 4),
-            number(pitch, 4),
-            number(yaw, 4)
-        ),
-    );
+    if summary.sensed.is_none() {
+        line(
+            "chattering",
+            &format!(
+                "{} (rad/s)²/s, {} after 4 s: total variation of ω²",
+                number(summary.chattering, 0),
+                number(summary.chattering_after_4s, 0)
+            ),
+        );
+        line(
+            "control effort",
+            &format!(
+                "U1 {} N, U2 {} N m, U3 {} N m, U4 {} N m RMS",
+                number(thrust, 2),
+                number(roll, 4),
+                number(pitch, 4),
+                number(yaw, 4)
+            ),
+        );
+    }
     line("saturated", &format!("{:.2} % of the ticks", 100.0 * summary.saturated_fraction));
-    line("real-time factor", &number(summary.real_time_factor, 0));
+    line(
+        "simulated",
+        &format!("{} s, {} times as fast as real time", summary.duration_s, number(summary.real_time_factor, 0)),
+    );
     line("truth SHA-256", &summary.truth_sha256);
     text
 }
 
+/// Renders the flights of several seeds, a line each.
+pub fn seeds(rows: &[Row]) -> String {
+    let told = rows.iter().any(|row| matches!(row, Row::Flown(summary) if summary.told.is_some()));
+    let head = if told {
+        ["seed", "touchdown", "from start", "battery", "end"]
+    } else {
+        ["seed", "x RMS", "y RMS", "z RMS", "end"]
+    };
+    let mut lines = vec![head.map(String::from)];
+    lines.extend(rows.iter().map(|row| match row {
+        Row::Flown(summary) => seed(summary),
+        Row::Failed { seed, error } => {
+            [seed.to_string(), undefined(), undefined(), undefined(), format!("ERROR: {error}")]
+        }
+    }));
+    // The last column holds words, and is not to be pushed to the right.
+    let numbers: Vec<_> = lines.iter().map(|[a, b, c, d, _]| [a, b, c, d].map(Clone::clone)).collect();
+    let text = aligned_to_width(&numbers);
+    text.iter().zip(&lines).map(|(numbers, [.., end])| format!("{numbers}  {end}\n")).collect()
+}
+
+/// A flight in a line: seed, three numbers, end.
+fn seed(summary: &Summary) -> [String; 5] {
+    let mission = summary.told.as_ref().and_then(|told| told.mission.as_ref()?.reason.clone());
+    let end = mission.unwrap_or_else(|| verdict(summary).0);
+    let numbers = match &summary.told {
+        Some(told) => {
+            let contact = summary.sensed.as_ref().and_then(|sensed| sensed.touchdown);
+            [
+                contact.map_or_else(undefined, |contact| format!("{:.2} m/s", contact.descent_m_s)),
+                contact.map_or_else(undefined, |contact| format!("{:.2} m", contact.from_start_m)),
+                told.battery.map_or_else(undefined, |[_, left]| format!("{:.0} %", 100.0 * left)),
+            ]
+        }
+        None => [&summary.axes.x, &summary.axes.y, &summary.axes.z].map(|axis| error(axis.rms_m, "m")),
+    };
+    let [a, b, c] = numbers;
+    [summary.seed.to_string(), a, b, c, end]
+}
+
 /// Pads every column to its widest cell: the first to the left, numbers to the right.
 fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
+    aligned_to_width(rows).iter().map(|line| line.trim_end().to_owned() + "\n").collect()
+}
+
+/// The same as lines that are all as wide.
+fn aligned_to_width<const N: usize>(rows: &[[String; N]]) -> Vec<String> {
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let widths: [usize; N] = std::array::from_fn(width);
-    let mut text = String::new();
-    for row in rows {
+    let line = |row: &[String; N]| {
         let mut line = format!("{:<1$}", row[0], widths[0]);
         for (cell, width) in row.iter().zip(widths).skip(1) {
             write!(line, "  {cell:>width$}").expect("a string takes every byte");
         }
-        text.push_str(line.trim_end());
-        text.push('\n');
-    }
-    text
+        line
+    };
+    rows.iter().map(line).collect()
 }
 
 fn seconds(time: Option<f64>) -> String {
-    time.map_or_else(|| "never".into(), |t| format!("{t:.3} s"))
+    time.map_or_else(|| "not at the end".into(), |t| format!("{t:.3} s"))
 }
 
 /// An error in thousandths of its unit, or in the unit where that would be a long number.
@@ -201,9 +254,9 @@ mod tests {
     #[test]
     fn a_flight_reads_as_expected() {
         let flight = Flight { disturbance_onset_s: Some(0.9), ..flight(true) };
-        let text = render(&Summary::new(flight, &metrics()));
+        let text = render(&Summary::new(flight, &metrics()), Paint::PLAIN);
         let expected = "\
-helix, seed 7: 20.000 s flown, survived
+helix, seed 7: flown for 20 s
 
 axis      within 5 cm  within 2 mm         RMS     maximum  overshoot  the paper follows
                  from         from   after 4 s   after 4 s                          from
@@ -219,7 +272,7 @@ disturbance         from its onset to within 5 cm (2°) for good: x 0.100 s, y 0
 chattering          0 (rad/s)²/s, 0 after 4 s: total variation of ω²
 control effort      U1 8.00 N, U2 0.0000 N m, U3 0.0000 N m, U4 0.0000 N m RMS
 saturated           1.23 % of the ticks
-real-time factor    3210
+simulated           20 s, 3210 times as fast as real time
 truth SHA-256       abababababababababababababababababababababababababababababababab
 ";
         assert_eq!(text, expected);
@@ -227,25 +280,8 @@ truth SHA-256       abababababababababababababababababababababababababababababab
 
     #[test]
     fn a_flight_without_figures_still_has_a_table() {
-        let text = render(&Summary::new(flight(false), &Metrics::new()));
-        assert!(text.contains("DID NOT SURVIVE") && text.contains("never") && !text.contains("NaN"), "{text}");
-    }
-
-    #[test]
-    fn a_flight_on_sensors_tells_what_it_knew_and_how_it_ended() {
-        let estimate = Knowledge {
-            tilt_rms_rad: Some(0.005),
-            heading_rms_rad: Some(0.02),
-            position_rms_m: Some(1.25),
-            velocity_rms_m_s: Some(0.05),
-        };
-        let touchdown = Some(Contact { t_s: 71.5, descent_m_s: 0.4, drift_m_s: 0.1 });
-        let sensed = Sensed { estimate, touchdown, disarmed_s: Some(73.0) };
-        let text = render(&Summary::new(flight(true), &metrics()).with_sensed(Some(sensed)));
-        assert!(text.contains("off by 0.29° tilt, 1.15° heading, 1.25 m, 50.000 mm/s RMS while armed"), "{text}");
-        assert!(text.contains("at 71.500 s with 0.40 m/s; disarmed at 73.000 s"), "{text}");
-        let text = render(&Summary::new(flight(true), &metrics()).with_sensed(Some(Sensed::default())));
-        assert!(text.contains("none; not disarmed"), "{text}");
+        let text = render(&Summary::new(flight(false), &Metrics::new()), Paint::PLAIN);
+        assert!(text.contains("LOST") && !text.contains("never") && !text.contains("NaN"), "{text}");
     }
 
     #[test]

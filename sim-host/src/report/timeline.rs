@@ -78,17 +78,46 @@ impl Timeline {
     }
 }
 
-/// Makes the timeline of a flight.
+/// What became of a command of the pilot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Leg {
+    /// The command.
+    pub order: Order,
+    /// Where it leads to, m, where it leads anywhere: home for a return, and where the vehicle was for a landing.
+    pub place: Option<[f64; 3]>,
+    /// True distance from there when the next command was given, or at the end, m.
+    pub off_m: Option<f64>,
+}
+
+/// A flight as its mission is judged by.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Course {
+    /// What happened when.
+    pub timeline: Timeline,
+    /// The commands that were given.
+    pub legs: Vec<Leg>,
+    /// When (s) the vehicle first changed its mode by itself, and why.
+    pub response: Option<(f64, &'static str)>,
+    /// Charge at the start and at the end, 0 to 1.
+    pub battery: Option<[f64; 2]>,
+    /// Whether it was disarmed at the end.
+    pub disarmed: bool,
+}
+
+/// Records the course of a flight.
 #[derive(Clone, Debug, Default)]
 pub struct TimelineRecorder {
     script: Vec<Command>,
-    timeline: Timeline,
-    given: usize,
+    course: Course,
     error: Size,
     /// Distance from the reference in the newest row, m.
     distance_m: f64,
+    position: [f64; 3],
+    /// Where the flight began.
+    home: Option<[f64; 3]>,
     armed_before: bool,
     armed: bool,
+    mode: Option<Mode>,
     event: Option<firmware::commander::Event>,
     replied: bool,
     end_s: f64,
@@ -100,13 +129,14 @@ impl TimelineRecorder {
         Self { script: script.to_vec(), ..Self::default() }
     }
 
-    /// The timeline, with the faults of a schedule that began before its end.
-    pub fn finish(mut self, faults: &[Fault]) -> Timeline {
+    /// The course, with the faults of a schedule that began before its end.
+    pub fn finish(mut self, faults: &[Fault]) -> Course {
         self.close();
+        self.arrive();
         for fault in faults {
             self.schedule(fault);
         }
-        self.timeline
+        Course { disarmed: !self.armed, ..self.course }
     }
 
     fn schedule(&mut self, fault: &Fault) {
@@ -116,29 +146,54 @@ impl TimelineRecorder {
         }
         let name = fault_name(fault);
         let ends = until(fault.to_s);
-        self.timeline.add(Event { t_s: fault.from_s, kind: EventKind::FaultBegins, text: format!("fault: {name}") });
+        self.course.timeline.add(Event {
+            t_s: fault.from_s,
+            kind: EventKind::FaultBegins,
+            text: format!("fault: {name}"),
+        });
         if let Some(t_s) = ends {
-            self.timeline.add(Event { t_s, kind: EventKind::FaultEnds, text: format!("fault ends: {name}") });
+            self.course.timeline.add(Event { t_s, kind: EventKind::FaultEnds, text: format!("fault ends: {name}") });
         }
     }
 
     fn close(&mut self) {
         let (rms, max, end) = (self.error.rms(), self.error.max(), self.end_s);
-        if let Some(phase) = self.timeline.phases.last_mut() {
+        if let Some(phase) = self.course.timeline.phases.last_mut() {
             (phase.to_s, phase.error_rms_m, phase.error_max_m) = (end, rms, max);
         }
         self.error = Size::default();
     }
 
     fn say(&mut self, t_s: f64, kind: EventKind, text: impl Into<String>) {
-        self.timeline.events.push(Event { t_s, kind, text: text.into() });
+        self.course.timeline.events.push(Event { t_s, kind, text: text.into() });
     }
 
     fn orders(&mut self, activity: &Activity) {
-        while self.given < activity.given.min(self.script.len()) {
-            let text = order_text(&self.script[self.given].order);
-            self.say(activity.t, EventKind::Order, text);
-            self.given += 1;
+        while let Some(command) = self.script[..activity.given.min(self.script.len())].get(self.course.legs.len()) {
+            let order = command.order;
+            self.arrive();
+            let place = self.place_of(&order);
+            self.course.legs.push(Leg { order, place, off_m: None });
+            self.say(activity.t, EventKind::Order, order_text(&order));
+        }
+    }
+
+    fn place_of(&self, order: &Order) -> Option<[f64; 3]> {
+        let [x, y, z] = self.position;
+        match *order {
+            Order::TakeOff { height_m } => Some([x, y, z + f64::from(height_m)]),
+            Order::GoTo { position_m, .. } => Some(position_m.map(f64::from)),
+            Order::Land => Some(self.position),
+            Order::Return => self.home,
+            _ => None,
+        }
+    }
+
+    /// How far the vehicle is from where the newest command leads to.
+    fn arrive(&mut self) {
+        let position = self.position;
+        if let Some(leg) = self.course.legs.last_mut() {
+            leg.off_m = leg.place.map(|place| distance(&place, &position));
         }
     }
 
@@ -153,8 +208,12 @@ impl TimelineRecorder {
             self.event = commander.event;
             if let Some(event) = commander.event {
                 self.say(t, EventKind::Response, event.text());
+                if self.mode != Some(commander.mode) {
+                    self.course.response.get_or_insert((t, event.text()));
+                }
             }
         }
+        self.mode = Some(commander.mode);
     }
 
     /// The name of what is being done, and whether a position is controlled in it.
@@ -172,14 +231,16 @@ impl TimelineRecorder {
     }
 
     fn legs_given(&self) -> usize {
-        self.script[..self.given].iter().filter(|command| matches!(command.order, Order::GoTo { .. })).count()
+        self.course.legs.iter().filter(|leg| matches!(leg.order, Order::GoTo { .. })).count()
     }
 }
 
 impl Recorder for TimelineRecorder {
     fn record(&mut self, row: &Row) {
-        let [x, y, z] = std::array::from_fn(|i| row.position[i] - row.reference[i]);
-        self.distance_m = libm::sqrt(x * x + y * y + z * z);
+        let [x, y, z, _] = row.reference;
+        self.distance_m = distance(&[x, y, z], &row.position);
+        self.position = row.position;
+        self.home.get_or_insert(row.position);
         self.end_s = row.t;
     }
 
@@ -190,20 +251,28 @@ impl Recorder for TimelineRecorder {
         if self.armed && !commander.armed {
             self.say(activity.t, EventKind::Disarmed, "disarmed");
         }
+        if let Some(battery) = activity.battery {
+            self.course.battery.get_or_insert([battery.soc; 2])[1] = battery.soc;
+        }
         self.armed = commander.armed;
         self.armed_before |= commander.armed;
         let (name, number, controlled) = self.doing(commander);
-        let is_same = self.timeline.phases.last().is_some_and(|phase| is_named(&phase.name, name, number));
+        let is_same = self.course.timeline.phases.last().is_some_and(|phase| is_named(&phase.name, name, number));
         if !is_same {
             self.close();
             let name = number.map_or_else(|| name.to_owned(), |number| format!("{name} {number}"));
             let phase = Phase { name, from_s: activity.t, to_s: activity.t, ..Phase::default() };
-            self.timeline.phases.push(phase);
+            self.course.timeline.phases.push(phase);
         }
         if controlled {
             self.error.take(self.distance_m);
         }
     }
+}
+
+fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    let [x, y, z]: [f64; 3] = std::array::from_fn(|i| a[i] - b[i]);
+    libm::sqrt(x * x + y * y + z * z)
 }
 
 /// Whether a phase's name is `name`, or `name number`. Does not allocate: it is asked each tick.

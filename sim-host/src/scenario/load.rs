@@ -125,6 +125,7 @@ impl Scenario {
                 _ => own.set(setting, setting.key)?,
             }
         }
+        find_beside(&mut own.table, name);
         let tuning = gains(&mut own, &of_gains)?;
         let mut layers = Layers(vec![own]);
         layers.0.extend(tuning);
@@ -179,6 +180,22 @@ fn require_effective(file: &ScenarioFile, setting: &Setting, key: &str, source: 
         bail!("--set {}: {source} has its own `{key}` in place of the airframe's: set `{key}`", setting.text);
     }
     Ok(())
+}
+
+/// Lets the names of airframe and tuning mean files beside the scenario's own, where there are such.
+fn find_beside(table: &mut Table, scenario: &str) {
+    for key in ["airframe", "tuning"] {
+        if let Some(Value::String(name)) = table.get_mut(key) {
+            *name = beside(scenario, name);
+        }
+    }
+}
+
+/// The path of a file that a scenario names: beside the scenario's own, if there is one; else as it is.
+fn beside(scenario: &str, name: &str) -> String {
+    let near = Path::new(scenario).with_file_name(name);
+    let is_path = scenario.ends_with(".toml") || scenario.contains('/');
+    if is_path && near.is_file() { near.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
 /// Loads a built-in tuning by name or a file by path.

@@ -381,7 +381,7 @@ fn the_x500_flies_in_the_whole_world() {
     let fly = || {
         let mut rows: Vec<Row> = Vec::new();
         let outcome = flight::fly(&scenario, 1, &mut rows).expect("can be flown");
-        assert!(outcome.survived);
+        assert!(outcome.survived());
         rows
     };
     let rows = fly();

@@ -13,7 +13,7 @@ use crate::common::load::load;
 fn fly(name: &str, settings: &[&str], seed: u64) -> (Metrics, Vec<Row>) {
     let mut recorder = (Metrics::new(), Vec::new());
     let outcome = flight::fly(&load(name, settings), seed, &mut recorder).expect("can be flown");
-    assert!(outcome.survived, "{name} {settings:?} seed {seed}");
+    assert!(outcome.survived(), "{name} {settings:?} seed {seed}");
     recorder
 }
 
@@ -56,7 +56,7 @@ fn it_recovers_from_any_attitude_at_10_rad_s_and_3_m_s_within_12_m() {
     let mut check = |scenario: &Scenario, seed: u64| {
         let mut fall = Fall::default();
         let outcome = flight::fly(scenario, seed, &mut fall).expect("can be flown");
-        assert!(outcome.survived && fall.distance_m < 0.05, "seed {seed}: {} m away", fall.distance_m);
+        assert!(outcome.survived() && fall.distance_m < 0.05, "seed {seed}: {} m away", fall.distance_m);
         worst = worst.max(-fall.lowest_m);
     };
     for seed in 1..=200 {

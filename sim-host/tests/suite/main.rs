@@ -7,6 +7,7 @@ mod common;
 
 mod analyse;
 mod cli;
+mod console;
 mod control_laws;
 mod day;
 mod determinism;
@@ -17,6 +18,7 @@ mod landing;
 mod messages;
 mod no_panic;
 mod paper_cases;
+mod paper_command;
 mod physics;
 #[cfg(unix)]
 mod pil;

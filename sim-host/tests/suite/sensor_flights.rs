@@ -139,7 +139,7 @@ fn hover(suite: &str, faults: &[&str]) -> Scenario {
 fn fly(scenario: &Scenario, seed: u64) -> Seen {
     let mut seen = Seen::from(20.0);
     let outcome = flight::fly(scenario, seed, &mut seen).expect("can be flown");
-    assert!(outcome.survived && seen.is_finite, "{:?} seed {seed}: {seen:?}", scenario.file.fault);
+    assert!(outcome.survived() && seen.is_finite, "{:?} seed {seed}: {seen:?}", scenario.file.fault);
     seen
 }
 
@@ -418,7 +418,7 @@ fn a_battery_that_collapses_ends_the_flight_softly() {
             flight.autopilot = Autopilot::new(&config).expect("can be flown");
             let mut seen = Seen::from(20.0);
             let outcome = flight.run(scenario.ticks(), &mut seen);
-            assert!(outcome.survived && seen.has_landed() && seen.away_m < SOUND.away_m, "{factor} {seed}: {seen:?}");
+            assert!(outcome.survived() && seen.has_landed() && seen.away_m < SOUND.away_m, "{factor} {seed}: {seen:?}");
             assert!(seen.modes.contains(mode) && !seen.modes.contains("motor-out"), "{factor} {seed}: {seen:?}");
         }
     }

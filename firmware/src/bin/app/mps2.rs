@@ -1,4 +1,4 @@
-//! The RTIC application: every partition a task of its own priority, and nothing shared but the mailboxes.
+//! The RTIC application: every partition is a task of its own priority, and only the mailboxes are shared.
 //!
 //! ```text
 //! priority  task       released by                     does
@@ -7,17 +7,17 @@
 //!        4  outer      inner, every 4th tick            the estimator's filter, guidance and position control
 //!        3  commander  inner, every 20th tick           arming, modes, failures
 //!        2  ground     inner, every 10th tick           MAVLink
-//!        1  transmit   inner or UART 0 is free          drains what MAVLink has to say
+//!        1  transmit   inner or UART 0 is free          sends MAVLink bytes
 //!        –  idle                                        log
 //! ```
 //!
-//! A partition is released by pending an interrupt whose peripheral this board does not use: rate monotonic, and a
-//! release that comes while the job is still running is kept. The inner task does not log and does not wait: a
-//! log entry masks all interrupts while the host writes it.
+//! Priorities are rate monotonic. A partition is released by pending an interrupt whose peripheral is not used; a
+//! release while the job is still running stays pending. The inner task neither logs nor waits: a log entry masks all
+//! interrupts while the host writes it.
 
 use core::panic::PanicInfo;
 
-// Brings in the start-up code, which nothing here calls by name.
+// Links the start-up code, which is not referenced by name.
 use cortex_m_rt as _;
 use defmt_semihosting as _;
 use firmware::board::{StartError, fault};
@@ -45,7 +45,7 @@ mod app {
 
     /// Room for a burst between two ticks: QEMU delivers as fast as the receiving task reads, whatever the baud rate.
     const RECEIVE_BYTES: usize = 1024;
-    /// Jobs of the ground partition whose output may wait for the line: 150 ms of them.
+    /// Outputs of the ground partition that may wait for the serial line: 150 ms.
     const TRANSMIT_JOBS: usize = 16;
 
     #[shared]
@@ -72,7 +72,7 @@ mod app {
         line: Line,
     }
 
-    /// What the inner task owns.
+    /// Resources of the inner task.
     pub(crate) struct Top {
         tick: PeriodicTimer,
         clock: FreeRunning,
@@ -84,7 +84,7 @@ mod app {
         transmit: Producer<'static, TxBytes>,
     }
 
-    /// What goes out on the serial port: jobs' outputs, the first one perhaps in part.
+    /// Bytes for the serial port: outputs of the ground partition, the first one possibly partly sent.
     pub(crate) struct Line {
         uart: UartTx,
         waiting: Consumer<'static, TxBytes>,
@@ -92,7 +92,7 @@ mod app {
         sent: usize,
     }
 
-    /// The board's parts, the flight it is to fly, and the partitions made for it.
+    /// The peripherals, the flight's configuration, and the partitions built for it.
     struct Boot {
         tick: PeriodicTimer,
         clock: FreeRunning,
@@ -144,7 +144,7 @@ mod app {
         )
     }
 
-    /// The tick.
+    /// Runs every tick.
     #[task(binds = TIMER0, priority = 6, local = [top], shared = [mail, outer_jobs, timing])]
     fn inner(mut cx: inner::Context) {
         let top = cx.local.top;
@@ -157,7 +157,7 @@ mod app {
         }
         top.take_received();
         if let Some(request) = top.imu.asked() {
-            // A full queue drops it, as it does a ground station's.
+            // A full queue drops it, like a ground station's.
             let _ = top.flight.request(request);
         }
         let (released, overruns) =
@@ -185,7 +185,7 @@ mod app {
 
         fn hand_over_transmit(&mut self) {
             if self.flight.has_transmit() {
-                // A line slower than its messages loses whole jobs' worth of them, never part of a message.
+                // If the line is too slow, whole outputs are dropped, never a fraction of a message.
                 let _ = self.transmit.enqueue(self.flight.take_transmit());
                 rtic::pend(Interrupt::UARTTX0);
             }
@@ -196,12 +196,12 @@ mod app {
     fn receive(cx: receive::Context) {
         let (uart, received) = (cx.local.uart_rx, cx.local.received);
         uart.acknowledge();
-        // In a loop: a byte that comes while this task runs may not interrupt again.
+        // In a loop: a byte that arrives while this task runs may not interrupt again.
         while let Ok(true) = uart.read_ready() {
             let mut byte = [0];
             if uart.read(&mut byte).is_ok() {
                 let [byte] = byte;
-                // MAVLink's checksum finds the gap that a lost byte leaves.
+                // MAVLink's checksum detects a lost byte.
                 let _ = received.enqueue(byte);
             }
         }
@@ -246,7 +246,7 @@ mod app {
     }
 
     impl Line {
-        /// The next byte to go.
+        /// The next byte to send.
         fn next(&mut self) -> Option<u8> {
             if self.sent >= self.current.len() {
                 self.current = self.waiting.dequeue()?;
@@ -285,7 +285,7 @@ fn refuse(error: StartError) -> ! {
 
 #[panic_handler]
 fn panic(info: &PanicInfo) -> ! {
-    // The second time it was the log that failed.
+    // The second time, logging itself has panicked.
     if fault::stop_rotors() {
         drivers::stopped(Cause::Panic);
         defmt::error!("{}", defmt::Display2Format(info));

@@ -1,4 +1,4 @@
-//! The flight over which instructions are counted: the controller that flies by default on a 2 kg quadrotor.
+//! The flight over which instructions are counted: the default controller on a 2 kg quadrotor.
 
 use core::hint::black_box;
 
@@ -27,10 +27,10 @@ use crate::tally::Tally;
 
 /// 4 s to join the eight, and two and a half rounds of it.
 const TICKS: Tick = 20_000;
-/// Before it, for the estimator to find out where north is.
+/// Time before it for the estimator to align.
 const STANDING: Tick = 1_200;
 
-/// What a flight has taken.
+/// Instruction counts of a flight.
 #[derive(Default)]
 pub(crate) struct Counts {
     pub(crate) attitude: Tally,
@@ -40,9 +40,9 @@ pub(crate) struct Counts {
     pub(crate) mixer: Tally,
     pub(crate) mixer_saturated: Tally,
     pub(crate) navigation: NavigationCounts,
-    /// Distance from the reference at the end, m: the flight must have been one.
+    /// Distance from the reference at the end, m: shows that the flight was valid.
     pub(crate) final_error_m: f32,
-    /// Distance of the estimate from the truth there, m: and this one an estimate.
+    /// Error of the position estimate at the end, m: shows that the estimate was valid.
     pub(crate) estimate_error_m: f32,
 }
 
@@ -105,7 +105,7 @@ fn config() -> FlightConfig {
     }
 }
 
-/// 5 m beside where the flight is to begin, and heading elsewhere: the rotors meet their limits.
+/// 5 m away from where the flight should begin, with a wrong heading, so that the rotors reach their limits.
 fn start(config: &FlightConfig) -> NavState {
     let mut nav = NavState::at_rest();
     nav.position = config.start_position() + Vector3::new(0.0, -5.0, 0.0);
@@ -113,7 +113,7 @@ fn start(config: &FlightConfig) -> NavState {
     nav
 }
 
-/// The vehicle, its controller in the parts that are counted, and the counts so far.
+/// The vehicle, the components of its controller that are counted, and the counts so far.
 pub(crate) struct Flight {
     counter: Counter,
     counts: Counts,
@@ -124,7 +124,7 @@ pub(crate) struct Flight {
     outer: Outer,
     guidance: Guidance,
     mixer: Mixer<ROTORS>,
-    /// In effect now, and from the next publication on.
+    /// The reference in effect now, and the one from the next publication on.
     reference: AttitudeReference,
     next: AttitudeReference,
 }
@@ -133,7 +133,7 @@ impl Flight {
     /// Ready to take off.
     ///
     /// # Errors
-    /// What of the configuration is none for this firmware.
+    /// The field of the configuration that is invalid.
     pub(crate) fn new(counter: Counter) -> Result<Self, ConfigError> {
         let config = config();
         config.validate()?;
@@ -179,7 +179,7 @@ impl Flight {
         self.counts
     }
 
-    /// The estimator flies along; what it finds is not flown by.
+    /// The estimator runs alongside; the controller uses the true motion.
     fn navigate(&mut self, tick: Tick, at_rest: bool) {
         let measured = self.sensors.measure(tick, &self.plant.nav, &self.plant.specific_force);
         if tick % FILTER.period == FILTER.offset {
@@ -210,7 +210,7 @@ impl Flight {
         self.next = output.attitude;
     }
 
-    /// Attitude control and mixer, then the mixer once more by itself.
+    /// Attitude control and mixer, then the mixer once more on its own.
     #[inline(never)]
     fn inner_step(&mut self, tick: Tick) {
         let sample = SensorFrame::Motion(self.plant.nav);

@@ -1,5 +1,5 @@
-//! Counts the instructions of the control loops over a flight on the target, and fails where one is over its budget:
-//! `cargo counts`.
+//! Counts the instructions of the control loops over a flight on the target, and fails if one exceeds its budget: run
+//! it with `cargo counts`.
 
 #![cfg_attr(all(target_arch = "arm", target_os = "none"), no_std, no_main)]
 
@@ -24,14 +24,14 @@ mod image {
     use crate::flight::{Counts, Flight};
     use crate::tally::Tally;
 
-    /// Instructions of a call that may not be exceeded, by the mean and by any call.
+    /// Budget of a call in instructions, for the mean and for the maximum.
     struct Budget {
         mean: u32,
         max: u32,
     }
 
     const ATTITUDE: Budget = Budget { mean: 600, max: 900 };
-    /// While no rotor is at its limit; at one, the mixer has its facets to go through.
+    /// While no rotor is at its limit; at a limit, the mixer goes through its facets.
     const ATTITUDE_WITHIN_LIMITS: Budget = Budget { mean: 600, max: 600 };
     const POSITION: Budget = Budget { mean: 1_000, max: 1_000 };
 
@@ -39,9 +39,9 @@ mod image {
     const COVARIANCE: Budget = Budget { mean: 8_000, max: 8_000 };
     const CORRECTION: Budget = Budget { mean: 8_000, max: 8_000 };
 
-    /// A vehicle that ends farther than this from its reference, m, has not flown what is to be counted.
+    /// Greatest distance from the reference at the end, m, for the flight to be valid.
     const TRACKED_WITHIN_M: f32 = 0.3;
-    /// An estimate that ends farther than this from the truth, m, is none.
+    /// Greatest error of the position estimate at the end, m, for the flight to be valid.
     const ESTIMATED_WITHIN_M: f32 = 1.0;
 
     #[cortex_m_rt::entry]
@@ -49,7 +49,7 @@ mod image {
         let Some(board) = Peripherals::take() else { fault::end() };
         let counter = Counter::new(board.clock);
         match Flight::new(counter).map(Flight::fly) {
-            // Flown all the same, for those who count by the marks.
+            // Flies nevertheless, for tools that count by the marks.
             Ok(_) if !counter.is_exact() => println!("not counted: QEMU's clock needs -icount shift=10"),
             Ok(counts) if report(&counts) => semihosting::process::exit(0),
             Ok(_) => {}
@@ -58,7 +58,7 @@ mod image {
         fault::end()
     }
 
-    /// Prints what a flight has taken. True if it was a flight with everything in it, and within its budgets.
+    /// Prints the counts of a flight. True if the flight was valid and within its budgets.
     fn report(counts: &Counts) -> bool {
         println!("instructions a call         calls    mean   max  budgets");
         let navigation = &counts.navigation;

@@ -1,4 +1,4 @@
-//! The estimator that flies along, in the parts that are counted.
+//! The estimator, in the components that are counted.
 
 use core::hint::black_box;
 
@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 
 use crate::tally::Tally;
 
-/// What the estimator has taken.
+/// Instruction counts of the estimator.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct NavigationCounts {
     pub(crate) prediction: Tally,
@@ -30,17 +30,17 @@ pub(crate) struct NavigationCounts {
     pub(crate) job_with_gnss: Tally,
 }
 
-/// Predictor, filter, and the filter's parts once more by themselves.
+/// Predictor, filter, and the filter's components once more on their own.
 pub(crate) struct Navigation {
     counter: Counter,
     pub(crate) counts: NavigationCounts,
     predictor: Predictor,
     gyro: GyroFilter,
     filter: Filter,
-    /// Moved and corrected as the filter's own is.
+    /// A second covariance, predicted and corrected like the filter's own.
     covariance: Covariance,
     readings: Readings,
-    /// What the last job has found, until it is published.
+    /// The output of the last job, until it is published.
     found: Option<Injection>,
     injected: bool,
     aligned: bool,
@@ -79,10 +79,7 @@ impl Navigation {
             self.counter.count(counter::mark_begin_gyro_filter, || black_box(gyro.filter(raw, omega)));
         self.counts.gyro_filter.add(instructions);
 
-        let readings = &mut self.readings;
-        readings.mag = measured.mag.or(readings.mag);
-        readings.baro = measured.baro.or(readings.baro);
-        readings.gnss = measured.gnss.or(readings.gnss);
+        self.readings.keep(measured);
     }
 
     /// The filter's job.
@@ -120,7 +117,7 @@ impl Navigation {
         output
     }
 
-    /// The covariance's prediction, and corrections when the sensors' would come.
+    /// Prediction of the covariance, and corrections when readings arrive.
     fn count_parts(&mut self, input: &FilterInput) {
         let motion = motion(&input.state.attitude.to_rotation_matrix().into_inner(), &input.span);
         let (covariance, motion, noise) = black_box((&mut self.covariance, &motion, &NOISE));
@@ -151,12 +148,12 @@ impl Navigation {
         let (covariance, measurement, error) = black_box((&mut self.covariance, measurement, &mut error));
         let (instructions, verdict) =
             self.counter.count(begin, || black_box(measurement.apply(covariance, error, gate::<N>())));
-        // One that was refused would have been counted for less.
+        // A refused measurement would have been counted with fewer instructions.
         assert!(verdict.accepted, "within the gate");
         instructions
     }
 
-    /// Hands the filter's last finding to the predictor.
+    /// Injects the filter's last output into the predictor.
     pub(crate) fn publish(&mut self) {
         match self.found.take() {
             Some(Injection::Correct(correction)) => self.predictor.correct(&correction),
@@ -166,13 +163,13 @@ impl Navigation {
         self.injected = true;
     }
 
-    /// How far it is off, m.
+    /// Error of the position estimate, m.
     pub(crate) fn error_m(&self, nav: &NavState) -> f32 {
         math::sqrt((self.predictor.state().position - nav.position).norm_squared())
     }
 }
 
-/// As the default settings have it.
+/// As in the default settings.
 const NOISE: StepNoise = StepNoise {
     theta: Vector3::new(1e-9, 1e-9, 1e-9),
     velocity: 1e-8,

@@ -1,5 +1,5 @@
-//! A vehicle to be flown on the target: a rigid body with rotors that lag and react, in Euler steps of a tick. Only good enough
-//! for the loops to meet what they meet in a flight.
+//! A vehicle to be flown on the target: a rigid body with rotor lag and spin-up reaction, integrated by Euler steps of
+//! a tick. Just accurate enough to exercise the loops as in a flight.
 
 use firmware::airframe::{Airframe, ROTORS};
 use firmware::control::position::Translation;
@@ -17,19 +17,19 @@ pub(crate) struct Plant {
 }
 
 impl Plant {
-    /// Rotors at the speed of hover.
+    /// With the rotors at hover speed.
     pub(crate) fn new(airframe: &Airframe, nav: NavState) -> Self {
         let omega_rad_s = [airframe.omega_for_thrust_to_weight(1.0); ROTORS];
         let specific_force = Vector3::new(0.0, 0.0, airframe.gravity_m_s2);
         Self { airframe: *airframe, model: Translation::new(airframe), omega_rad_s, nav, specific_force }
     }
 
-    /// How fast the rotors turn.
+    /// Rotor speeds, rad/s.
     pub(crate) fn omega_rad_s(&self) -> &[f32; ROTORS] {
         &self.omega_rad_s
     }
 
-    /// One tick with these commands.
+    /// Advances by one tick with these commands.
     pub(crate) fn step(&mut self, command: &MotorCommand) {
         let airframe = &self.airframe;
         let spin_before = airframe.rotor_spin_rad_s(&self.omega_rad_s);

@@ -1,17 +1,17 @@
-//! Sensors of the vehicle that is flown on the target: noisy, the satellites' late.
+//! Sensors of the vehicle that is flown on the target: noisy, and GNSS late.
 
 use firmware::math;
 use firmware::sensors::{BaroSample, Geodetic, GnssSample, ImuSample, MagSample, Measurements};
 use firmware::signals::{NavState, Tick};
 use nalgebra::Vector3;
 
-/// Ticks from one sample to the next.
+/// Sampling periods, ticks.
 const MAG_EVERY: Tick = 10;
 const BARO_EVERY: Tick = 20;
 const GNSS_EVERY: Tick = 200;
-/// From a fix to its arrival, ticks.
+/// Latency of a GNSS fix, ticks.
 const GNSS_DELAY: Tick = 120;
-/// What the filter takes for granted by default, µT.
+/// The filter's default magnetic field, µT.
 const FIELD_UT: Vector3<f32> = Vector3::new(21.5, -1.3, -43.2);
 /// 1e-7° on the equator, m.
 const DEGREE_M: f32 = 0.011_13;
@@ -28,7 +28,7 @@ impl Sensors {
         Self { noise: 0x2545_f491, fix: None }
     }
 
-    /// What they deliver at a tick, of a motion and its specific force.
+    /// The samples of a tick, for a motion and its specific force.
     pub(crate) fn measure(&mut self, at: Tick, nav: &NavState, specific_force: &Vector3<f32>) -> Measurements {
         if at.is_multiple_of(GNSS_EVERY) {
             self.fix = Some(self.fix(at, nav));
@@ -38,12 +38,11 @@ impl Sensors {
             mag: at.is_multiple_of(MAG_EVERY).then(|| self.mag(at, nav)),
             baro: at.is_multiple_of(BARO_EVERY).then(|| self.baro(at, nav)),
             gnss: self.fix.take_if(|fix| at.wrapping_sub(fix.at) >= GNSS_DELAY),
-            pose: None,
-            battery: None,
+            ..Measurements::default()
         }
     }
 
-    /// Evenly within ± `size`.
+    /// Uniformly distributed within ± `size`.
     fn number(&mut self, size: f32) -> f32 {
         self.noise ^= self.noise << 13;
         self.noise ^= self.noise >> 17;

@@ -1,6 +1,6 @@
-//! Calls of a section, and their instructions.
+//! Instruction statistics of a section.
 
-/// Of one section.
+/// Statistics of one section.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Tally {
     pub(crate) calls: u32,

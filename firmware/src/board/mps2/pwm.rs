@@ -1,4 +1,4 @@
-//! PWM outputs. The emulated chip has none, so these only remember their duty cycle, where a debugger finds it.
+//! PWM outputs. The emulated chip has none, so these only record their duty cycle, for a debugger to read.
 
 use core::convert::Infallible;
 use core::sync::atomic::{AtomicU16, Ordering};
@@ -7,10 +7,10 @@ use embedded_hal::pwm::{ErrorType, SetDutyCycle};
 
 use crate::airframe::ROTORS;
 
-/// Stands for the compare registers: writable without a lock, so that a fault can stop the rotors.
+/// Stands in for the compare registers: writable without a lock, so that a fault handler can stop the rotors.
 static DUTY: [AtomicU16; ROTORS] = [const { AtomicU16::new(0) }; ROTORS];
 
-/// An output that only remembers its duty cycle.
+/// An output that only records its duty cycle.
 pub struct RecordingPwm {
     duty: &'static AtomicU16,
 }
@@ -19,7 +19,7 @@ pub(super) fn channels() -> [RecordingPwm; ROTORS] {
     DUTY.each_ref().map(|duty| RecordingPwm { duty })
 }
 
-/// Every output to zero, from anywhere.
+/// Sets every output to zero; callable from anywhere.
 pub fn stop_all() {
     for duty in &DUTY {
         duty.store(0, Ordering::Relaxed);

@@ -16,11 +16,11 @@ const INTERRUPT: usize = 0xc;
 const ENABLE: u32 = 1;
 const ENABLE_WITH_INTERRUPT: u32 = 1 | 1 << 3;
 
-/// TIMER0 as the compare unit of [`FreeRunning`]: interrupts whenever another period of that clock is over.
+/// TIMER0 as the compare unit of [`FreeRunning`]: interrupts at every period of that clock.
 ///
-/// Each count-down is started anew and stops at zero, with no reload: QEMU with `-icount sleep=off` skips
-/// every second interrupt of a timer that reloads itself while the core sleeps (it moves its clock on to the next
-/// deadline as the reload is noted, before the interrupt that wakes the core).
+/// Each count-down is started separately and stops at zero, without reload: QEMU with `-icount sleep=off` skips every
+/// second interrupt of a timer that reloads itself while the core sleeps (it advances its clock to the next deadline
+/// when the reload is scheduled, before the interrupt that wakes the core).
 pub struct PeriodicTimer {
     registers: Registers,
     clock: FreeRunning,
@@ -43,8 +43,8 @@ impl PeriodicTimer {
         self.registers.write(CTRL, ENABLE_WITH_INTERRUPT);
     }
 
-    /// To be called once an interrupt. The time that the call is late is not lost; a whole period is, and with it its
-    /// interrupt.
+    /// Call once per interrupt. A late call does not shift later interrupts; if it is late by a whole period, that
+    /// interrupt is skipped.
     pub fn next(&mut self) {
         self.registers.write(INTERRUPT, 1);
         let now = self.clock.now();
@@ -78,11 +78,11 @@ impl FreeRunning {
         !self.registers.read(VALUE)
     }
 
-    /// Keeps the core busy for that long; tasks of higher priority run meanwhile and count towards it.
+    /// Keeps the core busy for this time, including the time of tasks with higher priority.
     pub fn busy_wait(&self, us: u32) {
         let (start, counts) = (self.now(), us.saturating_mul(COUNTS_PER_US));
         while self.now().wrapping_sub(start) < counts {
-            // A look at the timer is dear under QEMU: one every few microseconds will do.
+            // Reading the timer is slow under QEMU: once every few microseconds is enough.
             cortex_m::asm::delay(500);
         }
     }

@@ -52,14 +52,14 @@ impl Uart {
 }
 
 impl UartRx {
-    /// To be called once an interrupt, before reading: a byte that comes later interrupts again.
+    /// Call once per interrupt, before reading: a byte that arrives later interrupts again.
     pub fn acknowledge(&mut self) {
         self.registers.write(INTERRUPT, RX_INTERRUPT);
     }
 }
 
 impl UartTx {
-    /// To be called once an interrupt, before writing.
+    /// Call once per interrupt, before writing.
     pub fn acknowledge(&mut self) {
         self.registers.write(INTERRUPT, TX_INTERRUPT);
     }
@@ -80,7 +80,7 @@ impl ReadReady for UartRx {
 }
 
 impl Read for UartRx {
-    /// Waits for the first byte, as the trait demands.
+    /// Waits for the first byte, as the trait requires.
     fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Infallible> {
         let Some(byte) = buffer.first_mut() else { return Ok(0) };
         while !self.read_ready()? {}
@@ -96,7 +96,7 @@ impl WriteReady for UartTx {
 }
 
 impl Write for UartTx {
-    /// Waits until the first byte can go, as the trait demands.
+    /// Waits until the first byte can be sent, as the trait requires.
     fn write(&mut self, buffer: &[u8]) -> Result<usize, Infallible> {
         let Some(byte) = buffer.first() else { return Ok(0) };
         while !self.write_ready()? {}

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 
-use super::panel::{Key, Panel, Role, grid, save};
+use super::page::{grid, save, size_of};
+use super::panel::Panel;
 use super::series::Points;
-use super::{TALL, WIDE};
+use super::style::{Key, Role};
 use crate::analyse::{Analysis, Attitude, Loop, Sample};
 
 /// Draws every figure into `folder`. Returns the files written.
@@ -36,8 +37,8 @@ fn of_loop(folder: &Path, scenario: &str, one: &Loop) -> Result<PathBuf> {
         bode("sensitivity", "|1/(1 + L)|, dB", sensitivity(&one.response), sensitivity(&simulated), vec![0.0]),
     ];
     let path = folder.join(format!("loop-{}.svg", one.name));
-    let heading = format!("{scenario}: the loop {}, opened at its law's demand", one.name);
-    save(&path, WIDE, &heading, &[Key::Linear, Key::Simulated], |area| grid(area, 2, &panels))?;
+    let heading = format!("Loop {}, opened at its law's demand\n{scenario}", one.name);
+    save(&path, size_of(2, 360), &heading, &[Key::Linear, Key::Simulated], |area| grid(area, 2, &panels))?;
     Ok(path)
 }
 
@@ -86,14 +87,14 @@ fn nyquist(samples: &[Sample], simulated: &[Sample]) -> Panel {
 fn attitude(folder: &Path, analysis: &Analysis) -> Result<PathBuf> {
     let panels: Vec<Panel> = analysis.attitude.iter().flat_map(|axis| [step(axis), noise(axis)]).collect();
     let path = folder.join("attitude.svg");
-    let heading = format!("{}: steps of the attitude, noise of the rates", analysis.scenario);
-    save(&path, TALL, &heading, &[Key::Small, Key::Step], |area| grid(area, 2, &panels))?;
+    let heading = format!("Steps of the attitude, noise of the rates\n{}", analysis.scenario);
+    save(&path, size_of(3, 260), &heading, &[Key::Line("a small step", Role::Reference), Key::Line("5°", Role::Flown)], |area| grid(area, 2, &panels))?;
     Ok(path)
 }
 
 fn step(axis: &Attitude) -> Panel {
     let lines = vec![(Role::Reference, axis.small_step.clone()), (Role::Flown, axis.step.clone())];
-    Panel::over_time(&format!("step of {}", axis.name), "part of the step", lines)
+    Panel::over_time(&format!("step of {}", axis.name), "fraction of the step", lines)
 }
 
 fn noise(axis: &Attitude) -> Panel {

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use anyhow::Result;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::panel::{Area, Chart, Key, palette, px, save, text};
+use super::page::save;
 use super::series::extent;
+use super::style::{Color, INK, Key, palette};
+use super::svg::{Anchor, Area, Font, Stroke};
 use crate::compare::{Cell, Comparison, Medians, RESOLUTION_M};
 
 /// Shown pixels of a chart of one scenario, of the names of its disturbances, and of a map's square.
@@ -29,72 +29,82 @@ pub fn draw(comparison: &Comparison, folder: &Path) -> Result<()> {
     survival(comparison, &folder.join("compare-survival.svg"))
 }
 
-/// RMS errors, a chart a scenario.
+/// RMS errors, a chart for each scenario.
 fn errors(comparison: &Comparison, path: &Path) -> Result<()> {
     let scenarios = names(comparison, |cell| &cell.scenario);
     let (columns, rows) = (scenarios.len().min(2), scenarios.len().div_ceil(2));
     let keys: Vec<Key> =
         comparison.controllers.iter().enumerate().map(|(i, name)| Key::Series(name, color(i))).collect();
-    let size = (CHART.0 * columns as u32, 44 + CHART.1 * rows as u32);
-    save(path, size, "RMS distance from the trajectory: median, 95 % interval (a cross: lost)", &keys, |area| {
-        let charts = area.split_evenly((rows, columns));
-        scenarios.iter().zip(&charts).try_for_each(|(scenario, chart)| {
+    let size = (CHART.0 * columns.max(1) as u32, 44 + CHART.1 * rows as u32);
+    let heading = "RMS distance from the trajectory\nmedian, 95 % interval (a cross: lost)";
+    save(path, size, heading, &keys, |area| {
+        for (i, scenario) in scenarios.iter().enumerate() {
+            let (left, top) = (f64::from(CHART.0) * (i % 2) as f64, f64::from(CHART.1) * (i / 2) as f64);
             let cells: Vec<&Cell> = comparison.cells.iter().filter(|cell| cell.scenario == *scenario).collect();
-            errors_of_scenario(chart, scenario, &cells)
-        })
+            errors_of_scenario(&area.inner(left, top, f64::from(CHART.0), f64::from(CHART.1)), scenario, &cells);
+        }
+        Ok(())
     })
 }
 
-fn errors_of_scenario(area: &Area, scenario: &str, cells: &[&Cell]) -> Result<()> {
-    let (low, high) = range_mm(cells);
-    let mut chart = ChartBuilder::on(area)
-        .caption(scenario, text(15))
-        .margin(px(8))
-        .x_label_area_size(px(NAMES))
-        .y_label_area_size(px(64))
-        .build_cartesian_2d(0.0..cells.len() as f64, libm::log10(low)..libm::log10(high))?;
-    // The axes' names and frame; ticks of a logarithm are drawn by hand.
-    let axes = palette::INK.stroke_width(3);
-    chart.configure_mesh().disable_mesh().axis_style(axes).x_labels(0).y_labels(0).draw()?;
-    let (left, top) = area.get_base_pixel();
-    let right = Pos::new(HPos::Right, VPos::Center);
-    for value in ticks(low, high) {
-        let line = vec![(0.0, libm::log10(value)), (cells.len() as f64, libm::log10(value))];
-        let (x, y) = chart.backend_coord(&line[0]);
-        area.draw(&Text::new(value.to_string(), (x - left - px(6).cast_signed(), y - top), text(12).pos(right)))?;
-        chart.draw_series([PathElement::new(line, palette::GRID.stroke_width(1))])?;
-    }
-    let (x, y) = chart.backend_coord(&(0.0, libm::log10(high)));
-    let unit = Text::new("RMS, mm", (x - left, y - top - px(8).cast_signed()), text(12).pos(right));
-    area.draw(&unit)?;
-    for (i, cell) in cells.iter().enumerate() {
-        let border = vec![(i as f64 + 1.0, libm::log10(low)), (i as f64 + 1.0, libm::log10(high))];
-        chart.draw_series([PathElement::new(border, palette::GRID.stroke_width(1))])?;
-        let (x, y) = chart.backend_coord(&(i as f64 + 0.5, libm::log10(low)));
-        upright(area, &cell.disturbance, (x - left, y - top + px(6).cast_signed()))?;
-        draw_errors(&mut chart, i as f64, cell, (low, high))?;
-    }
-    Ok(())
+/// A chart: cells side by side, errors as logarithms.
+struct Errors<'a> {
+    chart: Area<'a>,
+    cell: f64,
+    low: f64,
+    high: f64,
 }
 
-/// The errors of each controller in the cell that begins at `from` on the horizontal axis, between `low` and `high`
-/// (mm): a dot with its interval, or a cross at the top for what is lost.
-fn draw_errors(chart: &mut Chart, from: f64, cell: &Cell, (low, high): (f64, f64)) -> Result<()> {
-    let height = |metres: f64| libm::log10((1e3 * metres).clamp(low, high));
+impl Errors<'_> {
+    /// Pixels from the top, of an error in mm.
+    fn height(&self, mm: f64) -> f64 {
+        let at = |v: f64| libm::log10(v.clamp(self.low, self.high));
+        self.chart.height * (at(self.high) - at(mm)) / (at(self.high) - at(self.low))
+    }
+}
+
+fn errors_of_scenario(area: &Area, scenario: &str, cells: &[&Cell]) {
+    let (low, high) = range_mm(cells);
+    let chart = area.inner(64.0, 30.0, area.width - 72.0, area.height - 30.0 - f64::from(NAMES));
+    let errors = Errors { cell: chart.width / cells.len() as f64, chart, low, high };
+    area.text((64.0, 15.0), scenario, Font::new(13.0, Anchor::Start).bold());
+    area.text((14.0, 30.0 + 0.5 * chart.height), "RMS, mm", Font::new(12.0, Anchor::Middle).upright());
+    let grid = Stroke { color: palette::GRID, width: 0.6, dashed: false };
+    for value in ticks(low, high) {
+        let y = errors.height(value);
+        chart.text((-6.0, y), &value.to_string(), Font::new(12.0, Anchor::End));
+        chart.line([(0.0, y), (chart.width, y)], grid);
+    }
+    for (i, cell) in cells.iter().enumerate() {
+        let left = errors.cell * i as f64;
+        chart.line([(left + errors.cell, 0.0), (left + errors.cell, chart.height)], grid);
+        upright(&chart, &cell.disturbance, (left + 0.5 * errors.cell, chart.height + 6.0));
+        draw_errors(&errors, left, cell);
+    }
+    let frame = [(0.0, 0.0), (0.0, chart.height), (chart.width, chart.height)];
+    chart.line(frame, Stroke { color: INK, width: 1.0, dashed: false });
+}
+
+/// The errors of each controller in the cell that begins `left` pixels from the chart's edge: a dot with its interval,
+/// or a cross at the top for what is lost.
+fn draw_errors(errors: &Errors, left: f64, cell: &Cell) {
+    let chart = &errors.chart;
     for (i, medians) in cell.controllers.iter().enumerate() {
-        let across = from + (i as f64 + 1.0) / (cell.controllers.len() as f64 + 1.0);
+        let x = left + errors.cell * (i as f64 + 1.0) / (cell.controllers.len() as f64 + 1.0);
+        let y = |metres: f64| errors.height(1e3 * metres);
+        let stroke = Stroke { color: color(i), width: 2.0, dashed: false };
         if let Some((best, worst)) = medians.rms().interval {
-            let whisker = vec![(across, height(best)), (across, height(worst))];
-            chart.draw_series([PathElement::new(whisker, color(i).stroke_width(6))])?;
+            chart.line([(x, y(best)), (x, y(worst))], stroke);
         }
         let median = medians.rms().median;
         if median.is_finite() {
-            chart.draw_series([Circle::new((across, height(median)), px(3), color(i).filled())])?;
+            chart.dot((x, y(median)), 3.0, color(i));
         } else {
-            chart.draw_series([Cross::new((across, height(median)), px(4), color(i).stroke_width(6))])?;
+            let y = y(f64::INFINITY) + 4.0;
+            chart.line([(x - 4.0, y - 4.0), (x + 4.0, y + 4.0)], stroke);
+            chart.line([(x - 4.0, y + 4.0), (x + 4.0, y - 4.0)], stroke);
         }
     }
-    Ok(())
 }
 
 /// From where to where the errors are, mm, with room for what is lost; what cannot be told from none is at the bottom.
@@ -119,11 +129,12 @@ fn ratios(comparison: &Comparison, path: &Path) -> Result<()> {
     let first = &comparison.controllers[0];
     let maps: Vec<(usize, String)> =
         comparison.controllers.iter().enumerate().skip(1).map(|(i, name)| (i, format!("{name} / {first}"))).collect();
-    let keys = [Key::Series("first is better", palette::FLOWN), Key::Series("first is worse", palette::START)];
+    let (better, worse) = (format!("{first} is better"), format!("{first} is worse"));
+    let keys = [Key::Series(&better, palette::FLOWN), Key::Series(&worse, palette::START)];
     maps_of_cells(
         comparison,
         path,
-        "RMS over the first controller's under the same seed: median",
+        &format!("RMS over {first}'s\nmedian under the same seeds"),
         &keys,
         &maps,
         |cell, index| {
@@ -146,7 +157,7 @@ fn ratios(comparison: &Comparison, path: &Path) -> Result<()> {
     )
 }
 
-/// Which part of the flights survived, a map a controller.
+/// How many of the flights survived, a map for each controller.
 fn survival(comparison: &Comparison, path: &Path) -> Result<()> {
     let maps: Vec<(usize, String)> = comparison.controllers.iter().cloned().enumerate().collect();
     let keys = [Key::Series("lost", palette::START)];
@@ -164,7 +175,7 @@ fn maps_of_cells(
     heading: &str,
     keys: &[Key],
     maps: &[(usize, String)],
-    square: impl Fn(&Cell, usize) -> (String, RGBColor, f64),
+    square: impl Fn(&Cell, usize) -> (String, Color, f64),
 ) -> Result<()> {
     let across = names(comparison, |cell| &cell.scenario);
     let down = names(comparison, |cell| &cell.disturbance);
@@ -172,61 +183,50 @@ fn maps_of_cells(
     let total = (NAMES + 20 + width * maps.len() as u32).max(560);
     let size = (total, 44 + 30 + SQUARE.1 * down.len() as u32 + NAMES);
     save(path, size, heading, keys, |area| {
-        let right = Pos::new(HPos::Right, VPos::Center);
         for (row, name) in down.iter().enumerate() {
-            let place = (px(NAMES + 4).cast_signed(), middle(30, SQUARE.1, row));
-            area.draw(&Text::new((*name).to_owned(), place, text(12).pos(right)))?;
+            let place = (f64::from(NAMES + 4), middle(30, SQUARE.1, row));
+            area.text(place, name, Font::new(12.0, Anchor::End));
         }
         for (map, (index, title)) in maps.iter().enumerate() {
             let left = NAMES + 10 + width * map as u32;
-            area.draw(&Text::new(title.clone(), (px(left).cast_signed(), px(6).cast_signed()), text(14)))?;
+            area.text((f64::from(left), 15.0), title, Font::new(13.0, Anchor::Start).bold());
             for cell in &comparison.cells {
                 let place = |names: &[&str], name: &str| names.iter().position(|known| *known == name).unwrap_or(0);
                 let at = (place(&across, &cell.scenario), place(&down, &cell.disturbance));
-                draw_square(area, left, at, square(cell, *index))?;
+                draw_square(area, left, at, square(cell, *index));
             }
             for (column, name) in across.iter().enumerate() {
-                let below = px(30 + SQUARE.1 * down.len() as u32 + 6).cast_signed();
-                upright(area, name, (middle(left, SQUARE.0, column), below))?;
+                let below = f64::from(30 + SQUARE.1 * down.len() as u32 + 6);
+                upright(area, name, (middle(left, SQUARE.0, column), below));
             }
         }
         Ok(())
     })
 }
 
-fn draw_square(
-    area: &Area,
-    left: u32,
-    at: (usize, usize),
-    (label, color, strength): (String, RGBColor, f64),
-) -> Result<()> {
+fn draw_square(area: &Area, left: u32, at: (usize, usize), (label, color, strength): (String, Color, f64)) {
     let corner = |column: usize, row: usize| {
-        (px(left + SQUARE.0 * column as u32).cast_signed(), px(30 + SQUARE.1 * row as u32).cast_signed())
+        (f64::from(left + SQUARE.0 * column as u32), f64::from(30 + SQUARE.1 * row as u32))
     };
-    let corners = [corner(at.0, at.1), corner(at.0 + 1, at.1 + 1)];
-    area.draw(&Rectangle::new(corners, WHITE.filled()))?;
-    // Half the colour at most: the label stays readable.
-    area.draw(&Rectangle::new(corners, color.mix(0.7 * strength).filled()))?;
-    area.draw(&Rectangle::new(corners, palette::GRID.stroke_width(2)))?;
-    let center = Pos::new(HPos::Center, VPos::Center);
+    // Less than the full colour: the label stays readable.
+    let ((x0, y0), (x1, y1)) = (corner(at.0, at.1), corner(at.0 + 1, at.1 + 1));
+    area.rectangle((x0, y0), (x1, y1), palette::GRID);
+    area.rectangle((x0 + 0.5, y0 + 0.5), (x1 - 0.5, y1 - 0.5), color.tint(0.7 * strength));
     let place = (middle(left, SQUARE.0, at.0), middle(30, SQUARE.1, at.1));
-    area.draw(&Text::new(label, place, text(12).pos(center)))?;
-    Ok(())
+    area.text(place, &label, Font::new(12.0, Anchor::Middle));
 }
 
-/// The middle of the square `index` of those of `size` that begin at `start`, all shown pixels, in the page's units.
-fn middle(start: u32, size: u32, index: usize) -> i32 {
-    px(start + size * index as u32).cast_signed() + px(size).cast_signed() / 2
+/// The middle of the square `index` of those of `size` that begin at `start`, all in pixels.
+fn middle(start: u32, size: u32, index: usize) -> f64 {
+    f64::from(start + size * index as u32) + 0.5 * f64::from(size)
 }
 
 /// A name turned by a quarter, its end at `place`.
-fn upright(area: &Area, name: &str, place: (i32, i32)) -> Result<()> {
-    let turned = ("sans-serif", px(12)).into_font().transform(FontTransform::Rotate270).color(&palette::INK);
-    area.draw(&Text::new(name.to_owned(), place, turned.pos(Pos::new(HPos::Right, VPos::Center))))?;
-    Ok(())
+fn upright(area: &Area, name: &str, place: (f64, f64)) {
+    area.text(place, name, Font::new(12.0, Anchor::End).upright());
 }
 
-fn color(index: usize) -> RGBColor {
+fn color(index: usize) -> Color {
     palette::SERIES[index % palette::SERIES.len()]
 }
 
@@ -256,7 +256,7 @@ mod tests {
         draw(&with_a_loser(), &folder).expect("drawn");
         let words = [
             ("compare-rms.svg", ["RMS, mm", "x500-recovery", "mass+30", "loser"]),
-            ("compare-ratio.svg", ["loser / x500-smc", "first is better", "lost", "none"]),
+            ("compare-ratio.svg", ["loser / x500-smc", "x500-smc is better", "lost", "none"]),
             ("compare-survival.svg", ["0/6", "6/6", "0/1", "1/1"]),
         ];
         for (name, words) in words {

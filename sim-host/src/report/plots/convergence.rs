@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 
-use super::panel::{Panel, Role, grid, save};
+use super::page::{grid, save, size_of};
+use super::panel::Panel;
 use super::series::Points;
+use super::style::{Key, Role};
 use crate::tune::Iteration;
-
-const SIZE: (u32, u32) = (1100, 420);
 
 /// Best and mean cost over the iterations, beside the cost of the gains that the search began with. Returns the file
 /// written.
@@ -23,10 +23,11 @@ pub fn convergence(folder: &Path, iterations: &[Iteration], base_cost: f64) -> R
     let best = over_iterations(|iteration| iteration.best);
     let base = best.iter().map(|(i, _)| (*i, base_cost)).collect();
     let panels = [
-        panel("best so far (wide: the base's own gains)", vec![(Role::Reference, base), (Role::Flown, best)]),
+        panel("best so far", vec![(Role::Reference, base), (Role::Flown, best)]),
         panel("mean of the iteration", vec![(Role::Flown, over_iterations(|iteration| iteration.mean))]),
     ];
     let path = folder.join("convergence.svg");
-    save(&path, SIZE, "Convergence of the search", &[], |area| grid(area, 2, &panels))?;
+    let legend = [Key::Line("gains that the search began with", Role::Reference), Key::Line("search", Role::Flown)];
+    save(&path, size_of(1, 380), "Convergence of the search", &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
 }

@@ -6,80 +6,99 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::panel::{Key, Panel, Role, grid, palette, save};
+use super::axis::{Quantity, Unit};
+use super::flight::Figures;
+use super::page::{grid, save, size_of};
+use super::panel::{DIRECTIONS, POSITIONS, Panel};
 use super::series::{Points, thin_series};
-use super::{POSITIONS, TALL};
+use super::style::{Key, Role, palette};
 use crate::assess::consistency::{SOURCES, kind, quantile};
 use crate::report::estimate::Belief;
-use crate::report::timeline::Timeline;
 
 /// Most dots of a panel; of more, evenly many are drawn, and all that were refused.
 const MOST_DOTS: usize = 1500;
 /// What is shown of normalised innovations, in decades; what lies beyond is drawn at the edge.
 const DECADES: (f64, f64) = (-2.1, 4.1);
 
+/// Height of a panel.
+const PANEL: u32 = 235;
+
 /// Draws the three figures of a flight's beliefs into `folder`. Returns the files written.
 ///
 /// # Errors
 /// When a file cannot be written; the message names it.
-pub fn draw(folder: &Path, beliefs: &[Belief], _timeline: &Timeline) -> Result<Vec<PathBuf>> {
-    Ok(vec![position(folder, beliefs)?, attitude(folder, beliefs)?, innovations(folder, beliefs)?])
+pub(super) fn draw(folder: &Path, figures: &Figures) -> Result<Vec<PathBuf>> {
+    Ok(vec![position(folder, figures)?, attitude(folder, figures)?, innovations(folder, figures)?])
 }
 
-/// Position: true, and believed with its band of two standard deviations; beside it the error in the same band.
-fn position(folder: &Path, beliefs: &[Belief]) -> Result<PathBuf> {
-    let panels: Vec<_> = (0..3)
-        .flat_map(|axis| {
-            let name = POSITIONS[axis];
-            let believed = move |b: &Belief| f64::from(b.nav.position[axis]);
-            let sigma = move |b: &Belief| f64::from(b.sigma[6 + axis]);
-            let lines = vec![
-                (Role::Reference, over_time(beliefs, move |b| b.truth.position[axis])),
-                (Role::Flown, over_time(beliefs, believed)),
-            ];
-            let band = Some(band(beliefs, believed, sigma));
-            let absolute = Panel { band, ..Panel::over_time(name, &format!("{name}, m"), lines) };
-            let error = move |b: &Belief| b.truth.position[axis] - believed(b);
-            [absolute, error_panel(beliefs, name, "m", error, sigma)]
-        })
-        .collect();
-    let path = folder.join("fig8-estimate-position.svg");
-    let legend = [TRUE, BELIEVED, TWO_SIGMA];
-    save(&path, TALL, "Position, true and believed", &legend, |area| grid(area, 2, &panels))?;
+/// A panel over the whole flight, before its phases and faults.
+fn placed(figures: &Figures, panel: Panel) -> Panel {
+    Panel { span: figures.span(), backdrop: figures.backdrop.clone(), ..panel }
+}
+
+/// The legend: phases, then what the lines are.
+fn legend<'a>(figures: &'a Figures, lines: &[Key<'a>]) -> Vec<Key<'a>> {
+    figures.backdrop.keys().into_iter().chain(lines.iter().copied()).collect()
+}
+
+/// The position's error in the band of two standard deviations that is believed of it, beside the position.
+fn position(folder: &Path, figures: &Figures) -> Result<PathBuf> {
+    let beliefs = figures.beliefs;
+    let panels = (0..3).flat_map(|axis| {
+        let name = POSITIONS[axis];
+        let believed = move |b: &Belief| f64::from(b.nav.position[axis]);
+        let lines = vec![
+            (Role::Reference, over_time(beliefs, move |b| b.truth.position[axis])),
+            (Role::Flown, over_time(beliefs, believed)),
+        ];
+        let absolute = Panel::over_time(&format!("{name} ({})", DIRECTIONS[axis]), Quantity::place(name), lines);
+        let error = move |b: &Belief| b.truth.position[axis] - believed(b);
+        let up = Quantity::new(format!("{name} error"), Unit::Metre);
+        [absolute, error_panel(beliefs, up, error, move |b| f64::from(b.sigma[6 + axis]))]
+    });
+    let panels: Vec<_> = panels.map(|panel| placed(figures, panel)).collect();
+    let path = folder.join("estimate-position.svg");
+    let heading = figures.heading("Position, true and estimated");
+    let legend = legend(figures, &[TRUE, ESTIMATED, TWO_SIGMA]);
+    save(&path, size_of(3, PANEL), &heading, &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
 }
 
 /// Errors of attitude and velocity, each in the band of two standard deviations that is believed of it.
-fn attitude(folder: &Path, beliefs: &[Belief]) -> Result<PathBuf> {
+fn attitude(folder: &Path, figures: &Figures) -> Result<PathBuf> {
     let about = ["tilt about north", "tilt about west", "heading"];
-    let along = ["velocity north", "velocity west", "velocity up"];
-    let panels: Vec<_> = (0..3)
-        .flat_map(|axis| {
-            let turn = move |b: &Belief| turn(b)[axis].to_degrees();
-            let turn_sigma = move |b: &Belief| f64::from(b.sigma[axis]).to_degrees();
-            let speed = move |b: &Belief| b.truth.velocity[axis] - f64::from(b.nav.velocity[axis]);
-            let speed_sigma = move |b: &Belief| f64::from(b.sigma[3 + axis]);
-            // Of what is not aligned yet, nothing is believed.
-            let aligned = &beliefs[beliefs.partition_point(|b| b.sigma[0] == 0.0)..];
-            [
-                error_panel(aligned, about[axis], "°", turn, turn_sigma),
-                error_panel(aligned, along[axis], "m/s", speed, speed_sigma),
-            ]
-        })
-        .collect();
-    let path = folder.join("fig9-estimate-attitude.svg");
-    let legend = [Key::Series("true − believed", palette::FLOWN), TWO_SIGMA];
-    save(&path, TALL, "What the vehicle's attitude and velocity were off by", &legend, |area| grid(area, 2, &panels))?;
+    // Of what is not aligned yet, nothing is believed.
+    let beliefs = &figures.beliefs[figures.beliefs.partition_point(|b| b.sigma[0] == 0.0)..];
+    let panels = (0..3).flat_map(|axis| {
+        let turn = move |b: &Belief| turn(b)[axis].to_degrees();
+        let turn_sigma = move |b: &Belief| f64::from(b.sigma[axis]).to_degrees();
+        let speed = move |b: &Belief| b.truth.velocity[axis] - f64::from(b.nav.velocity[axis]);
+        let angle = Quantity::new(format!("{} error", about[axis]), Unit::Degree);
+        let velocity = Quantity::new(format!("v{} error", POSITIONS[axis]), Unit::MetrePerSecond);
+        let named = format!("velocity {}: true − estimated", DIRECTIONS[axis]);
+        [
+            Panel { title: format!("{}: true − estimated", about[axis]), ..error_panel(beliefs, angle, turn, turn_sigma) },
+            Panel { title: named, ..error_panel(beliefs, velocity, speed, move |b| f64::from(b.sigma[3 + axis])) },
+        ]
+    });
+    let panels: Vec<_> = panels.map(|panel| placed(figures, panel)).collect();
+    let path = folder.join("estimate-attitude.svg");
+    let heading = figures.heading("Errors of the attitude and velocity estimates");
+    let legend = legend(figures, &[Key::Line("error", Role::Flown), TWO_SIGMA]);
+    save(&path, size_of(3, PANEL), &heading, &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
 }
 
 /// The normalised innovations squared of each kind of reading that came, over time, with their 95 % line.
-fn innovations(folder: &Path, beliefs: &[Belief]) -> Result<PathBuf> {
-    let panels: Vec<_> = (0..SOURCES.len()).filter_map(|number| innovation_panel(beliefs, number)).collect();
-    let path = folder.join("fig10-innovations.svg");
-    let legend = [Key::Series("reading", palette::FLOWN), Key::Series("95 %, if all is as believed", palette::START)];
-    let heading = "Normalised innovations squared (NIS)";
-    save(&path, TALL, heading, &legend, |area| grid(area, 2, &panels))?;
+fn innovations(folder: &Path, figures: &Figures) -> Result<PathBuf> {
+    let panels = (0..SOURCES.len()).filter_map(|number| innovation_panel(figures.beliefs, number));
+    let panels: Vec<_> = panels.map(|panel| placed(figures, panel)).collect();
+    let path = folder.join("innovations.svg");
+    let legend =
+        legend(figures, &[Key::Dots("reading", palette::FLOWN), Key::Line("95 % line", Role::Limit)]);
+    let heading = figures.heading("Normalised innovations squared (NIS)");
+    let rows = panels.len().div_ceil(2).max(1);
+    save(&path, size_of(rows, PANEL), &heading, &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
 }
 
@@ -103,9 +122,9 @@ fn innovation_panel(beliefs: &[Belief], number: usize) -> Option<Panel> {
     Some(Panel { dots, decades_up: Some(DECADES), ..Panel::over_time(&title, "NIS", lines) })
 }
 
-const TRUE: Key = Key::Series("true", palette::REFERENCE);
-const BELIEVED: Key = Key::Series("believed", palette::FLOWN);
-const TWO_SIGMA: Key = Key::Series("±2σ as believed", palette::BAND);
+const TRUE: Key = Key::Line("true", Role::Reference);
+const ESTIMATED: Key = Key::Line("estimated", Role::Flown);
+const TWO_SIGMA: Key = Key::Series("±2σ of the estimator", palette::BAND);
 
 fn over_time(beliefs: &[Belief], value: impl Fn(&Belief) -> f64) -> Points {
     thin_series(beliefs.iter().map(|belief| (belief.t, value(belief))).collect())
@@ -121,14 +140,13 @@ fn band(beliefs: &[Belief], value: impl Fn(&Belief) -> f64, sigma: impl Fn(&Beli
 
 fn error_panel(
     beliefs: &[Belief],
-    name: &str,
-    unit: &str,
+    up: Quantity,
     error: impl Fn(&Belief) -> f64,
     sigma: impl Fn(&Belief) -> f64,
 ) -> Panel {
     let lines = vec![(Role::Flown, over_time(beliefs, error))];
     let band = Some(band(beliefs, |_| 0.0, sigma));
-    Panel { band, ..Panel::over_time(&format!("{name}: true − believed"), unit, lines) }
+    Panel { band, ..Panel::over_time("true − estimated", up, lines) }
 }
 
 /// The rotation vector, in the world, from the believed attitude to the true one, rad.
@@ -139,21 +157,17 @@ fn turn(belief: &Belief) -> Vector3<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::{draw_all, figures, made_up};
     use super::*;
     use crate::report::estimate::tests::belief;
 
     #[test]
     fn figures_are_drawn_of_what_there_is() {
-        let folder = std::env::temp_dir().join(format!("glissade-{}-beliefs", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("the temporary folder can be written");
         let beliefs: Vec<_> = (0..500).map(|k| belief(f64::from(k) * 0.02)).collect();
-        for file in draw(&folder, &beliefs, &Timeline::default()).expect("drawn") {
-            let svg = std::fs::read_to_string(&file).expect("written");
-            assert!(svg.starts_with("<svg") && !svg.contains("NaN"), "{}", file.display());
-        }
-        let svg = std::fs::read_to_string(folder.join("fig10-innovations.svg")).expect("written");
+        let rows = made_up(1.0);
+        let drawn = draw_all("beliefs", &Figures { beliefs: &beliefs, ..figures(&rows) });
+        let svg = &drawn.iter().find(|(name, _)| name == "innovations.svg").expect("it was drawn").1;
         assert!(svg.contains("baro: 100.0 % within") && !svg.contains("heading:"));
-        std::fs::remove_dir_all(&folder).expect("the folder is there");
     }
 
     #[test]

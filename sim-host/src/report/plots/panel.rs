@@ -1,115 +1,33 @@
-//! One figure's frame, its panels and the palette. Text sizes and label areas are set by eye: an SVG backend has no
-//! font metrics.
+//! One diagram of a figure: lines over time or a path in a plane, with its axes.
 
-use std::fs;
-use std::path::Path;
-
-use anyhow::{Context, Result};
-use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
+use super::axis::{self, Quantity};
+use super::backdrop::Backdrop;
 use super::series::{Points, extent};
+use super::style::{INK, Role, palette};
+use super::svg::{Anchor, Area, Font, Stroke, text_width};
 
-/// Where everything is drawn.
-pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-/// A chart of real numbers.
-pub(super) type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
-
-/// The backend rounds to whole units; the page is drawn this many times larger than it is shown, for smooth curves.
-pub(super) const FINE: u32 = 3;
-
-/// Colours that people with any colour vision tell apart (Okabe and Ito 2008).
-pub(super) mod palette {
-    use plotters::style::RGBColor;
-
-    /// The reference: light and wide, below.
-    pub(in super::super) const REFERENCE: RGBColor = RGBColor(230, 159, 0);
-    /// What was flown: dark and thin, above.
-    pub(in super::super) const FLOWN: RGBColor = RGBColor(0, 114, 178);
-    /// A level to compare with.
-    pub(in super::super) const LEVEL: RGBColor = RGBColor(140, 140, 140);
-    /// Where a path starts.
-    pub(in super::super) const START: RGBColor = RGBColor(213, 94, 0);
-    /// While a disturbance acts.
-    pub(in super::super) const DISTURBED: RGBColor = RGBColor(222, 226, 230);
-    /// What is believed to hold 95 %.
-    pub(in super::super) const BAND: RGBColor = RGBColor(205, 225, 240);
-    /// Things of a kind that stand side by side.
-    pub(in super::super) const SERIES: [RGBColor; 6] = [
-        RGBColor(0, 114, 178),
-        RGBColor(230, 159, 0),
-        RGBColor(0, 158, 115),
-        RGBColor(213, 94, 0),
-        RGBColor(204, 121, 167),
-        RGBColor(86, 180, 233),
-    ];
-    /// Text and axes.
-    pub(in super::super) const INK: RGBColor = RGBColor(40, 40, 40);
-    /// Grid.
-    pub(in super::super) const GRID: RGBColor = RGBColor(205, 205, 205);
-}
-
-/// What a line shows, hence how it looks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Role {
-    Reference,
-    Flown,
-    Level,
-    Limit,
-}
-
-impl Role {
-    pub(super) fn style(self) -> ShapeStyle {
-        let (color, width) = match self {
-            Self::Reference => (palette::REFERENCE, 4 * FINE),
-            Self::Flown => (palette::FLOWN, FINE + 1),
-            Self::Level => (palette::LEVEL, FINE),
-            Self::Limit => (palette::START, 2 * FINE),
-        };
-        color.stroke_width(width)
-    }
-}
-
-/// An entry of a figure's legend.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Key<'a> {
-    Reference,
-    Flown,
-    Start,
-    Disturbed,
-    Linear,
-    Simulated,
-    Small,
-    Step,
-    /// One of several, by name and colour.
-    Series(&'a str, RGBColor),
-}
-
-impl<'a> Key<'a> {
-    fn name(self) -> &'a str {
-        match self {
-            Self::Reference => "reference",
-            Self::Flown => "flown",
-            Self::Start => "start",
-            Self::Disturbed => "disturbed",
-            Self::Linear => "linear",
-            Self::Simulated => "in the simulation",
-            Self::Small => "a small step",
-            Self::Step => "5°",
-            Self::Series(name, _) => name,
-        }
-    }
-}
+/// Room for the tick labels and the axis' name, in pixels.
+pub(super) const LEFT: f64 = 68.0;
+pub(super) const BELOW: f64 = 44.0;
+/// The same without the horizontal axis' name.
+const BELOW_TICKS: f64 = 24.0;
+/// Room for the title, and to the right of the diagram.
+pub(super) const ABOVE: f64 = 30.0;
+pub(super) const RIGHT: f64 = 20.0;
+/// Pixels from one tick to the next, at least.
+const TICK_ACROSS: f64 = 62.0;
+const TICK_UP: f64 = 30.0;
+/// Margin above and below the lines, as a fraction of their range.
+const MARGIN: f64 = 0.06;
 
 /// One diagram of a figure.
+#[derive(Clone, Debug)]
 pub(super) struct Panel {
     pub(super) title: String,
     /// Horizontal quantity with its unit.
-    pub(super) across: String,
+    pub(super) across: Quantity,
     /// Vertical quantity with its unit.
-    pub(super) up: String,
+    pub(super) up: Quantity,
     /// Lines, the lowest first.
     pub(super) lines: Vec<(Role, Points)>,
     /// Mark the first point of the last line.
@@ -122,271 +40,239 @@ pub(super) struct Panel {
     pub(super) dots: Points,
     /// A place to mark.
     pub(super) mark: Option<(f64, f64)>,
+    /// Places with their names.
+    pub(super) places: Vec<((f64, f64), String)>,
     /// What is across is given as its decimal logarithm.
     pub(super) decades: bool,
     /// A band around a line: its lower and its upper edge.
     pub(super) band: Option<(Points, Points)>,
     /// What is up is given as its decimal logarithm, within these.
     pub(super) decades_up: Option<(f64, f64)>,
+    /// From where to where the horizontal axis goes, if not over what is drawn.
+    pub(super) span: Option<(f64, f64)>,
+    /// What its own lines are, beside the title.
+    pub(super) keys: Vec<(&'static str, Role)>,
+    /// Phases, faults and events behind the lines; they do not widen the axes.
+    pub(super) backdrop: Backdrop,
+}
+
+/// Ranges of both axes in data units, and where they lie on the page.
+pub(super) struct Scales {
+    across: (f64, f64),
+    up: (f64, f64),
+    size: (f64, f64),
+}
+
+impl Scales {
+    /// Data to pixels of the diagram.
+    pub(super) fn place(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        let fraction = |v: f64, (low, high): (f64, f64)| (v - low) / (high - low);
+        (self.size.0 * fraction(x, self.across), self.size.1 * (1.0 - fraction(y, self.up)))
+    }
 }
 
 impl Panel {
-    /// Lines over time.
-    pub(super) fn over_time(title: &str, up: &str, lines: Vec<(Role, Points)>) -> Self {
-        let (title, across, up) = (title.into(), "t, s".into(), up.into());
-        let (mark_start, shaded, equal_scales, decades) = (false, None, false, false);
-        let (dots, mark, band, decades_up) = (vec![], None, None, None);
-        Self { title, across, up, lines, mark_start, shaded, equal_scales, dots, mark, decades, band, decades_up }
+    /// Lines over time. `up` is a [`Quantity`], or a label with its unit written out.
+    pub(super) fn over_time(title: &str, up: impl Into<Quantity>, lines: Vec<(Role, Points)>) -> Self {
+        Self {
+            title: title.into(),
+            across: Quantity::from("t, s"),
+            up: up.into(),
+            lines,
+            mark_start: false,
+            shaded: None,
+            equal_scales: false,
+            dots: Vec::new(),
+            mark: None,
+            places: Vec::new(),
+            decades: false,
+            band: None,
+            decades_up: None,
+            span: None,
+            keys: Vec::new(),
+            backdrop: Backdrop::default(),
+        }
     }
 
     /// A path in a plane, its start marked.
-    pub(super) fn path(title: &str, across: &str, up: &str, points: Points) -> Self {
+    pub(super) fn path(
+        title: &str,
+        across: impl Into<Quantity>,
+        up: impl Into<Quantity>,
+        points: Points,
+    ) -> Self {
         let lines = vec![(Role::Flown, points)];
         Self { across: across.into(), mark_start: true, ..Self::over_time(title, up, lines) }
     }
 
-    pub(super) fn draw(&self, area: &Area) -> Result<()> {
-        let (across, up) = self.ranges(area);
-        let mut chart = ChartBuilder::on(area)
-            .caption(&self.title, text(15))
-            .margin(px(8))
-            .margin_right(px(18))
-            .x_label_area_size(px(LABELS_BELOW))
-            .y_label_area_size(px(LABELS_LEFT))
-            .build_cartesian_2d(across.0..across.1, up.0..up.1)?;
-        self.draw_shade(&mut chart, across, up)?;
-        self.draw_band(&mut chart)?;
-        self.draw_mesh(&mut chart, across, up)?;
+    /// Draws it into an area.
+    pub(super) fn draw(&self, area: &Area) {
+        let above = ABOVE + self.backdrop.height();
+        let below = if self.across == Quantity::from("") { BELOW_TICKS } else { BELOW };
+        let chart = area.inner(LEFT, above, area.width - LEFT - RIGHT, area.height - above - below);
+        let scales = self.scales((chart.width, chart.height));
+        area.text((LEFT, 0.5 * ABOVE), &self.title, Font::new(13.0, Anchor::Start).bold());
+        self.draw_keys(area);
+        self.draw_behind(&chart, &scales);
+        self.draw_axes(&chart, &scales);
         for (role, points) in &self.lines {
-            chart.draw_series(LineSeries::new(points.iter().copied(), role.style()))?;
+            chart.line(points.iter().map(|p| scales.place(*p)), role.stroke());
         }
-        self.draw_dots(&mut chart)?;
-        self.draw_start(&mut chart)
+        self.draw_marks(&chart, &scales);
+        if self.is_empty() {
+            let middle = (0.5 * chart.width, 0.5 * chart.height);
+            chart.text(middle, "nothing flown", Font { color: palette::GREY, ..Font::new(12.0, Anchor::Middle) });
+        }
     }
 
-    fn draw_dots(&self, chart: &mut Chart) -> Result<()> {
-        let (size, color) =
-            if self.decades_up.is_some() { (px(1) + 1, palette::FLOWN) } else { (px(4), palette::START) };
-        chart.draw_series(self.dots.iter().map(|place| Circle::new(*place, size, color.filled())))?;
-        chart.draw_series(
-            self.mark.iter().map(|place| Cross::new(*place, px(5), palette::INK.stroke_width(FINE + 1))),
-        )?;
-        Ok(())
+    fn is_empty(&self) -> bool {
+        self.dots.is_empty() && self.band.is_none() && self.lines.iter().all(|(_, points)| points.is_empty())
     }
 
-    fn ranges(&self, area: &Area) -> ((f64, f64), (f64, f64)) {
+    fn draw_keys(&self, area: &Area) {
+        let (middle, mut x) = (0.5 * ABOVE, area.width - RIGHT);
+        for (name, role) in self.keys.iter().rev() {
+            x -= text_width(name, 12.0);
+            area.text((x, middle), name, Font::new(12.0, Anchor::Start));
+            area.line([(x - 26.0, middle), (x - 6.0, middle)], role.stroke());
+            x -= 42.0;
+        }
+    }
+
+    /// What is shown across and up, before scales are made equal.
+    pub(super) fn ranges(&self) -> ((f64, f64), (f64, f64)) {
+        let Scales { across, up, .. } = Self { equal_scales: false, mark_start: true, ..self.clone() }.scales((1.0, 1.0));
+        (across, up)
+    }
+
+    /// The ranges in a diagram of so many pixels.
+    fn scales(&self, size: (f64, f64)) -> Scales {
         let edges = || self.band.iter().flat_map(|(lower, upper)| lower.iter().chain(upper));
-        let points =
-            || self.lines.iter().flat_map(|(_, points)| points).chain(&self.dots).chain(&self.mark).chain(edges());
-        let across = extent(points().map(|p| p.0));
-        let up = self.decades_up.unwrap_or_else(|| padded(extent(points().map(|p| p.1)), 0.06));
-        if self.equal_scales {
-            let (width, height) = area.dim_in_pixel();
-            let inner = (width.saturating_sub(px(LABELS_LEFT + 26)), height.saturating_sub(px(LABELS_BELOW + 40)));
-            return equalised(padded(across, 0.06), up, inner);
-        }
-        // A path keeps clear of the frame. Time runs from edge to edge, but for the tick that a flight ends before.
-        (padded(across, if self.mark_start { 0.06 } else { 1e-4 }), up)
+        let places = || self.places.iter().map(|(place, _)| place);
+        let lines = || self.lines.iter().flat_map(|(_, points)| points);
+        let points = || lines().chain(&self.dots).chain(&self.mark).chain(edges()).chain(places());
+        let margin = if self.mark_start || self.equal_scales { MARGIN } else { 0.0 };
+        let found = extent(points().map(|p| p.0));
+        // Time runs from edge to edge, the tick that a flight ends before included.
+        let across = self.span.unwrap_or_else(|| self.across.range(found, margin));
+        let up = self.decades_up.unwrap_or_else(|| self.up.range(extent(points().map(|p| p.1)), MARGIN));
+        let (across, up) = if self.equal_scales { equalised(across, up, size) } else { (across, up) };
+        Scales { across, up, size }
     }
 
-    fn draw_shade(&self, chart: &mut Chart, across: (f64, f64), up: (f64, f64)) -> Result<()> {
+    fn draw_behind(&self, chart: &Area, scales: &Scales) {
+        self.backdrop.draw(chart, scales.across);
         if let Some((from, to)) = self.shaded {
-            let corners = [(from.clamp(across.0, across.1), up.0), (to.clamp(across.0, across.1), up.1)];
-            chart.draw_series([Rectangle::new(corners, palette::DISTURBED.filled())])?;
+            let inside = |t: f64| scales.place((t.clamp(scales.across.0, scales.across.1), scales.up.0));
+            let (left, right) = (inside(from), inside(to));
+            chart.rectangle((left.0, 0.0), right, palette::DISTURBED);
         }
-        Ok(())
-    }
-
-    fn draw_band(&self, chart: &mut Chart) -> Result<()> {
         if let Some((lower, upper)) = &self.band {
-            let outline: Points = lower.iter().chain(upper.iter().rev()).copied().collect();
-            chart.draw_series([Polygon::new(outline, palette::BAND.filled())])?;
-        }
-        Ok(())
-    }
-
-    fn draw_mesh(&self, chart: &mut Chart, across: (f64, f64), up: (f64, f64)) -> Result<()> {
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(palette::GRID.stroke_width(FINE / 2))
-            .axis_style(palette::INK.stroke_width(FINE))
-            .x_labels(7)
-            .y_labels(6)
-            .x_label_formatter(&|v| if self.decades { decade(*v) } else { tick(*v, across.1 - across.0) })
-            .y_label_formatter(&|v| if self.decades_up.is_some() { decade(*v) } else { tick(*v, up.1 - up.0) })
-            .label_style(text(12))
-            .axis_desc_style(text(13))
-            .x_desc(&self.across)
-            .y_desc(&self.up)
-            .draw()?;
-        Ok(())
-    }
-
-    fn draw_start(&self, chart: &mut Chart) -> Result<()> {
-        let start = self.lines.last().and_then(|(_, points)| points.first());
-        if let Some(start) = start.filter(|_| self.mark_start) {
-            chart.draw_series([Circle::new(*start, px(4), palette::START.filled())])?;
-        }
-        Ok(())
-    }
-}
-
-/// Room for the tick labels and the axis' name, in shown pixels.
-const LABELS_LEFT: u32 = 60;
-const LABELS_BELOW: u32 = 36;
-/// Height of a figure's heading, in shown pixels.
-const HEADING: u32 = 44;
-
-/// Draws a figure of `size` shown pixels and writes it to `path`.
-pub(super) fn save(
-    path: &Path,
-    size: (u32, u32),
-    heading: &str,
-    legend: &[Key],
-    draw: impl FnOnce(&Area) -> Result<()>,
-) -> Result<()> {
-    let mut svg = String::new();
-    {
-        let page = SVGBackend::with_string(&mut svg, (px(size.0), px(size.1))).into_drawing_area();
-        page.fill(&WHITE)?;
-        let (top, rest) = page.split_vertically(px(HEADING));
-        draw_heading(&top, heading, legend)?;
-        draw(&rest)?;
-        page.present()?;
-    }
-    // The view box keeps the fine units. Joins are round because wide lines over thinned points would show spikes.
-    let (fine, shown) = (dimensions(px(size.0), px(size.1)), dimensions(size.0, size.1));
-    fs::write(path, svg.replacen(&fine, &(shown + " stroke-linejoin=\"round\""), 1))
-        .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))
-}
-
-/// How the page begins.
-fn dimensions(width: u32, height: u32) -> String {
-    format!("<svg width=\"{width}\" height=\"{height}\"")
-}
-
-/// Draws panels row by row into equal cells.
-pub(super) fn grid(area: &Area, columns: usize, panels: &[Panel]) -> Result<()> {
-    let cells = area.split_evenly((panels.len().div_ceil(columns), columns));
-    panels.iter().zip(&cells).try_for_each(|(panel, cell)| panel.draw(cell))
-}
-
-fn draw_heading(area: &Area, heading: &str, legend: &[Key]) -> Result<()> {
-    let (width, middle) = (area.dim_in_pixel().0.cast_signed(), at(HEADING / 2));
-    let left = Pos::new(HPos::Left, VPos::Center);
-    area.draw(&Text::new(heading, (at(14), middle), text(18).pos(left)))?;
-    let mut x = width - at(10);
-    for key in legend.iter().rev() {
-        // About 7.5 pixels a letter at this size, and the sample.
-        x -= at(44 + 15 * key.name().len() as u32 / 2);
-        draw_sample(area, *key, x, middle)?;
-        area.draw(&Text::new(key.name(), (x + at(32), middle), text(13).pos(left)))?;
-    }
-    Ok(())
-}
-
-fn draw_sample(area: &Area, key: Key, x: i32, middle: i32) -> Result<()> {
-    let (end, half) = (x + at(26), at(6));
-    let line = |role: Role| PathElement::new(vec![(x, middle), (end, middle)], role.style());
-    match key {
-        Key::Reference | Key::Small => area.draw(&line(Role::Reference))?,
-        Key::Flown | Key::Linear | Key::Step => area.draw(&line(Role::Flown))?,
-        Key::Start | Key::Simulated => area.draw(&Circle::new((x + at(20), middle), px(4), palette::START.filled()))?,
-        Key::Disturbed => {
-            area.draw(&Rectangle::new([(x, middle - half), (end, middle + half)], palette::DISTURBED.filled()))?;
-        }
-        Key::Series(_, color) => {
-            area.draw(&Rectangle::new([(x, middle - half), (end, middle + half)], color.filled()))?;
+            let outline = lower.iter().chain(upper.iter().rev()).filter(|p| p.0.is_finite());
+            chart.polygon(outline.map(|p| scales.place(*p)), palette::BAND);
         }
     }
-    Ok(())
-}
 
-/// A coordinate in the page's units, from shown pixels.
-fn at(shown: u32) -> i32 {
-    px(shown).cast_signed()
-}
-
-/// Shown pixels in the page's units.
-pub(super) fn px(shown: u32) -> u32 {
-    shown * FINE
-}
-
-/// Sans-serif text of so many shown pixels.
-pub(super) fn text(size: u32) -> TextStyle<'static> {
-    ("sans-serif", px(size)).into_font().color(&palette::INK)
-}
-
-/// A range with a margin, as a fraction of its size; never empty.
-pub(super) fn padded(range: Option<(f64, f64)>, margin: f64) -> (f64, f64) {
-    let (low, high) = range.unwrap_or((0.0, 1.0));
-    let size = high - low;
-    // A constant still gets an axis.
-    if size <= 1e-9 * high.abs().max(low.abs()).max(1e-6) {
-        let around = (0.1 * high.abs()).max(1e-3);
-        return (low - around, high + around);
+    fn draw_axes(&self, chart: &Area, scales: &Scales) {
+        let grid = Stroke { color: palette::GRID, width: 0.6, dashed: false };
+        let ink = Stroke { color: INK, width: 1.0, dashed: false };
+        let (across, right) = ticks(&self.across, scales.across, chart.width / TICK_ACROSS, self.decades);
+        // At equal scales, with equal steps.
+        let tick_up = if self.equal_scales { TICK_ACROSS } else { TICK_UP };
+        let (up, rising) = ticks(&self.up, scales.up, chart.height / tick_up, self.decades_up.is_some());
+        for (value, label) in right {
+            let (x, bottom) = scales.place((value, scales.up.0));
+            chart.line([(x, 0.0), (x, bottom)], grid);
+            chart.text((x, bottom + 12.0), &label, Font::new(12.0, Anchor::Middle));
+        }
+        for (value, label) in rising {
+            let (_, y) = scales.place((scales.across.0, value));
+            chart.line([(0.0, y), (chart.width, y)], grid);
+            chart.text((-7.0, y), &label, Font::new(12.0, Anchor::End));
+        }
+        chart.line([(0.0, 0.0), (0.0, chart.height), (chart.width, chart.height)], ink);
+        chart.text((0.5 * chart.width, chart.height + 31.0), &across, Font::new(12.0, Anchor::Middle));
+        chart.text((-LEFT + 11.0, 0.5 * chart.height), &up, Font::new(12.0, Anchor::Middle).upright());
     }
-    (low - margin * size, high + margin * size)
+
+    fn draw_marks(&self, chart: &Area, scales: &Scales) {
+        let (radius, color) = if self.decades_up.is_some() { (0.8, palette::FLOWN) } else { (3.5, palette::START) };
+        chart.dots(self.dots.iter().map(|p| scales.place(*p)), radius, color);
+        for (x, y) in self.mark.iter().map(|p| scales.place(*p)) {
+            let ink = Stroke { color: INK, width: 1.5, dashed: false };
+            chart.line([(x - 5.0, y - 5.0), (x + 5.0, y + 5.0)], ink);
+            chart.line([(x - 5.0, y + 5.0), (x + 5.0, y - 5.0)], ink);
+        }
+        if self.mark_start {
+            let start = self.lines.last().and_then(|(_, points)| points.first());
+            chart.dots(start.map(|p| scales.place(*p)), 4.0, palette::START);
+        }
+        place_names(chart, &self.places.iter().map(|(p, name)| (scales.place(*p), name.as_str())).collect::<Vec<_>>());
+        self.backdrop.draw_events(chart, scales.across);
+    }
 }
 
-/// Widens one of two ranges so that `inner` pixels show both at the same scale.
-pub(super) fn equalised(across: (f64, f64), up: (f64, f64), (width, height): (u32, u32)) -> ((f64, f64), (f64, f64)) {
-    let per_pixel = ((across.1 - across.0) / f64::from(width)).max((up.1 - up.0) / f64::from(height));
-    let widen = |(low, high): (f64, f64), pixels: u32| {
-        let (middle, half) = (f64::midpoint(low, high), 0.5 * per_pixel * f64::from(pixels));
+/// Names beside their places, each where the ones before leave room; a ring at each place.
+pub(super) fn place_names(chart: &Area, places: &[((f64, f64), &str)]) {
+    let mut taken: Vec<(f64, f64)> = Vec::new();
+    for ((x, y), name) in places {
+        chart.dot((*x, *y), 4.0, INK);
+        chart.dot((*x, *y), 2.6, super::style::Color(255, 255, 255));
+        let free = |y: f64| taken.iter().all(|(a, b)| (a - x).abs() > 60.0 || (b - y).abs() > 14.0);
+        let beside = [y - 10.0, y + 12.0, y - 24.0, y + 26.0].into_iter().find(|y| free(*y));
+        if let Some(beside) = beside {
+            // Names go to the left where they would leave the diagram.
+            let wide = text_width(name, 12.0);
+            let (dx, anchor) = if x + wide + 8.0 > chart.width { (-7.0, Anchor::End) } else { (7.0, Anchor::Start) };
+            chart.text((x + dx, beside), name, Font::new(12.0, anchor));
+            taken.push((*x, beside));
+        }
+    }
+}
+
+/// An axis' label, and its ticks with theirs.
+fn ticks(quantity: &Quantity, range: (f64, f64), most: f64, logarithm: bool) -> (String, Vec<(f64, String)>) {
+    let (name, factor) = quantity.label(range);
+    if logarithm {
+        return (name, axis::decades(range).into_iter().map(|v| (v, axis::decade(v))).collect());
+    }
+    let shown = (factor * range.0, factor * range.1);
+    let step = quantity.step(shown.1 - shown.0, most);
+    (name, axis::ticks(shown, step).into_iter().map(|v| (v / factor, axis::label(v, step))).collect())
+}
+
+/// Widens one of two ranges so that `size` pixels show both at the same scale.
+pub(super) fn equalised(across: (f64, f64), up: (f64, f64), (width, height): (f64, f64)) -> ((f64, f64), (f64, f64)) {
+    let per_pixel = ((across.1 - across.0) / width).max((up.1 - up.0) / height);
+    let widen = |(low, high): (f64, f64), pixels: f64| {
+        let (middle, half) = (f64::midpoint(low, high), 0.5 * per_pixel * pixels);
         (middle - half, middle + half)
     };
     (widen(across, width), widen(up, height))
 }
 
-/// The label of a tick at a logarithm: of whole decades alone.
-pub(super) fn decade(logarithm: f64) -> String {
-    let whole = logarithm.round();
-    if (logarithm - whole).abs() > 1e-6 {
-        return String::new();
-    }
-    format!("{:.1$}", libm::pow(10.0, whole), (-whole).max(0.0) as usize)
-}
-
-/// A tick's label with as many decimals as its axis of `size` needs for about six ticks.
-pub(super) fn tick(value: f64, size: f64) -> String {
-    let step = libm::log10(size / 6.0).floor();
-    let value = if value.abs() < 1e-9 * size { 0.0 } else { value };
-    if (-3.0..6.0).contains(&step) {
-        return format!("{value:.0$}", (-step).max(0.0) as usize);
-    }
-    if value == 0.0 { "0".into() } else { format!("{value:.1e}") }
-}
-
+/// Names, units and panels of the three directions and the three angles.
+pub(super) const POSITIONS: [&str; 3] = ["x", "y", "z"];
+pub(super) const DIRECTIONS: [&str; 3] = ["north", "west", "up"];
+pub(super) const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
 #[cfg(test)]
 mod tests {
+    use super::super::axis::Unit;
     use super::*;
 
     #[test]
-    fn ticks_have_the_decimals_they_need() {
-        assert_eq!(tick(0.5, 2.1), "0.5");
-        assert_eq!(tick(15.0, 20.0), "15");
-        assert_eq!(tick(-1e-17, 2.0), "0.0");
-        assert_eq!(tick(0.002, 0.01), "0.002");
-        assert_eq!(tick(2e-5, 1e-4), "2.0e-5");
-        assert_eq!(tick(5e7, 2e8), "5.0e7");
-        assert_eq!(tick(0.0, 2e8), "0");
-    }
-
-    #[test]
-    fn ranges_are_never_empty() {
-        assert_eq!(padded(Some((0.0, 10.0)), 0.1), (-1.0, 11.0));
-        for range in [None, Some((0.0, 0.0)), Some((7.0, 7.0)), Some((-1e9, 1e9))] {
-            let (low, high) = padded(range, 0.05);
-            assert!(low < high && (high - low).is_finite(), "{range:?}");
-        }
-    }
-
-    #[test]
     fn equal_scales_are_equal_and_show_everything() {
-        let (across, up) = equalised((0.0, 8.0), (-5.0, 5.0), (400, 300));
+        let (across, up) = equalised((0.0, 8.0), (-5.0, 5.0), (400.0, 300.0));
         assert!(((across.1 - across.0) / 400.0 - (up.1 - up.0) / 300.0).abs() < 1e-15);
         assert!(across.0 <= 0.0 && across.1 >= 8.0 && up.0 <= -5.0 && up.1 >= 5.0);
+    }
+
+    #[test]
+    fn ticks_are_labelled_in_the_unit_that_is_shown() {
+        let (name, ticks) = ticks(&Quantity::new("x error", Unit::Metre), (-0.002, 0.002), 5.0, false);
+        assert_eq!(name, "x error, mm");
+        let labels: Vec<_> = ticks.iter().map(|(_, label)| label.as_str()).collect();
+        assert_eq!(labels, ["−2", "−1", "0", "1", "2"]);
+        assert!((ticks[0].0 + 0.002).abs() < 1e-12);
     }
 }

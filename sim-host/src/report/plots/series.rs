@@ -1,4 +1,7 @@
 //! From rows to the points of a line: errors, their rates, angles, and few enough points for a small file.
+//!
+//! A point that is not finite interrupts its line: where a reference jumps, where an angle passes from 180° to −180°,
+//! and where a flight has diverged.
 
 use crate::record::Row;
 use crate::report::angles::roll_pitch_yaw;
@@ -7,24 +10,53 @@ use crate::report::metrics::errors;
 /// A line's points in the units of its panel.
 pub(super) type Points = Vec<(f64, f64)>;
 
+/// Interrupts a line.
+pub(super) const BREAK: (f64, f64) = (f64::NAN, f64::NAN);
+
 /// A time series with more points than this is thinned: more than a panel has pixels.
-const MOST_POINTS: usize = 2000;
+const MOST_POINTS: usize = 1200;
 /// Buckets of a thinned time series, each of which keeps its lowest and its highest point.
-const BUCKETS: usize = 700;
+const BUCKETS: usize = 500;
+/// A reference whose rate changes by this from one row to the next jumps, m/s: in a millisecond nothing that flies is
+/// accelerated so.
+const JUMP_M_S: f64 = 1.0;
+
+/// An angle that changes by more from one row to the next has passed ±180°.
+const HALF_A_TURN_DEG: f64 = 180.0;
 
 /// A quantity of a row over time.
 pub(super) fn over_time(rows: &[Row], value: impl Fn(&Row) -> f64) -> Points {
     thin_series(rows.iter().map(|row| (row.t, value(row))).collect())
 }
 
+/// An angle (°) over time, interrupted where it passes ±180°.
+pub(super) fn angle_over_time(rows: &[Row], value: impl Fn(&Row) -> f64) -> Points {
+    let mut points = Points::with_capacity(rows.len());
+    for row in rows {
+        let now = (row.t, value(row));
+        if points.last().is_some_and(|before: &(f64, f64)| (now.1 - before.1).abs() > HALF_A_TURN_DEG) {
+            points.push(BREAK);
+        }
+        points.push(now);
+    }
+    thin_series(points)
+}
+
 /// Error rate over error of one axis: (e, ė), with ė by central differences, since a row has no reference rate.
+/// Interrupted where the reference jumps: there is no rate.
 pub(super) fn phase(rows: &[Row], axis: usize) -> Points {
     let error = |row: &Row| errors(row)[axis];
-    let rate = |k: usize| {
-        let (before, after) = (&rows[k.saturating_sub(1)], &rows[(k + 1).min(rows.len() - 1)]);
-        (error(after) - error(before)) / (after.t - before.t)
+    let reference_rate =
+        |a: &Row, b: &Row| (b.reference[axis] - a.reference[axis]) / (b.t - a.t).max(f64::MIN_POSITIVE);
+    let point = |k: usize| {
+        let (before, now, after) = (&rows[k.saturating_sub(1)], &rows[k], &rows[(k + 1).min(rows.len() - 1)]);
+        let jumps = before.t < now.t
+            && now.t < after.t
+            && (reference_rate(before, now) - reference_rate(now, after)).abs() > JUMP_M_S;
+        let rate = (error(after) - error(before)) / (after.t - before.t);
+        if jumps { BREAK } else { (error(now), rate) }
     };
-    thin_path(rows.iter().enumerate().map(|(k, row)| (error(row), rate(k))).collect())
+    thin_path((0..rows.len()).map(point).collect())
 }
 
 /// Roll, pitch, yaw in degrees.
@@ -32,32 +64,66 @@ pub(super) fn angles_deg(row: &Row) -> [f64; 3] {
     roll_pitch_yaw(row.attitude).map(f64::to_degrees)
 }
 
+/// Beyond this a flight has diverged and the rest of it is not drawn: no axis would show the rest.
+const DIVERGED: f64 = 1e9;
+
+/// False for a NaN too.
+fn drawable(value: f64) -> bool {
+    value.abs() < DIVERGED
+}
+
+fn visible(point: &(f64, f64)) -> bool {
+    drawable(point.0) && drawable(point.1)
+}
+
+/// Makes one break of each run of points that cannot be drawn, and none of those at the ends.
+fn interrupt(points: &mut Points) {
+    for point in points.iter_mut().filter(|point| !visible(point)) {
+        *point = BREAK;
+    }
+    points.dedup_by(|a, b| a.0.is_nan() && b.0.is_nan());
+    if points.last().is_some_and(|last| last.0.is_nan()) {
+        points.pop();
+    }
+    if points.first().is_some_and(|first| first.0.is_nan()) {
+        points.remove(0);
+    }
+}
+
 /// Thins a series whose first coordinate ascends, keeping every peak to the bucket: what chatters still looks so.
 pub(super) fn thin_series(mut points: Points) -> Points {
-    points.retain(visible);
+    interrupt(&mut points);
     if points.len() <= MOST_POINTS {
         return points;
     }
-    // The ends stay, so that all panels of a figure cover the same time.
+    // The ends stay, so that all panels of a figure show the same time.
     let inner = &points[1..points.len() - 1];
-    let thinned = inner.chunks(inner.len().div_ceil(BUCKETS)).flat_map(lowest_and_highest);
+    let thinned = inner.chunks(inner.len().div_ceil(BUCKETS)).flat_map(extremes);
     points.first().copied().into_iter().chain(thinned).chain(points.last().copied()).collect()
 }
 
-/// A bucket's lowest and highest point, in the order in which they came.
-fn lowest_and_highest(bucket: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
+/// A bucket's lowest and highest point, in the order in which they came, and a break if the line is interrupted.
+fn extremes(bucket: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> + use<> {
     let pick = |better: fn(f64, f64) -> bool| {
-        (1..bucket.len()).fold(0, |best, i| if better(bucket[i].1, bucket[best].1) { i } else { best })
+        let points = bucket.iter().enumerate().filter(|(_, p)| !p.0.is_nan());
+        points.reduce(|best, next| if better(next.1.1, best.1.1) { next } else { best }).map(|(i, _)| i)
     };
     let (low, high) = (pick(|a, b| a < b), pick(|a, b| a > b));
-    let second = (low != high).then(|| bucket[low.max(high)]);
-    std::iter::once(bucket[low.min(high)]).chain(second)
+    let first = low.min(high).map(|i| bucket[i]);
+    let second = low.max(high).filter(|_| low != high).map(|i| bucket[i]);
+    let gap = bucket.iter().position(|p| p.0.is_nan());
+    let (before, after) = match gap {
+        Some(at) if second.is_some() && low.max(high).is_some_and(|last| last > at) => (Some(BREAK), None),
+        Some(_) => (None, Some(BREAK)),
+        None => (None, None),
+    };
+    [first, before, second, after].into_iter().flatten()
 }
 
 /// Thins a path that may go anywhere: drops points that lie too close to the last one kept to be seen, and of one
 /// that jumps all over the panel, evenly many.
 pub(super) fn thin_path(mut points: Points) -> Points {
-    points.retain(visible);
+    interrupt(&mut points);
     let size = |range: Option<(f64, f64)>| range.map_or(1.0, |(low, high)| high - low);
     let (width, height) = (size(extent(points.iter().map(|p| p.0))), size(extent(points.iter().map(|p| p.1))));
     for closeness in [0.001, 0.002, 0.004, 0.008] {
@@ -69,28 +135,19 @@ pub(super) fn thin_path(mut points: Points) -> Points {
     points.into_iter().step_by(stride).collect()
 }
 
-/// Drops the points that lie within `dx` and `dy` of the last one kept.
+/// Drops the points that lie within `dx` and `dy` of the last one kept. The last of a line stays.
 fn drop_close(points: &mut Points, dx: f64, dy: f64) {
-    let mut last = None;
+    let end = points.len().saturating_sub(1);
+    let (mut last, mut index): (Option<(f64, f64)>, usize) = (None, 0);
     points.retain(|&(x, y)| {
-        let far = last.is_none_or(|(a, b): (f64, f64)| (x - a).abs() > dx || (y - b).abs() > dy);
-        if far {
+        let far = last.is_none_or(|(a, b)| a.is_nan() || x.is_nan() || (x - a).abs() > dx || (y - b).abs() > dy);
+        let kept = far || index == end;
+        index += 1;
+        if kept {
             last = Some((x, y));
         }
-        far
+        kept
     });
-}
-
-/// Beyond this a flight has diverged and the rest of it is not drawn: pixels would overflow.
-const DIVERGED: f64 = 1e9;
-
-/// False for a NaN too.
-fn drawable(value: f64) -> bool {
-    value.abs() < DIVERGED
-}
-
-fn visible(point: &(f64, f64)) -> bool {
-    drawable(point.0) && drawable(point.1)
 }
 
 /// Lowest and highest of the values that can be drawn; `None` without any.
@@ -103,7 +160,7 @@ pub(super) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{approach, flight};
+    use super::super::tests::{approach, made_up};
     use super::*;
 
     #[test]
@@ -135,13 +192,35 @@ mod tests {
 
     #[test]
     fn phase_is_the_derivative_of_the_error() {
-        let rows = flight(1.9);
+        let rows = made_up(1.9);
         let e0 = 5.0;
         // y's error is e0 (1 + t/τ) exp(−t/τ); its rate −e0 t/τ² exp(−t/τ). Central differences err by h²/6·e‴ < 1e-4.
         for (k, (error, rate)) in phase(&rows, 1).into_iter().enumerate().skip(1).take(1898) {
             let (e, de) = approach(e0, rows[k].t);
             assert!((error - e).abs() < 1e-9 && (rate - de).abs() < 1e-3, "row {k}: {rate} instead of {de}");
         }
+    }
+
+    #[test]
+    fn a_jump_of_the_reference_has_no_rate() {
+        let row = |k: u32| {
+            let t = f64::from(k) * 1e-3;
+            Row { t, reference: [if k < 100 { 0.0 } else { 5.0 }, 0.0, 0.0, 0.0], ..Row::default() }
+        };
+        let rows: Vec<_> = (0..200).map(row).collect();
+        let points = phase(&rows, 0);
+        assert_eq!(points.iter().filter(|p| p.0.is_nan()).count(), 1, "{points:?}");
+        assert!(points.iter().all(|p| p.0.is_nan() || p.1.abs() < 1e-9), "{points:?}");
+    }
+
+    #[test]
+    fn an_angle_that_passes_180_degrees_is_interrupted() {
+        let row = |k: u32| Row { t: f64::from(k), ..Row::default() };
+        let rows: Vec<_> = (0..40_000).map(row).collect();
+        let spins = |row: &Row| (row.t * 0.1 + 180.0).rem_euclid(360.0) - 180.0;
+        let points = angle_over_time(&rows, spins);
+        assert!(points.len() < 2 * MOST_POINTS);
+        assert!(points.windows(2).all(|pair| !((pair[1].1 - pair[0].1).abs() > 180.0)));
     }
 
     #[test]

@@ -1,10 +1,12 @@
-//! The figures of a made-up flight: files exist, are whole and small. How they look is for the eye.
+//! The figures of made-up flights: files exist, are whole and small, and keep the rules of every figure.
 
 use std::fs;
+use std::path::Path;
 
 use nalgebra::UnitQuaternion;
 
 use super::*;
+use crate::record::Row;
 
 /// Time constant of the made-up approach, s.
 const TAU: f64 = 0.25;
@@ -16,7 +18,7 @@ pub(super) fn approach(e0: f64, t: f64) -> (f64, f64) {
 }
 
 /// Made-up rows of a flight of the paper's helix from the origin.
-pub(in crate::report) fn flight(seconds: f64) -> Vec<Row> {
+pub(in crate::report) fn made_up(seconds: f64) -> Vec<Row> {
     (0..=(seconds * 1000.0) as u32).map(|k| row(f64::from(k) / 1000.0)).collect()
 }
 
@@ -53,77 +55,190 @@ fn samples() -> Vec<(f64, [f64; 6])> {
     (0..20_000).map(|k| f64::from(k) / 1000.0).map(|t| (t, at(t))).collect()
 }
 
-/// Draws every figure; into a folder that stays if `GLISSADE_PLOTS` names one.
-fn draw_all(name: &str, rows: &[Row]) -> Vec<(PathBuf, String)> {
-    let kept = std::env::var_os("GLISSADE_PLOTS").map(PathBuf::from);
-    let base = kept.clone().unwrap_or_else(|| std::env::temp_dir().join(format!("glissade-{}", std::process::id())));
-    let folder = base.join(name);
+/// The figures of a flight along a trajectory with a disturbance.
+pub(super) fn figures(rows: &[Row]) -> Figures<'_> {
+    Figures {
+        of: "made-up, seed 1".into(),
+        kind: Kind::Tracking,
+        rows,
+        beliefs: &[],
+        disturbance: Some(Disturbance { samples: samples(), on_accelerations: true, acting: (5.0, 10.0) }),
+        places: vec![],
+        backdrop: backdrop::Backdrop::default(),
+    }
+}
+
+/// Draws every figure, and returns the files' names and texts; into a folder that stays if `GLISSADE_PLOTS` names one.
+pub(super) fn draw_all(name: &str, figures: &Figures) -> Vec<(String, String)> {
+    let kept = std::env::var_os("GLISSADE_PLOTS").map(std::path::PathBuf::from);
+    let temporary = || std::env::temp_dir().join(format!("glissade-{}", std::process::id()));
+    let folder = kept.clone().unwrap_or_else(temporary).join(name);
     fs::create_dir_all(&folder).expect("a folder for the figures");
-    let applied =
-        Disturbance { samples: &samples(), linear_unit: "m/s²", angular_unit: "rad/s²", acting: (5.0, 10.0) };
-    let files = Figures { rows, disturbance: Some(applied), timeline: &Timeline::default() }.draw(&folder);
-    let read = |file: PathBuf| (file.clone(), fs::read_to_string(file).expect("the file was written"));
-    let texts = files.expect("drawn").into_iter().map(read).collect();
+    let read = |file: &std::path::PathBuf| {
+        let name = file.file_name().expect("it has a name").to_string_lossy().into_owned();
+        let svg = fs::read_to_string(file).expect("the file was written");
+        check(&name, &svg);
+        (name, svg)
+    };
+    let texts = figures.draw(&folder).expect("drawn").iter().map(read).collect();
     if kept.is_none() {
         fs::remove_dir_all(&folder).expect("the folder is there");
     }
     texts
 }
 
-#[test]
-fn every_figure_is_whole_and_small() {
-    for (file, svg) in draw_all("flight", &flight(20.0)) {
-        assert!(svg.starts_with("<svg width=\"1100\"") && svg.trim_end().ends_with("</svg>"), "{}", file.display());
-        assert!(svg.len() < 300_000, "{} has {} bytes", file.display(), svg.len());
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{}", file.display());
+/// A text of a figure: what it says, and the rectangle that it takes.
+struct Label<'a> {
+    text: &'a str,
+    low: (f64, f64),
+    high: (f64, f64),
+}
+
+/// The value of an attribute.
+fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {
+    let (_, rest) = element.split_once(&format!(" {name}=\""))?;
+    rest.split_once('"').map(|(value, _)| value)
+}
+
+fn labels(svg: &str) -> Vec<Label<'_>> {
+    let texts = svg.lines().filter(|line| line.starts_with("<text"));
+    let label = |element| {
+        let number = |name| attribute(element, name).and_then(|v: &str| v.parse::<f64>().ok()).expect("a number");
+        let text = element.split_once('>').and_then(|(_, rest)| rest.strip_suffix("</text>")).expect("a text");
+        let (x, y, size) = (number("x"), number("y"), number("font-size"));
+        let wide = svg::text_width(text, size);
+        let before = match attribute(element, "text-anchor") {
+            Some("middle") => 0.5 * wide,
+            Some(_) => wide,
+            None => 0.0,
+        };
+        let (left, right, above) = (x - before, x - before + wide, 0.7 * size);
+        match attribute(element, "transform") {
+            // To the left of the place it becomes below it.
+            Some(_) => Label { text, low: (x - above, y - wide + before), high: (x, y + before) },
+            None => Label { text, low: (left, y - above), high: (right, y) },
+        }
+    };
+    texts.map(label).collect()
+}
+
+/// What holds for every figure: it is whole and small, holds finite numbers only, no text leaves the page and none lies
+/// on another.
+fn check(name: &str, svg: &str) {
+    assert!(svg.starts_with("<svg width=\"") && svg.trim_end().ends_with("</svg>"), "{name}");
+    assert!(svg.len() < 300_000, "{name} has {} bytes", svg.len());
+    assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+    let size = ["width", "height"].map(|side| attribute(svg, side).and_then(|v| v.parse::<f64>().ok()));
+    let [Some(width), Some(height)] = size else { panic!("{name} has no size") };
+    let labels = labels(svg);
+    for (i, a) in labels.iter().enumerate() {
+        let inside = a.low.0 >= 0.0 && a.low.1 >= 0.0 && a.high.0 <= width && a.high.1 <= height;
+        assert!(inside, "{name}: `{}` leaves the page", a.text);
+        for b in &labels[..i] {
+            let apart = a.high.0 <= b.low.0 || b.high.0 <= a.low.0 || a.high.1 <= b.low.1 || b.high.1 <= a.low.1;
+            assert!(apart, "{name}: `{}` lies on `{}`", a.text, b.text);
+        }
     }
 }
 
 #[test]
-fn figures_are_named_after_the_paper_s() {
-    let names: Vec<_> = draw_all("names", &flight(1.0)).into_iter().map(|(file, _)| file).collect();
-    let stems: Vec<_> = names.iter().filter_map(|file| file.file_name()?.to_str()).collect();
-    let expected = ["altitude", "position", "attitude", "disturbance", "disturbed", "helix"];
-    for ((stem, name), number) in stems.iter().zip(expected).zip(2..) {
-        assert_eq!(*stem, format!("fig{number}-{name}.svg"));
-    }
+fn figures_are_named_by_what_they_show() {
+    let rows = made_up(20.0);
+    let names: Vec<_> = draw_all("flight", &figures(&rows)).into_iter().map(|(name, _)| name).collect();
+    let expected = ["position", "attitude", "rotors", "phase", "path", "disturbance", "disturbed"];
+    assert_eq!(names, expected.map(|name| format!("{name}.svg")));
+    let calm = Figures { disturbance: None, kind: Kind::Attitude, ..figures(&rows) };
+    let names: Vec<_> = draw_all("calm", &calm).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["attitude.svg", "rotors.svg", "path.svg"]);
 }
 
 #[test]
-fn axes_have_units_and_lines_have_names() {
-    let figures = draw_all("texts", &flight(12.0));
-    let says = |figure: usize, words: &[&str]| words.iter().all(|word| figures[figure].1.contains(word));
-    assert!(says(0, &["z, m", "t, s", "z error, m", "z error rate, m/s", "U1, N", "reference", "flown", "start"]));
-    assert!(says(2, &["roll, °", "U2, N m", "U4, N m"]));
-    assert!(says(3, &["m/s²", "rad/s²"]));
-    assert!(says(4, &["disturbed", "yaw, °"]));
-    assert!(says(5, &["x (north), m", "y (west), m", "z (up), m", "from above"]));
+fn axes_have_units_and_figures_have_headings() {
+    let rows = made_up(12.0);
+    let drawn = draw_all("texts", &figures(&rows));
+    let says = |name: &str, words: &[&str]| {
+        let (_, svg) = drawn.iter().find(|(file, _)| file == &format!("{name}.svg")).expect(name);
+        for word in words {
+            assert!(svg.contains(word), "{name} has no {word}");
+        }
+    };
+    says("position", &["Position and its error", "made-up, seed 1", ">x, m<", ">t, s<", ">x error, m<"]);
+    says("position", &["reference", "flown", "disturbance acts", "the same after 4 s", ">y error, mm<"]);
+    says("attitude", &[">roll, °<", ">pitch error, °<"]);
+    says("rotors", &[">U1, N<", ">U2, mN m<", ">speed, rad/s<"]);
+    says("phase", &[">x error, m<", ">x error rate, m/s<", "start"]);
+    says("disturbance", &["disturbance, m/s²", "disturbance, rad/s²"]);
+    says("path", &["x (north), m", "y (west), m", "z (up), m", "from above", "height"]);
 }
 
 #[test]
-fn empty_and_diverged_flights_are_drawn_too() {
-    draw_all("empty", &[]);
-    draw_all("one", &flight(0.0));
-    let mut rows = flight(6.0);
+fn empty_short_and_diverged_flights_are_drawn_too() {
+    draw_all("empty", &figures(&[]));
+    draw_all("one", &figures(&made_up(0.0)));
+    draw_all("short", &figures(&made_up(0.003)));
+    let mut rows = made_up(6.0);
     for (k, row) in rows.iter_mut().enumerate().skip(3000) {
         row.position = [10_f64.powf(k as f64 / 10.0 - 300.0); 3];
         row.attitude = [f64::NAN; 4];
         row.u = [f64::INFINITY; 4];
     }
-    draw_all("diverged", &rows);
+    draw_all("diverged", &figures(&rows));
 }
 
 #[test]
-fn without_a_disturbance_two_figures_are_left_out() {
-    let folder = std::env::temp_dir().join(format!("glissade-{}-calm", std::process::id()));
-    fs::create_dir_all(&folder).expect("a folder for the figures");
-    let files = Figures { rows: &flight(1.0), disturbance: None, timeline: &Timeline::default() }.draw(&folder);
-    fs::remove_dir_all(&folder).expect("the folder is there");
-    assert_eq!(files.map(|files| files.len()).expect("drawn"), 4);
+fn a_vehicle_that_never_moves_has_axes_of_their_least_span() {
+    let still = |k: u32| Row { t: f64::from(k) * 1e-3, position: [1e-13 * f64::from(k % 7); 3], ..Row::default() };
+    let rows: Vec<_> = (0..8000).map(still).collect();
+    let drawn = draw_all("still", &Figures { disturbance: None, ..figures(&rows) });
+    let names: Vec<_> = drawn.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["position.svg", "attitude.svg", "rotors.svg"]);
+    // Two millimetres, not the noise of 1e-13.
+    assert!(drawn[0].1.contains(">x error, mm<") && drawn[0].1.contains(">−0.5<"));
+}
+
+/// A flight with a fault, to places: phases of 3 s each.
+fn piloted(rows: &[Row]) -> Figures<'_> {
+    let names = ["take-off", "hold", "go-to 1", "go-to 2", "return", "land"];
+    let span = |(i, name): (usize, &str)| {
+        let color = backdrop::phase_color(name);
+        backdrop::Span { name: name.into(), from: 1.0 + 3.0 * i as f64, to: 4.0 + 3.0 * i as f64, color }
+    };
+    let fault = |from: f64, to: f64| backdrop::Span { name: "gnss off".into(), from, to, color: style::INK };
+    let backdrop = backdrop::Backdrop {
+        phases: names.into_iter().enumerate().map(span).collect(),
+        faults: vec![fault(8.0, 8.2), fault(17.0, f64::INFINITY)],
+        events: vec![(18.5, "touchdown".into()), (19.0, "disarmed".into()), (19.1, "lost".into())],
+        landed: Some(18.5),
+        named: false,
+    };
+    let places = vec![[3.0, 0.0, 5.0], [3.0, 0.1, 5.0], [-1.0, 2.0, 9.0]];
+    Figures { kind: Kind::Piloted, disturbance: None, places, backdrop, ..figures(rows) }
+}
+
+#[test]
+fn a_pilot_s_flight_names_phases_faults_and_landing() {
+    let rows = made_up(20.0);
+    let drawn = draw_all("piloted", &piloted(&rows));
+    let names: Vec<_> = drawn.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["flight.svg", "position.svg", "attitude.svg", "rotors.svg", "path.svg"]);
+    for word in ["take-off", "hold", "go-to 1", "go-to 2", "return", "land", "gnss off", "touchdown", "disarmed"] {
+        assert!(drawn[0].1.contains(&format!(">{word}<")), "{word} is not named");
+    }
+    let color = backdrop::phase_color("return");
+    assert_eq!(color, backdrop::phase_color("return 2"));
+    assert!(drawn[4].1.contains(&color.to_string()), "the path has the colours of the phases");
+}
+
+#[test]
+fn a_reference_counts_only_while_the_vehicle_flies() {
+    let rows = made_up(20.0);
+    let figures = piloted(&rows);
+    let error = tracking::while_flying(&figures, &rows, |row| row.t);
+    assert!(error[0].0 >= 1.0 && error.last().expect("it flew").0 < 18.5);
 }
 
 #[test]
 fn a_missing_folder_is_named() {
-    let error = altitude(Path::new("no/such/folder"), &flight(1.0)).expect_err("no folder");
+    let error = figures(&made_up(1.0)).draw(Path::new("no/such/folder")).expect_err("no folder");
     assert!(format!("{error:#}").contains("no/such/folder"));
 }

@@ -57,6 +57,25 @@ pub enum Sensor {
     Battery,
 }
 
+/// The names of the kinds, as they are written in files.
+pub(crate) const KINDS: [&str; 15] = [
+    "off",
+    "stuck",
+    "drift",
+    "noise",
+    "spikes",
+    "delayed",
+    "nan",
+    "glitch",
+    "no-fix",
+    "loss",
+    "duplicate",
+    "disorder",
+    "time-jump",
+    "rotor",
+    "collapse",
+];
+
 /// How a sensor fails, or a rotor, or the battery. Directions are in the frame of what is measured; without one, it is
 /// drawn from the seed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -216,7 +235,7 @@ const KEYS: [&str; 12] = [
 
 impl Sensor {
     /// Every sensor.
-    const ALL: [Self; 8] =
+    pub(crate) const ALL: [Self; 8] =
         [Self::Imu, Self::Gyro, Self::Accel, Self::Mag, Self::Baro, Self::Gnss, Self::Pose, Self::Battery];
 
     /// The sensor whose samples it is part of.

@@ -37,6 +37,19 @@ fn assert_sound_but_for_the_imu(faulted: &[Measurements]) {
 }
 
 #[test]
+fn the_lists_of_names_are_those_that_files_know() {
+    let refusal = |text: &str| {
+        let table: toml::Table = text.parse().expect("TOML");
+        Fault::try_from(table).expect_err("no such name")
+    };
+    let quoted = |names: &[&str]| names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let kinds = refusal("kind = \"?\"\nfrom_s = 0.0");
+    assert!(kinds.contains(&quoted(&KINDS)), "{kinds}");
+    let sensors = refusal("sensor = \"?\"\nkind = \"off\"\nfrom_s = 0.0");
+    assert!(sensors.contains(&quoted(&Sensor::ALL.map(Sensor::name))), "{sensors}");
+}
+
+#[test]
 fn a_sensor_that_is_off_delivers_nothing_and_comes_back_as_if_nothing_had_been() {
     let faulted = with("sensor = \"imu\"\nkind = \"off\"\nfrom_s = 1.0\nto_s = 2.0");
     assert!(faulted[1000..2000].iter().all(|m| m.imu.is_none()));

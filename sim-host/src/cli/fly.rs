@@ -1,0 +1,173 @@
+//! One flight with its report: what is flown, recorded, judged, and written into a folder. For `run`, the tour without a
+//! command, and `pil`.
+
+use std::io::Write;
+use std::time::Instant;
+
+use anyhow::Result;
+use firmware::guidance::Trajectory;
+use serde::Serialize;
+
+use crate::flight;
+use crate::record::Row;
+use crate::report::estimate::Belief;
+use crate::report::mission::{self, REACHED_BY_GNSS_M, REACHED_M};
+use crate::report::summary::Told;
+use crate::report::timeline::{Course, Event, EventKind};
+use crate::report::{
+    Figures, Flight, Metrics, OutFolder, Progress, SensedRecorder, Summary, Timeline, TimelineRecorder,
+    TruthWriter,
+};
+use crate::scenario::Scenario;
+use crate::sil::{End, Outcome};
+
+/// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
+const FIGURES_UP_TO_S: f64 = 600.0;
+
+/// What came of a flight, and how long it took, s.
+pub(super) struct Flown {
+    pub(super) outcome: Outcome,
+    pub(super) wall_s: f64,
+}
+
+/// A flight's summary with what its figures are drawn of.
+struct Taken {
+    summary: Summary,
+    timeline: Timeline,
+    rows: Vec<Row>,
+    beliefs: Vec<Belief>,
+}
+
+/// Flies one seed, and writes nothing.
+pub(super) fn fly(scenario: &Scenario, seed: u64, visible: bool) -> Result<Summary> {
+    let sensed = scenario.file.sensors.as_ref().map(|_| SensedRecorder::new());
+    Ok(take(scenario, seed, visible, TruthWriter::hash_only(), None, sensed)?.summary)
+}
+
+/// Flies one seed of a scenario as loaded with `settings`, and leaves truth.csv, summary.json, the figures, and what it
+/// takes to fly it again in a folder.
+pub(super) fn fly_into(
+    folder: &OutFolder,
+    scenario: &Scenario,
+    settings: &[String],
+    seed: u64,
+    visible: bool,
+) -> Result<Summary> {
+    provenance(folder, scenario, settings, seed)?;
+    let is_drawn = scenario.file.duration_s <= FIGURES_UP_TO_S;
+    let sensed = match &scenario.file.sensors {
+        Some(_) => Some(SensedRecorder::new().writing(folder.estimate()?, is_drawn)),
+        None => None,
+    };
+    let taken = take(scenario, seed, visible, folder.truth()?, is_drawn.then(Vec::new), sensed)?;
+    folder.summary(&taken.summary)?;
+    draw(scenario, seed, folder, &taken)?;
+    Ok(taken.summary)
+}
+
+fn take<W: Write>(
+    scenario: &Scenario,
+    seed: u64,
+    visible: bool,
+    truth: TruthWriter<W>,
+    rows: Option<Vec<Row>>,
+    sensed: Option<SensedRecorder>,
+) -> Result<Taken> {
+    let bar = Progress::new(scenario.file.duration_s, visible);
+    let course = TimelineRecorder::new(&scenario.file.command);
+    let mut recorder = (((Metrics::new(), truth), (bar, rows)), (sensed, course));
+    let start = Instant::now();
+    let outcome = flight::fly(scenario, seed, &mut recorder)?;
+    let flown = Flown { outcome, wall_s: start.elapsed().as_secs_f64() };
+    let (((metrics, truth), (bar, rows)), (sensed, course)) = recorder;
+    bar.finish();
+    let sensed = sensed.map(|sensed| sensed.finish(outcome.touchdown)).transpose()?;
+    let (sensed, beliefs) = sensed.map_or_else(Default::default, |(sensed, beliefs)| (Some(sensed), beliefs));
+    let mut course = course.finish(&scenario.file.fault);
+    add_contacts(&mut course.timeline, &outcome);
+    let timeline = course.timeline.clone();
+    let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics)
+        .with_sensed(sensed)
+        .with_course(told(scenario, course, &outcome));
+    Ok(Taken { summary, timeline, rows: rows.unwrap_or_default(), beliefs })
+}
+
+/// Adds what the plant and the ground did to each other.
+fn add_contacts(timeline: &mut Timeline, outcome: &Outcome) {
+    if let Some(contact) = outcome.touchdown {
+        let (down, away) = (contact.descent_m_s, contact.from_start_m);
+        let text = format!("touchdown with {down:.2} m/s, {away:.1} m from the start");
+        timeline.add(Event { t_s: contact.t_s, kind: EventKind::Touchdown, text });
+    }
+    if let End::Crashed(crash) = outcome.end {
+        timeline.add(Event { t_s: crash.t_s, kind: EventKind::Crash, text: "crash".into() });
+    }
+}
+
+/// The course of a flight on sensors or with a pilot; of others there is nothing to tell.
+fn told(scenario: &Scenario, course: Course, outcome: &Outcome) -> Option<Told> {
+    let commands = scenario.file.command.len();
+    if commands == 0 && scenario.file.sensors.is_none() {
+        return None;
+    }
+    let by_gnss = scenario.file.sensors.as_ref().is_some_and(|suite| suite.gnss.is_some());
+    let radius_m = if by_gnss { REACHED_BY_GNSS_M } else { REACHED_M };
+    let mission = (commands > 0).then(|| mission::judge(&course, outcome, commands, radius_m));
+    Some(Told::new(course, mission))
+}
+
+pub(super) fn summarise(
+    scenario: &Scenario,
+    seed: u64,
+    flown: &Flown,
+    truth_sha256: String,
+    metrics: &Metrics,
+) -> Summary {
+    let outcome = flown.outcome;
+    let duration_s = f64::from(outcome.ticks) / 1e3;
+    let flight = Flight {
+        scenario: scenario.name.clone(),
+        seed,
+        duration_s,
+        truth_sha256,
+        real_time_factor: duration_s / flown.wall_s,
+        saturated_fraction: f64::from(outcome.saturated_ticks) / f64::from(outcome.ticks.max(1)),
+        papers_helix: scenario.file.trajectory == Trajectory::PAPER_HELIX,
+        time_optimal_s: scenario.file.time_optimal_s,
+        disturbance_onset_s: scenario.file.disturbance.map(|d| d.from_s),
+        end: outcome.end,
+    };
+    Summary::new(flight, metrics)
+}
+
+/// What a folder holds besides the flight: by which program, from what, and how to fly it again.
+#[derive(Serialize)]
+struct Provenance<'a> {
+    program: &'a str,
+    version: &'a str,
+    scenario: &'a str,
+    set: &'a [String],
+    seed: u64,
+    again: String,
+}
+
+fn provenance(folder: &OutFolder, scenario: &Scenario, settings: &[String], seed: u64) -> Result<()> {
+    let provenance = Provenance {
+        program: "sim-host",
+        version: env!("CARGO_PKG_VERSION"),
+        scenario: &scenario.name,
+        set: settings,
+        seed,
+        again: format!("sim-host run scenario.toml --seed {seed}"),
+    };
+    folder.text("provenance.toml", &toml::to_string(&provenance)?)?;
+    scenario.files()?.iter().try_for_each(|(name, text)| folder.text(name, text))
+}
+
+fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, taken: &Taken) -> Result<()> {
+    let Taken { rows, beliefs, timeline, .. } = taken;
+    if !rows.is_empty() {
+        folder.figures(&Figures::new(scenario, seed, rows, beliefs, timeline))?;
+    }
+    Ok(())
+}

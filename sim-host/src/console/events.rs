@@ -1,0 +1,217 @@
+//! What is told of a flight as it happens: seen from the outside of the vehicle, tick by tick.
+//!
+//! The words are the firmware's own where it has any ([`Mode::name`], [`Event::text`], [`Refusal::reason`]). Touchdowns are
+//! the plant's truth. Looks 50 times a second, when the commander's output has come into effect; only a touchdown needs
+//! each tick.
+
+use firmware::commander::{Event, Mode, Refusal};
+use firmware::schedule::COMMANDER;
+use firmware::signals::{TICK_S_EXACT, Tick};
+use nalgebra::Vector3;
+
+use super::line::Tone;
+use crate::failures;
+use crate::plant::Plant as _;
+use crate::plant::rigid_body::RigidBody;
+use crate::record::{Recorder as _, Row};
+use crate::report::touchdown::{Contact, Touchdown};
+use crate::sil::Flight;
+
+/// Whether the commander's output has come into effect in the tick before this one.
+pub(super) fn is_due(next_tick: Tick) -> bool {
+    next_tick.wrapping_sub(1) % COMMANDER.period == COMMANDER.offset % COMMANDER.period
+}
+
+/// Something that comes and goes is told once it has lasted, ticks.
+const LASTED: Tick = 500;
+/// A vehicle that does not know that it is on the ground is told of after this, s.
+const UNAWARE_AFTER_S: f64 = 5.0;
+
+/// A value that is told once it has lasted.
+#[derive(Clone, Debug)]
+struct Steady<T> {
+    told: Option<T>,
+    seen: Option<(T, Tick)>,
+}
+
+impl<T: Copy + PartialEq> Steady<T> {
+    const fn new() -> Self {
+        Self { told: None, seen: None }
+    }
+
+    /// The value now; returned if it is to be told.
+    fn see(&mut self, tick: Tick, value: T) -> Option<T> {
+        let since = match self.seen {
+            Some((seen, since)) if seen == value => since,
+            _ => tick,
+        };
+        self.seen = Some((value, since));
+        let lasted = tick.wrapping_sub(since) >= LASTED;
+        (lasted && self.told != Some(value)).then(|| *self.told.insert(value))
+    }
+}
+
+/// Sees what happens.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    armed: bool,
+    landed: bool,
+    mode: Mode,
+    ready: Steady<Result<(), Refusal>>,
+    position: Steady<bool>,
+    /// Where it was armed, m: the truth.
+    home: Vector3<f64>,
+    touchdown: Option<Touchdown>,
+    /// The last one, and where, until it has been told.
+    contact: Option<(Contact, Vector3<f64>)>,
+    looked_at: Tick,
+}
+
+impl Watch {
+    /// Of a flight as it is now.
+    pub fn new(flight: &Flight<RigidBody>) -> Self {
+        let commander = flight.autopilot.inner.commander_output();
+        Self {
+            armed: commander.armed,
+            landed: commander.landed,
+            mode: commander.mode,
+            ready: Steady::new(),
+            position: Steady { told: Some(true), seen: None },
+            home: flight.plant().motion().position,
+            touchdown: touchdown(flight),
+            contact: None,
+            looked_at: 0,
+        }
+    }
+
+    /// After a tick: a touchdown is seen.
+    pub fn step(&mut self, flight: &Flight<RigidBody>) {
+        let Some(touchdown) = &mut self.touchdown else { return };
+        let motion = flight.plant().motion();
+        let t_s = f64::from(flight.next_tick()) * TICK_S_EXACT;
+        touchdown.record(&Row::of_motion(t_s, &motion));
+        if let Some(contact) = touchdown.first() {
+            self.contact = Some((contact, motion.position));
+            self.touchdown = self::touchdown(flight);
+        }
+    }
+
+    /// Tells what has changed since the last look.
+    pub fn look(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
+        self.look_at_faults(flight, tell);
+        if let Some(event) = flight.autopilot.inner.commander_output().event {
+            tell(Tone::Alarm, failsafe(event));
+        }
+        self.look_at_ground(flight, tell);
+        self.look_at_mode(flight, tell);
+        self.look_at_health(flight, tell);
+        self.looked_at = flight.next_tick();
+    }
+
+    /// Faults that have begun or ended by themselves.
+    fn look_at_faults(&self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
+        let Some(suite) = flight.sensors() else { return };
+        let tick = |seconds: f64| (seconds / TICK_S_EXACT).round() as Tick;
+        let new = self.looked_at..flight.next_tick();
+        for fault in suite.faults().list(self.looked_at) {
+            if new.contains(&tick(fault.from_s)) {
+                tell(Tone::Alarm, format!("fault: {}", failures::brief(&fault)));
+            }
+            if fault.to_s.is_some_and(|to_s| new.contains(&tick(to_s))) {
+                tell(Tone::Good, format!("fault over: {}", failures::brief(&fault)));
+            }
+        }
+    }
+
+    fn look_at_ground(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
+        let landed = flight.autopilot.inner.commander_output().landed;
+        if landed && !self.landed {
+            let how = self.contact.take().map(|(contact, place)| self.describe(&contact, &place));
+            tell(Tone::Good, how.map_or_else(|| "landed".to_owned(), |how| format!("landed: {how}")));
+        } else if self.landed && !landed {
+            tell(Tone::Plain, "in the air".to_owned());
+        }
+        self.landed = landed;
+        let now_s = f64::from(flight.next_tick()) * TICK_S_EXACT;
+        if let Some((contact, place)) = self.contact
+            && now_s - contact.t_s >= UNAWARE_AFTER_S
+        {
+            let how = self.describe(&contact, &place);
+            tell(Tone::Alarm, format!("on the ground without knowing it: {how}; `kill` stops the rotors"));
+            self.contact = None;
+        }
+    }
+
+    fn describe(&self, contact: &Contact, place: &Vector3<f64>) -> String {
+        let away = (place - self.home).xy().norm();
+        format!("touched down at {:.2} m/s, {away:.2} m from home", contact.descent_m_s)
+    }
+
+    fn look_at_mode(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
+        let commander = flight.autopilot.inner.commander_output();
+        let (armed, mode) = (commander.armed, commander.mode);
+        match (self.armed, armed) {
+            (false, true) => {
+                self.home = flight.plant().motion().position;
+                tell(Tone::Plain, "armed: the rotors idle".to_owned());
+            }
+            (true, false) if commander.landed => tell(Tone::Good, "disarmed".to_owned()),
+            (true, false) => tell(Tone::Alarm, "disarmed in the air: the rotors are stopped".to_owned()),
+            _ if mode != self.mode => tell(Tone::Plain, format!("mode: {} → {}", self.mode.name(), mode.name())),
+            _ => {}
+        }
+        (self.armed, self.mode) = (armed, mode);
+    }
+
+    /// Whether it may be armed, and in the air whether it knows where it is.
+    fn look_at_health(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
+        let (tick, vehicle) = (flight.next_tick(), &flight.autopilot.inner);
+        let commander = vehicle.commander_output();
+        if commander.armed {
+            if let Some(known) = self.position.see(tick, vehicle.nav_health().position) {
+                let (tone, what) = if known { (Tone::Good, "known again") } else { (Tone::Alarm, "unknown") };
+                tell(tone, format!("navigation: position {what}"));
+            }
+        } else if let Some(ready) = self.ready.see(tick, commander.armable) {
+            match ready {
+                Ok(()) => tell(Tone::Good, "ready to arm".to_owned()),
+                Err(refusal) => tell(Tone::Refused, format!("not ready to arm: {}", refusal.reason())),
+            }
+        }
+    }
+}
+
+/// Looks for the next touchdown, where there is a ground.
+fn touchdown(flight: &Flight<RigidBody>) -> Option<Touchdown> {
+    flight.plant().ground().cloned().map(Touchdown::new)
+}
+
+/// What the firmware says of what has failed.
+fn failsafe(event: Event) -> String {
+    let text = event.text();
+    let mut letters = text.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_lowercase());
+    format!("failsafe: {}{}", first.unwrap_or_default(), letters.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_flickers_is_told_once_it_has_lasted() {
+        let mut steady = Steady::new();
+        let told: Vec<(Tick, bool)> = (0..4000)
+            .step_by(20)
+            .filter_map(|tick| {
+                let value = match tick {
+                    0..1000 => false,
+                    1000..2000 => tick % 200 < 100,
+                    _ => true,
+                };
+                steady.see(tick, value).map(|value| (tick, value))
+            })
+            .collect();
+        assert_eq!(told, [(500, false), (2500, true)]);
+    }
+}

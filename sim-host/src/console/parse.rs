@@ -1,0 +1,530 @@
+//! From a typed line to a command. One table names the commands, explains them and reads their arguments, so that help
+//! and parser cannot differ.
+
+use core::ops::RangeInclusive;
+
+use anyhow::{Result, bail, ensure};
+use firmware::commander::{FARTHEST_M, FASTEST_M_S, Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M};
+use firmware::signals::Tick;
+
+use crate::failures;
+use crate::sensors::Fault;
+use crate::serve::SPEEDS;
+use crate::refusal::did_you_mean;
+
+/// A command of the console. World frame NWU: x north, y west, z up.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Explain the commands, or one of them.
+    Help(Option<&'static Entry>),
+    /// Say how the vehicle is.
+    Status,
+    /// Ask the commander for something.
+    Request(Request),
+    /// Go to a place (m) with a heading (°); what is `None` stays as it is.
+    GoTo {
+        /// x, y, z, m.
+        place: [Option<f64>; 3],
+        /// ψ, °.
+        yaw_deg: Option<f64>,
+    },
+    /// Say what the steady wind is.
+    Wind,
+    /// Set the steady wind: the velocity of the air, m/s.
+    SetWind([f64; 3]),
+    /// Make something fail.
+    Fault(Fault),
+    /// List the faults.
+    Faults,
+    /// End all faults.
+    Clear,
+    /// Fly at so many times real time.
+    Speed(f64),
+    /// End the program.
+    Quit,
+}
+
+/// A command in the table.
+#[derive(Debug)]
+pub struct Entry {
+    /// Its name first, then what else it is called.
+    names: &'static [&'static str],
+    /// What may follow the name.
+    arguments: &'static str,
+    /// What it does.
+    summary: &'static str,
+    /// More about it, for `help COMMAND`.
+    details: &'static str,
+    /// Reads what follows the name, at a tick.
+    read: fn(&[&str], Tick) -> Result<Command>,
+}
+
+impl PartialEq for Entry {
+    fn eq(&self, other: &Self) -> bool {
+        self.names == other.names
+    }
+}
+
+impl Entry {
+    /// Its name.
+    pub fn name(&self) -> &'static str {
+        self.names.first().copied().unwrap_or_default()
+    }
+
+    /// How it is typed.
+    pub fn usage(&self) -> String {
+        format!("{} {}", self.name(), self.arguments).trim_end().to_owned()
+    }
+
+    /// What it does.
+    pub fn summary(&self) -> &'static str {
+        self.summary
+    }
+
+    /// How it is typed, what it does, and what else it is called.
+    pub fn help(&self) -> String {
+        let mut text = format!("{}: {}", self.usage(), self.summary);
+        if !self.details.is_empty() {
+            text = format!("{text}. {}", self.details);
+        }
+        if let [_, others @ ..] = self.names
+            && !others.is_empty()
+        {
+            text = format!("{text}. Also called {}", others.join(", "));
+        }
+        text
+    }
+}
+
+/// All commands, in the order in which help lists them.
+pub const COMMANDS: &[Entry] = &[
+    Entry {
+        names: &["help", "?"],
+        arguments: "[COMMAND]",
+        summary: "list the commands, or explain one",
+        details: "",
+        read: help,
+    },
+    Entry {
+        names: &["status"],
+        arguments: "",
+        summary: "mode, position, battery, wind and faults now",
+        details: "Position and velocity are the vehicle's own estimate",
+        read: |words, _| alone(words, Command::Status),
+    },
+    Entry {
+        names: &["arm"],
+        arguments: "[force]",
+        summary: "let the rotors idle; `force` skips the checks",
+        details: "",
+        read: |words, _| Ok(Command::Request(Request::Arm { force: forced(words)? })),
+    },
+    Entry {
+        names: &["disarm"],
+        arguments: "[force]",
+        summary: "stop the rotors on the ground; `force` also in the air",
+        details: "",
+        read: |words, _| Ok(Command::Request(Request::Disarm { force: forced(words)? })),
+    },
+    Entry {
+        names: &["takeoff", "take-off"],
+        arguments: "[HEIGHT]",
+        summary: "climb by HEIGHT (m; 2.5) and hold",
+        details: "It has to be armed and on the ground; HEIGHT is between 0.3 and 100 m",
+        read: take_off,
+    },
+    Entry {
+        names: &["goto", "go-to", "reposition"],
+        arguments: "NORTH WEST UP [YAW]",
+        summary: "fly to a place in the local frame (m; yaw in °) and hold",
+        details: "The frame begins where z = 0 of the world is: `up` is negative below it. YAW counts from north to \
+                  west: 90 looks west, -90 east. What is left out stays as it is, so `goto north=5 yaw=0` will do",
+        read: go_to,
+    },
+    Entry {
+        names: &["velocity"],
+        arguments: "NORTH WEST UP [YAW_RATE]",
+        summary: "fly with a velocity (m/s; yaw rate in °/s) until the next command",
+        details: "`hold` ends it",
+        read: velocity,
+    },
+    Entry {
+        names: &["hold", "loiter", "brake"],
+        arguments: "",
+        summary: "brake and stay",
+        details: "",
+        read: |words, _| alone(words, Command::Request(Request::Hold)),
+    },
+    Entry {
+        names: &["trajectory", "follow", "mission", "start"],
+        arguments: "",
+        summary: "fly the scenario's trajectory",
+        details: "From the ground, armed, it takes off by itself if it stands where the trajectory begins",
+        read: |words, _| alone(words, Command::Request(Request::Follow)),
+    },
+    Entry {
+        names: &["return", "rtl"],
+        arguments: "",
+        summary: "climb, fly to where it was armed, and land",
+        details: "",
+        read: |words, _| alone(words, Command::Request(Request::Return)),
+    },
+    Entry {
+        names: &["land"],
+        arguments: "",
+        summary: "land here; disarms by itself",
+        details: "",
+        read: |words, _| alone(words, Command::Request(Request::Land)),
+    },
+    Entry {
+        names: &["kill", "terminate"],
+        arguments: "",
+        summary: "stop the rotors at once, also in the air",
+        details: "",
+        read: |words, _| alone(words, Command::Request(Request::Disarm { force: true })),
+    },
+    Entry {
+        names: &["wind"],
+        arguments: "[NORTH WEST [UP]]",
+        summary: "set the steady wind (m/s, where the air moves to), or say what it is",
+        details: "Or as forecasts have it, `wind speed=5 from=270`: from the west (degrees clockwise from north). \
+                  Turbulence and gusts of the scenario stay",
+        read: wind,
+    },
+    Entry {
+        names: &["fault", "failure"],
+        arguments: "[SENSOR] KIND [KEY=VALUE]...",
+        summary: "make a sensor, a rotor or the battery fail",
+        details: "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5`, \
+                  `fault collapse factor=0.8`; from now on for good, or `from_s=` and `to_s=` (s). The keys are those of \
+                  `[[fault]]` in docs/simulation.md",
+        read: |words, now| Ok(Command::Fault(failures::parse(words.iter().copied(), now)?)),
+    },
+    Entry {
+        names: &["faults"],
+        arguments: "",
+        summary: "list the faults that act, and those to come",
+        details: "",
+        read: |words, _| alone(words, Command::Faults),
+    },
+    Entry {
+        names: &["clear"],
+        arguments: "",
+        summary: "end all faults, those of the scenario too",
+        details: "",
+        read: |words, _| alone(words, Command::Clear),
+    },
+    Entry {
+        names: &["speed"],
+        arguments: "X",
+        summary: "fly at X times real time",
+        details: "X is between 0.01 and 1000",
+        read: speed,
+    },
+    Entry {
+        names: &["quit", "exit"],
+        arguments: "",
+        summary: "end the program",
+        details: "",
+        read: |words, _| alone(words, Command::Quit),
+    },
+];
+
+/// Reads a line at a tick; an empty line and a comment (`#`) ask for nothing.
+///
+/// # Errors
+/// In one line, what is wrong with it and what to type instead.
+pub fn parse(line: &str, now: Tick) -> Result<Option<Command>> {
+    let words: Vec<&str> = line.split_whitespace().take_while(|word| !word.starts_with('#')).collect();
+    let Some((name, arguments)) = words.split_first() else { return Ok(None) };
+    let entry = entry(name)?;
+    let command = (entry.read)(arguments, now).map_err(|error| error.context(entry.name()))?;
+    Ok(Some(command))
+}
+
+/// The command of a name, whatever its case.
+fn entry(name: &str) -> Result<&'static Entry> {
+    let lower = name.to_lowercase();
+    if let Some(entry) = COMMANDS.iter().find(|entry| entry.names.contains(&lower.as_str())) {
+        return Ok(entry);
+    }
+    let names: Vec<&str> = COMMANDS.iter().flat_map(|entry| entry.names).copied().collect();
+    match did_you_mean(&lower, &names) {
+        meant if meant.starts_with("did") => bail!("unknown command `{name}`: {meant} `help` lists all"),
+        _ => bail!("unknown command `{name}`: `help` lists all"),
+    }
+}
+
+fn help(words: &[&str], _: Tick) -> Result<Command> {
+    match words {
+        [] => Ok(Command::Help(None)),
+        [name] => Ok(Command::Help(Some(entry(name)?))),
+        [_, rest, ..] => bail!("`{rest}` is too much"),
+    }
+}
+
+fn alone(words: &[&str], command: Command) -> Result<Command> {
+    match words {
+        [] => Ok(command),
+        [rest, ..] => bail!("`{rest}` is too much: it takes no arguments"),
+    }
+}
+
+fn forced(words: &[&str]) -> Result<bool> {
+    match words {
+        [] => Ok(false),
+        ["force"] => Ok(true),
+        [other, ..] => bail!("`{other}` is unknown here: only `force` may follow"),
+    }
+}
+
+/// A number that a command takes.
+struct Number {
+    key: &'static str,
+    unit: &'static str,
+    range: RangeInclusive<f64>,
+}
+
+/// Within `most` of zero.
+const fn number(key: &'static str, unit: &'static str, most: f64) -> Number {
+    Number { key, unit, range: -most..=most }
+}
+
+impl Number {
+    fn read(&self, text: &str) -> Result<f64> {
+        let Self { key, unit, range } = self;
+        let name = key.to_uppercase();
+        let Ok(value) = text.parse::<f64>() else { bail!("{name} must be a number, not `{text}`") };
+        let (low, high) = (range.start(), range.end());
+        ensure!(range.contains(&value), "{name} must be between {low} and {high}{unit}, not {text}");
+        Ok(value)
+    }
+}
+
+/// Reads numbers in their order, by `key=value`, or first so and then so.
+fn numbers<const N: usize>(words: &[&str], known: &[Number; N]) -> Result<[Option<f64>; N]> {
+    let mut values = [None; N];
+    for (place, word) in words.iter().enumerate() {
+        let (place, text) = match word.split_once('=') {
+            Some((key, text)) => (known.iter().position(|number| number.key == key), text),
+            None => (Some(place), *word),
+        };
+        let found = place.and_then(|place| Some((known.get(place)?, values.get_mut(place)?)));
+        let keys = || known.iter().map(|number| number.key).collect::<Vec<_>>();
+        let Some((number, value)) = found else {
+            match word.split_once('=') {
+                Some((key, _)) => bail!("there is no `{key}`: {}", did_you_mean(key, &keys())),
+                None => bail!("`{word}` is too much: {} at most", keys().join(", ")),
+            }
+        };
+        ensure!(value.is_none(), "{} is given twice", number.key.to_uppercase());
+        *value = Some(number.read(text)?);
+    }
+    Ok(values)
+}
+
+fn take_off(words: &[&str], _: Tick) -> Result<Command> {
+    let (low, high) = (round(*TAKE_OFF_HEIGHTS_M.start()), round(*TAKE_OFF_HEIGHTS_M.end()));
+    let [height] = numbers(words, &[Number { key: "height", unit: " m", range: low..=high }])?;
+    let height_m = height.map_or(TAKE_OFF_HEIGHT_M, |height| height as f32);
+    Ok(Command::Request(Request::TakeOff { height_m }))
+}
+
+/// A constant of the firmware with the decimals that it was written with.
+fn round(value: f32) -> f64 {
+    (f64::from(value) * 1e3).round() / 1e3
+}
+
+fn go_to(words: &[&str], _: Tick) -> Result<Command> {
+    let far = f64::from(FARTHEST_M);
+    let [north, west, up, yaw_deg] = numbers(
+        words,
+        &[number("north", " m", far), number("west", " m", far), number("up", " m", far), number("yaw", "°", 360.0)],
+    )?;
+    ensure!(!words.is_empty(), "say where: NORTH WEST UP in m");
+    Ok(Command::GoTo { place: [north, west, up], yaw_deg })
+}
+
+fn velocity(words: &[&str], _: Tick) -> Result<Command> {
+    let fast = f64::from(FASTEST_M_S);
+    let [north, west, up, yaw_rate] = numbers(
+        words,
+        &[
+            number("north", " m/s", fast),
+            number("west", " m/s", fast),
+            number("up", " m/s", fast),
+            number("yaw_rate", "°/s", 360.0),
+        ],
+    )?;
+    ensure!(!words.is_empty(), "say which: NORTH WEST UP in m/s");
+    let velocity_m_s = [north, west, up].map(|value| value.unwrap_or(0.0) as f32);
+    let yaw_rate_rad_s = yaw_rate.unwrap_or(0.0).to_radians() as f32;
+    Ok(Command::Request(Request::Velocity { velocity_m_s, yaw_rate_rad_s }))
+}
+
+fn wind(words: &[&str], _: Tick) -> Result<Command> {
+    const MOST_M_S: f64 = 50.0;
+    let [north, west, up, speed, from] = numbers(
+        words,
+        &[
+            number("north", " m/s", MOST_M_S),
+            number("west", " m/s", MOST_M_S),
+            number("up", " m/s", MOST_M_S),
+            Number { key: "speed", unit: " m/s", range: 0.0..=MOST_M_S },
+            number("from", "°", 360.0),
+        ],
+    )?;
+    match (north, west, up, speed, from) {
+        (None, None, None, None, None) => Ok(Command::Wind),
+        (Some(north), Some(west), up, None, None) => Ok(Command::SetWind([north, west, up.unwrap_or(0.0)])),
+        (None, None, None, Some(speed), Some(from)) => Ok(Command::SetWind(blowing(speed, from))),
+        _ => bail!("say NORTH WEST [UP], or speed= and from="),
+    }
+}
+
+/// The velocity of air that comes `from_deg` clockwise from north, m/s.
+fn blowing(speed_m_s: f64, from_deg: f64) -> [f64; 3] {
+    let (sin, cos) = (libm::sin(from_deg.to_radians()), libm::cos(from_deg.to_radians()));
+    [-speed_m_s * cos, speed_m_s * sin, 0.0]
+}
+
+fn speed(words: &[&str], _: Tick) -> Result<Command> {
+    let [speed] = numbers(words, &[Number { key: "x", unit: "", range: SPEEDS }])?;
+    speed.map_or_else(|| bail!("say X, how many times real time"), |speed| Ok(Command::Speed(speed)))
+}
+
+/// The longest text by which a started word goes on in all names of commands that begin with it.
+pub fn completion(word: &str) -> Option<&'static str> {
+    let mut names = COMMANDS.iter().map(Entry::name).filter(|name| name.starts_with(word));
+    let name = names.next()?;
+    names.next().is_none().then(|| &name[word.len()..])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensors::faults::{Kind, Sensor};
+
+    fn read(line: &str) -> Command {
+        parse(line, 1500).expect(line).expect("a command")
+    }
+
+    #[test]
+    fn every_command_is_read() {
+        let request = Command::Request;
+        let goto = |place: [Option<f64>; 3], yaw_deg: Option<f64>| Command::GoTo { place, yaw_deg };
+        for (line, command) in [
+            ("help", Command::Help(None)),
+            ("help rtl", Command::Help(COMMANDS.iter().find(|entry| entry.name() == "return"))),
+            ("status", Command::Status),
+            ("arm", request(Request::Arm { force: false })),
+            ("ARM force", request(Request::Arm { force: true })),
+            ("disarm", request(Request::Disarm { force: false })),
+            ("disarm force", request(Request::Disarm { force: true })),
+            ("takeoff", request(Request::TakeOff { height_m: 2.5 })),
+            ("take-off 5", request(Request::TakeOff { height_m: 5.0 })),
+            ("takeoff height=0.3", request(Request::TakeOff { height_m: 0.3 })),
+            ("goto 1 -2 3", goto([Some(1.0), Some(-2.0), Some(3.0)], None)),
+            ("goto 1 -2 3 90", goto([Some(1.0), Some(-2.0), Some(3.0)], Some(90.0))),
+            ("goto up=3 yaw=-90", goto([None, None, Some(3.0)], Some(-90.0))),
+            ("velocity 1 0 0.5", request(Request::Velocity { velocity_m_s: [1.0, 0.0, 0.5], yaw_rate_rad_s: 0.0 })),
+            ("hold", request(Request::Hold)),
+            ("trajectory", request(Request::Follow)),
+            ("rtl", request(Request::Return)),
+            ("return", request(Request::Return)),
+            ("land", request(Request::Land)),
+            ("kill", request(Request::Disarm { force: true })),
+            ("wind", Command::Wind),
+            ("wind 3 -1", Command::SetWind([3.0, -1.0, 0.0])),
+            ("wind 3 -1 0.5", Command::SetWind([3.0, -1.0, 0.5])),
+            ("wind speed=0 from=0", Command::SetWind([0.0; 3])),
+            ("fault gnss off", Command::Fault(Fault::starting(Some(Sensor::Gnss), Kind::Off {}, 1500))),
+            ("faults", Command::Faults),
+            ("clear", Command::Clear),
+            ("speed 10", Command::Speed(10.0)),
+            ("quit  # and good night", Command::Quit),
+        ] {
+            assert_eq!(read(line), command, "{line}");
+        }
+        assert_eq!(parse("   ", 0).expect("nothing"), None);
+        assert_eq!(parse("# arm", 0).expect("nothing"), None);
+    }
+
+    #[test]
+    fn wind_comes_from_where_forecasts_say() {
+        // From the west it moves to the east: west is −5.
+        for (from, velocity) in [(270.0, [0.0, -5.0]), (0.0, [-5.0, 0.0]), (90.0, [0.0, 5.0])] {
+            let [north, west, up] = blowing(5.0, from);
+            assert!(
+                (north - velocity[0]).abs() < 1e-12 && (west - velocity[1]).abs() < 1e-12,
+                "{from}: {north} {west}"
+            );
+            assert_eq!(up, 0.0);
+        }
+    }
+
+    #[test]
+    fn mistakes_are_answered_in_a_line_that_says_what_to_type() {
+        for (line, answer) in [
+            ("takof 5", "unknown command `takof`: did you mean `takeoff`? `help` lists all"),
+            ("lnad", "unknown command `lnad`: did you mean `land`? `help` lists all"),
+            ("xyzzy", "unknown command `xyzzy`: `help` lists all"),
+            ("help lnad", "help: unknown command `lnad`: did you mean `land`? `help` lists all"),
+            ("help land now", "help: `now` is too much"),
+            ("status now", "status: `now` is too much: it takes no arguments"),
+            ("arm now", "arm: `now` is unknown here: only `force` may follow"),
+            ("disarm 1", "disarm: `1` is unknown here: only `force` may follow"),
+            ("takeoff 200", "takeoff: HEIGHT must be between 0.3 and 100 m, not 200"),
+            ("takeoff 0", "takeoff: HEIGHT must be between 0.3 and 100 m, not 0"),
+            ("takeoff nan", "takeoff: HEIGHT must be between 0.3 and 100 m, not nan"),
+            ("takeoff high", "takeoff: HEIGHT must be a number, not `high`"),
+            ("takeoff 5 6", "takeoff: `6` is too much: height at most"),
+            ("goto", "goto: say where: NORTH WEST UP in m"),
+            ("goto nrth=5", "goto: there is no `nrth`: did you mean `north`?"),
+            ("goto 1 2 3 400", "goto: YAW must be between -360 and 360°, not 400"),
+            ("goto 1 2 1e9", "goto: UP must be between -10000 and 10000 m, not 1e9"),
+            ("goto 1 2 3 north=4", "goto: NORTH is given twice"),
+            ("goto 1 2 3 4 5", "goto: `5` is too much: north, west, up, yaw at most"),
+            ("velocity", "velocity: say which: NORTH WEST UP in m/s"),
+            ("velocity 1000", "velocity: NORTH must be between -100 and 100 m/s, not 1000"),
+            ("hold on", "hold: `on` is too much: it takes no arguments"),
+            ("wind 3", "wind: say NORTH WEST [UP], or speed= and from="),
+            ("wind speed=3", "wind: say NORTH WEST [UP], or speed= and from="),
+            ("wind 1 2 speed=3 from=4", "wind: say NORTH WEST [UP], or speed= and from="),
+            ("wind speed=-3 from=0", "wind: SPEED must be between 0 and 50 m/s, not -3"),
+            ("fault", "fault: say how it fails: kind=off|stuck"),
+            ("fault gns off", "fault: `gns` is no sensor and no kind of fault: did you mean `gnss`?"),
+            ("fault gnss kind=of", "fault: there is no kind of fault `of`: did you mean `off`?"),
+            ("clear gnss", "clear: `gnss` is too much: it takes no arguments"),
+            ("speed", "speed: say X, how many times real time"),
+            ("speed 0", "speed: X must be between 0.01 and 1000, not 0"),
+            ("quit now", "quit: `now` is too much: it takes no arguments"),
+        ] {
+            let error = format!("{:#}", parse(line, 0).expect_err(line));
+            assert!(error.starts_with(answer) && !error.contains('\n'), "{line}: {error}");
+        }
+    }
+
+    #[test]
+    fn names_are_unique_and_help_gives_the_ranges_that_are_checked() {
+        let mut names: Vec<&str> = COMMANDS.iter().flat_map(|entry| entry.names).copied().collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+        let help = |name: &str| entry(name).expect("known").help();
+        let heights = format!("between {} and {} m", TAKE_OFF_HEIGHTS_M.start(), TAKE_OFF_HEIGHTS_M.end());
+        assert!(help("takeoff").contains(&heights), "{}", help("takeoff"));
+        assert!(help("takeoff").contains(&format!("(m; {TAKE_OFF_HEIGHT_M})")));
+        assert!(help("speed").contains(&format!("between {} and {}", SPEEDS.start(), SPEEDS.end())));
+        assert!(help("rtl").starts_with("return: ") && help("rtl").ends_with("Also called rtl"), "{}", help("rtl"));
+    }
+
+    #[test]
+    fn a_started_name_is_completed_if_only_one_goes_on_like_that() {
+        assert_eq!(completion("tak"), Some("eoff"));
+        assert_eq!(completion("faults"), Some(""));
+        assert_eq!(completion("s"), None);
+        assert_eq!(completion("x"), None);
+    }
+}

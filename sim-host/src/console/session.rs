@@ -1,0 +1,360 @@
+//! A vehicle in its world, with a console.
+
+use std::collections::VecDeque;
+use std::net::SocketAddr;
+
+use anyhow::{Result, ensure};
+use firmware::commander::{Mode, Origin, Outcome, Refusal, Reply, Request};
+use firmware::failure::Manner;
+use firmware::mavlink::TxBytes;
+use firmware::signals::{TICK_S_EXACT, Tick};
+use nalgebra::Vector3;
+
+use super::events::{self, Watch};
+use super::line::{Line, Tone};
+use super::parse::{self, COMMANDS, Command};
+use crate::failures;
+use crate::plant::Plant as _;
+use crate::plant::rigid_body::RigidBody;
+use crate::sensors::Fault;
+use crate::sil::Flight;
+
+/// What a line asks of whoever runs the session.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Control {
+    /// Another pace: simulated seconds per second.
+    Speed(f64),
+    /// The end.
+    Quit,
+}
+
+/// A request on its way to the commander and back.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    request: Request,
+    /// Whether the vehicle has it.
+    sent: bool,
+    /// Whether its answer is of interest.
+    quiet: bool,
+}
+
+/// A vehicle that takes lines and tells what happens.
+#[derive(Debug)]
+pub struct Session {
+    flight: Flight<RigidBody>,
+    watch: Watch,
+    /// Requests in their order; one at a time is with the commander.
+    asked: VecDeque<Asked>,
+    /// A velocity that is to go on, and when it was requested last.
+    velocity: Option<(Request, Tick)>,
+    said: Vec<Line>,
+}
+
+/// A velocity is requested again after so many ticks: five times as often as the vehicle needs.
+const VELOCITY_AGAIN: Tick = 200;
+
+impl Session {
+    /// Of a flight before its next tick.
+    pub fn new(mut flight: Flight<RigidBody>) -> Self {
+        let injectable = failures::injectable(flight.sensors(), flight.plant().battery().is_some());
+        flight.autopilot.inner.allow_failures(injectable);
+        let watch = Watch::new(&flight);
+        Self { flight, watch, asked: VecDeque::new(), velocity: None, said: Vec::new() }
+    }
+
+    /// The flight.
+    pub fn flight(&self) -> &Flight<RigidBody> {
+        &self.flight
+    }
+
+    /// Simulated time, s.
+    pub fn time_s(&self) -> f64 {
+        f64::from(self.flight.next_tick()) * TICK_S_EXACT
+    }
+
+    /// What has been said since the last call, the oldest first.
+    pub fn take_lines(&mut self) -> Vec<Line> {
+        core::mem::take(&mut self.said)
+    }
+
+    fn say(&mut self, tone: Tone, text: String) {
+        self.said.push(Line { t_s: Some(self.time_s()), tone, text });
+    }
+
+    fn list(&mut self, text: String) {
+        self.said.push(Line { t_s: None, tone: Tone::Plain, text });
+    }
+
+    /// One tick of everything. `received` has come from ground stations since the last tick; what is returned goes to
+    /// them as one datagram.
+    pub fn tick(&mut self, received: &[u8]) -> Option<TxBytes> {
+        self.flight.autopilot.inner.receive(received);
+        self.flight.step(&mut ());
+        self.take_failures();
+        self.watch.step(&self.flight);
+        if events::is_due(self.flight.next_tick()) {
+            self.look();
+        }
+        let vehicle = &mut self.flight.autopilot.inner;
+        vehicle.has_transmit().then(|| vehicle.take_transmit())
+    }
+
+    /// Makes fail what a ground station has been told fails.
+    fn take_failures(&mut self) {
+        for failure in self.flight.autopilot.inner.take_failures() {
+            if failure.manner == Manner::Well {
+                self.say(Tone::Plain, format!("ground station: {:?} well again", failure.unit).to_lowercase());
+            }
+            for (slot, fault) in failures::of(&failure, self.flight.next_tick()) {
+                // The firmware is allowed failures on sensors alone, where this cannot fail.
+                let _ = self.flight.hold_fault(slot, fault.as_ref());
+            }
+        }
+    }
+
+    /// What the commander has decided, and what has changed.
+    fn look(&mut self) {
+        let t_s = Some(self.time_s());
+        for reply in self.flight.autopilot.inner.commander_output().replies.clone() {
+            self.hear(&reply);
+        }
+        let Self { watch, flight, said, .. } = self;
+        watch.look(flight, &mut |tone, text| said.push(Line { t_s, tone, text }));
+        self.go_on_with_velocity();
+        self.send();
+    }
+
+    /// The commander's answer to a request of anybody's.
+    fn hear(&mut self, reply: &Reply) {
+        let request = reply.command.request;
+        let who = match reply.command.origin {
+            Origin::Station { sender: (system, _), .. } => format!("ground station {system}: "),
+            Origin::OnBoard => {
+                let mine = self.asked.iter().position(|asked| asked.sent && asked.request == request);
+                match mine.and_then(|place| self.asked.remove(place)) {
+                    Some(Asked { quiet: true, .. }) => return,
+                    Some(_) => String::new(),
+                    None => "scenario: ".to_owned(),
+                }
+            }
+        };
+        if who.is_empty() && reply.outcome == Outcome::Accepted {
+            let goes_on = matches!(request, Request::Velocity { .. });
+            self.velocity = goes_on.then_some((request, self.flight.next_tick()));
+        }
+        let (tone, outcome) = match reply.outcome {
+            Outcome::Accepted => (Tone::Plain, "accepted".to_owned()),
+            Outcome::TemporarilyRejected(refusal) => (Tone::Refused, refused(refusal)),
+            Outcome::Denied => (Tone::Refused, "denied: a value is out of its range".to_owned()),
+        };
+        self.say(tone, format!("{who}{}: {outcome}", describe(&request)));
+    }
+
+    /// Requests a velocity again, until the vehicle does something else.
+    fn go_on_with_velocity(&mut self) {
+        let Some((request, since)) = self.velocity else { return };
+        if self.flight.autopilot.inner.commander_output().mode != Mode::Velocity {
+            self.velocity = None;
+        } else if self.flight.next_tick().wrapping_sub(since) >= VELOCITY_AGAIN && self.asked.is_empty() {
+            self.velocity = Some((request, self.flight.next_tick()));
+            self.asked.push_back(Asked { request, sent: false, quiet: true });
+        }
+    }
+
+    /// Hands the next request to the commander, if none is on its way.
+    fn send(&mut self) {
+        if self.asked.iter().any(|asked| asked.sent) {
+            return;
+        }
+        if let Some(next) = self.asked.front_mut() {
+            // A full queue: later.
+            next.sent = self.flight.autopilot.inner.request(next.request).is_ok();
+        }
+    }
+
+    fn ask(&mut self, request: Request) {
+        let asked = Asked { request, sent: false, quiet: false };
+        if request == (Request::Disarm { force: true }) {
+            // Does not wait its turn, nor for what was to follow.
+            self.asked.retain(|asked| asked.sent);
+            let sent = self.flight.autopilot.inner.request(request).is_ok();
+            self.asked.push_front(Asked { sent, ..asked });
+        } else {
+            self.asked.push_back(asked);
+            self.send();
+        }
+    }
+
+    /// Does what a line says, and answers: now, or once the commander has decided. A line that cannot be read does
+    /// nothing but be answered.
+    pub fn enter(&mut self, line: &str) -> Option<Control> {
+        let done = parse::parse(line, self.flight.next_tick());
+        match done.and_then(|command| command.map_or(Ok(None), |command| self.carry_out(command))) {
+            Ok(control) => control,
+            Err(error) => {
+                self.say(Tone::Refused, format!("{error:#}").replace('\n', " "));
+                None
+            }
+        }
+    }
+
+    fn carry_out(&mut self, command: Command) -> Result<Option<Control>> {
+        match command {
+            Command::Help(None) => self.list_commands(),
+            Command::Help(Some(entry)) => self.say(Tone::Plain, entry.help()),
+            Command::Status => self.say(Tone::Plain, self.status()),
+            Command::Request(request) => self.ask(request),
+            Command::GoTo { place, yaw_deg } => self.ask(self.go_to(place, yaw_deg)?),
+            Command::Wind => self.say_wind("wind"),
+            Command::SetWind(mean) => {
+                self.flight.set_steady_wind(mean.into())?;
+                self.say_wind("wind set");
+            }
+            Command::Fault(fault) => self.inject(&fault)?,
+            Command::Faults => self.list_faults(),
+            Command::Clear => self.clear()?,
+            Command::Speed(speed) => {
+                self.say(Tone::Plain, format!("speed: {speed} x real time"));
+                return Ok(Some(Control::Speed(speed)));
+            }
+            Command::Quit => return Ok(Some(Control::Quit)),
+        }
+        Ok(None)
+    }
+
+    fn list_commands(&mut self) {
+        let width = COMMANDS.iter().map(|entry| entry.usage().len()).max().unwrap_or(0);
+        for entry in COMMANDS {
+            self.list(format!("{:width$}  {}", entry.usage(), entry.summary()));
+        }
+    }
+
+    /// A place, where what is left out is as it is now by the vehicle's own estimate.
+    fn go_to(&self, place: [Option<f64>; 3], yaw_deg: Option<f64>) -> Result<Request> {
+        let nav = self.flight.autopilot.inner.nav();
+        let mut position_m: [f32; 3] = nav.position.into();
+        for (is, ought) in position_m.iter_mut().zip(place) {
+            *is = ought.map_or(*is, |ought| ought as f32);
+        }
+        if let (Some(ground), Some(up)) = (self.flight.plant().ground(), place[2]) {
+            let height = ground.height_above(&Vector3::new(0.0, 0.0, up));
+            ensure!(
+                height > 0.0,
+                "goto: UP = {up} m is not above the ground, which is at {} m: use `land`",
+                up - height
+            );
+        }
+        let yaw_rad = yaw_deg.map_or_else(|| nav.attitude.euler_angles().2, |yaw| yaw.to_radians() as f32);
+        Ok(Request::GoTo { position_m, yaw_rad })
+    }
+
+    fn say_wind(&mut self, what: &str) {
+        let [north, west, up] = shown(self.flight.steady_wind());
+        self.say(Tone::Plain, format!("{what}: north {north:.1}, west {west:.1}, up {up:.1} m/s"));
+    }
+
+    /// A fault that begins at once is told by its beginning.
+    fn inject(&mut self, fault: &Fault) -> Result<()> {
+        let now_s = self.time_s();
+        let fault = Fault { from_s: fault.from_s.max(now_s), ..*fault };
+        self.flight.inject(&fault)?;
+        if fault.from_s > now_s {
+            self.say(Tone::Plain, format!("fault from {} s on: {}", fault.from_s, failures::brief(&fault)));
+        }
+        Ok(())
+    }
+
+    fn list_faults(&mut self) {
+        let lines: Vec<String> =
+            self.faults().iter().map(|fault| format!("fault {}", failures::describe(fault))).collect();
+        if lines.is_empty() {
+            self.say(Tone::Plain, "no faults".to_owned());
+        }
+        lines.into_iter().for_each(|line| self.list(line));
+    }
+
+    /// The faults that act, and those to come.
+    fn faults(&self) -> Vec<Fault> {
+        let tick = self.flight.next_tick();
+        self.flight.sensors().map_or_else(Vec::new, |suite| suite.faults().list(tick).collect())
+    }
+
+    fn clear(&mut self) -> Result<()> {
+        let count = self.faults().len();
+        self.flight.clear_faults()?;
+        let text = if count == 0 { "no faults".to_owned() } else { format!("no faults: {count} cleared") };
+        self.say(Tone::Plain, text);
+        Ok(())
+    }
+
+    fn status(&self) -> String {
+        let vehicle = &self.flight.autopilot.inner;
+        let (commander, nav) = (vehicle.commander_output(), vehicle.nav());
+        let [north, west, up] = shown(nav.position.cast());
+        let yaw = nav.attitude.euler_angles().2.to_degrees().round() + 0.0;
+        let place = format!("north {north:.1}, west {west:.1}, up {up:.1} m, yaw {yaw}°");
+        let state = match (commander.armed, commander.landed, commander.armable) {
+            (true, true, _) => "armed on the ground".to_owned(),
+            (true, false, _) => "in the air".to_owned(),
+            (false, _, Ok(())) => "ready to arm".to_owned(),
+            (false, _, Err(refusal)) => format!("not ready to arm: {}", refusal.reason()),
+        };
+        let speed = nav.velocity.norm();
+        let mut text = format!("{}, {state}; {place}; {speed:.1} m/s", commander.mode.name());
+        if let Some(battery) = self.flight.plant().battery() {
+            text = format!("{text}; battery {:.1} V, {:.0} %", battery.voltage_v, battery.soc * 100.0);
+        }
+        let [north, west, up] = shown(self.flight.steady_wind());
+        let faults: Vec<String> = self.faults().iter().map(failures::brief).collect();
+        let faults = if faults.is_empty() { "no faults".to_owned() } else { format!("faults: {}", faults.join(", ")) };
+        format!("{text}; wind {north:.1} {west:.1} {up:.1} m/s; {faults}")
+    }
+
+    /// A ground station at an address has been heard for the first time, or again.
+    pub fn station_heard(&mut self, address: SocketAddr, system: u8) {
+        self.say(Tone::Good, format!("ground station {system} connected from {address}"));
+    }
+
+    /// A ground station has not been heard for a while.
+    pub fn station_lost(&mut self, address: SocketAddr, system: u8, silent_s: u64) {
+        self.say(Tone::Alarm, format!("ground station {system} lost: nothing from {address} for {silent_s} s"));
+    }
+}
+
+/// What rounds to zero is no negative zero.
+fn shown(value: Vector3<f64>) -> [f64; 3] {
+    [value.x, value.y, value.z].map(|value| (value * 10.0).round() / 10.0 + 0.0)
+}
+
+/// A request in words.
+fn describe(request: &Request) -> String {
+    match *request {
+        Request::Arm { force: false } => "arm".to_owned(),
+        Request::Arm { force: true } => "arm without checks".to_owned(),
+        Request::Disarm { force: false } => "disarm".to_owned(),
+        Request::Disarm { force: true } => "kill".to_owned(),
+        Request::TakeOff { height_m } => format!("take-off to {height_m} m"),
+        Request::Hold => "hold".to_owned(),
+        Request::GoTo { position_m, yaw_rad } => {
+            let [north, west, up] = shown(Vector3::from(position_m).cast());
+            format!("go to north {north}, west {west}, up {up} m, yaw {}°", yaw_rad.to_degrees().round() + 0.0)
+        }
+        Request::Velocity { velocity_m_s: [north, west, up], yaw_rate_rad_s } => {
+            format!("velocity north {north}, west {west}, up {up} m/s, yaw {}°/s", yaw_rate_rad_s.to_degrees().round())
+        }
+        Request::Land => "land".to_owned(),
+        Request::Return => "return".to_owned(),
+        Request::Follow => "trajectory".to_owned(),
+    }
+}
+
+/// The commander's reason, and what helps.
+fn refused(refusal: Refusal) -> String {
+    let remedy = match refusal {
+        Refusal::Disarmed => "; `arm` first",
+        Refusal::OnGround => "; `takeoff` first",
+        Refusal::NoNavigation | Refusal::NotAligned | Refusal::NoPosition | Refusal::NoHeight => "; wait for sensors",
+        _ => "",
+    };
+    format!("refused, {}{remedy}", refusal.reason())
+}

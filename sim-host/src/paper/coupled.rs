@@ -1,0 +1,127 @@
+//! The same claims where the vehicle has to tilt to move: Eq. 2 as it stands, and the rigid body.
+
+use firmware::control::sliding::{AxisGains, ReachingLaw};
+
+use super::Line;
+use super::claims::{ALTITUDE_ERROR, ALTITUDE_ERROR_M, AVERAGE_FOLLOWS};
+use super::flights::{Flights, Flown};
+
+pub(super) fn lines(flights: &Flights) -> Vec<Line> {
+    let Flights { literal, literal_strong, literal_thin, literal_slow, helix, .. } = flights;
+    vec![
+        settled(literal, relay(literal)),
+        error(literal, height_first(literal)),
+        error(literal_strong, not_the_limits(literal_strong)),
+        error(literal_thin, thin(literal_thin)),
+        settled(literal_slow, slow(literal_slow)),
+        settled(helix, bound(helix)),
+        error(helix, own_gains()),
+    ]
+}
+
+/// What flies, in words.
+fn vehicle(flown: &Flown) -> String {
+    match flown.name.strip_prefix("paper-literal") {
+        Some(set) => format!("coupled vehicle{set}"),
+        None => "rigid body, gains of our own".into(),
+    }
+}
+
+fn settled(flown: &Flown, why: String) -> Line {
+    let claim = format!("{}: all follow within 0.5 s", vehicle(flown));
+    Line::new(&claim, AVERAGE_FOLLOWS.source, flown, "x, y and z all within 5 cm from", "s").with(
+        Some(AVERAGE_FOLLOWS.time_s),
+        flown.all_settled(),
+        why,
+    )
+}
+
+fn error(flown: &Flown, why: String) -> Line {
+    let claim = format!("{}: error “nearly 0.002”", vehicle(flown));
+    Line::new(&claim, ALTITUDE_ERROR.source, flown, "greatest error of x, y, z after 4 s", "m").with(
+        Some(ALTITUDE_ERROR_M),
+        flown.greatest_error(),
+        why,
+    )
+}
+
+/// K/ρ: how fast s dies in the layer, 1/s.
+fn layer_rate(gains: &AxisGains) -> f64 {
+    match gains.reaching {
+        ReachingLaw::Sat { rho } => f64::from(gains.gain) / f64::from(rho),
+        _ => f64::INFINITY,
+    }
+}
+
+fn relay(flown: &Flown) -> String {
+    let control = flown.control();
+    format!(
+        "Ux and Uy act through roll and pitch (Eq. 11), whose errors die as exp(−{} t). In a layer of {:.5} m/s the laws of x and \
+         y ask s to die as exp(−K t/ρ), K/ρ = {:.0} 1/s: through the attitude that is a switch that acts too late",
+        control.roll.lambda,
+        f64::from(control.x.gain) / layer_rate(&control.x),
+        layer_rate(&control.x),
+    )
+}
+
+fn height_first(flown: &Flown) -> String {
+    let airframe = &flown.scenario.airframe;
+    let level = flown.rows.iter().filter(|row| row.desired_attitude[..2] == [0.0, 0.0]).count();
+    format!(
+        "z asks for ±{} m/s², where rotors for {} times the weight give {:.1} m/s²: {:.0} % of the time all thrust goes into \
+         height and none is left to tilt, else hardly any is left at all",
+        flown.control().z.gain,
+        airframe.thrust_to_weight,
+        airframe.thrust_to_weight * airframe.gravity_m_s2,
+        100.0 * level as f64 / flown.rows.len() as f64,
+    )
+}
+
+fn not_the_limits(flown: &Flown) -> String {
+    let tilt = flown.metrics.tilt();
+    let degrees = |angle: Option<f64>| angle.unwrap_or(f64::NAN).to_degrees();
+    format!(
+        "thrust is not the cause alone: with as much as the ideal case takes, the tilt asked for jumps so that roll and pitch \
+         are {:.0}° and {:.0}° off (RMS)",
+        degrees(tilt.roll_rms_rad),
+        degrees(tilt.pitch_rms_rad),
+    )
+}
+
+fn thin(flown: &Flown) -> String {
+    let gains = &flown.control().x;
+    format!(
+        "with λ = {} 1/s and K = {} m/s² on x, y and z but the layer of Table 1, K/ρ is still {:.0} 1/s",
+        gains.lambda,
+        gains.gain,
+        layer_rate(gains),
+    )
+}
+
+fn slow(flown: &Flown) -> String {
+    let (gains, roll) = (&flown.control().x, &flown.control().roll);
+    format!(
+        "the same λ = {} 1/s and K = {} m/s² in a layer of {:.0} m/s: with K/ρ = {:.0} 1/s both are slower than the attitude's {} 1/s \
+         (Table 1), and the same model flies",
+        gains.lambda,
+        gains.gain,
+        f64::from(gains.gain) / layer_rate(gains),
+        layer_rate(gains),
+        roll.lambda,
+    )
+}
+
+fn bound(flown: &Flown) -> String {
+    let bound = flown.scenario.file.time_optimal_s.unwrap_or(f64::NAN);
+    format!(
+        "with thrust for {} times the weight nothing joins the helix exactly before {bound} s (optimal control); within 5 cm \
+         is a little less than exactly",
+        flown.scenario.airframe.thrust_to_weight
+    )
+}
+
+fn own_gains() -> String {
+    "gains of our own: separate time scales, sgn by backward Euler, which does not chatter, and attitude rates from the \
+     reference's jerk and snap"
+        .into()
+}

@@ -1,0 +1,179 @@
+//! Whether a flight did what its pilot asked for. Decided by the truth: where the vehicle was, not where it took itself
+//! to be.
+
+use serde::Serialize;
+
+use super::timeline::{Course, EventKind, Leg, order_text};
+use crate::pilot::Order;
+use crate::sil::{End, Outcome};
+
+/// How near a place has to be reached on satellites, m: half a metre by the pilot's own look, and what a receiver in the
+/// open wanders by.
+pub const REACHED_BY_GNSS_M: f64 = 3.0;
+/// The same where the position is measured directly, m.
+pub const REACHED_M: f64 = 1.0;
+
+/// The verdict on a mission.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Mission {
+    /// Whether all commands were given and carried out.
+    pub completed: bool,
+    /// The first reason why not, and how the flight ended.
+    pub reason: Option<String>,
+}
+
+/// Judges a flight of `commands` commands, with places reached within `radius_m`.
+pub fn judge(course: &Course, outcome: &Outcome, commands: usize, radius_m: f64) -> Mission {
+    let reason = Judge { course, outcome, commands, radius_m }.reason();
+    Mission { completed: reason.is_none(), reason }
+}
+
+struct Judge<'a> {
+    course: &'a Course,
+    outcome: &'a Outcome,
+    commands: usize,
+    radius_m: f64,
+}
+
+impl Judge<'_> {
+    /// The first of the reasons for which it is not completed.
+    fn reason(&self) -> Option<String> {
+        let response = self.course.response.map(|(t, text)| format!("{text} at {t:.1} s; {}", self.ending()));
+        response
+            .or_else(|| self.bad_end())
+            .or_else(|| self.left_over())
+            .or_else(|| self.missed())
+            .or_else(|| self.aloft())
+    }
+
+    fn bad_end(&self) -> Option<String> {
+        match self.outcome.end {
+            End::DurationReached => None,
+            End::NeverFlew => {
+                let refused = self.course.timeline.events.iter().rfind(|event| event.kind == EventKind::Refused);
+                Some(refused.map_or_else(|| self.ending(), |event| format!("{}: {}", self.ending(), event.text)))
+            }
+            _ => Some(self.ending()),
+        }
+    }
+
+    /// How the flight ended, in words.
+    fn ending(&self) -> String {
+        let t = f64::from(self.outcome.ticks) / 1e3;
+        match (self.outcome.end, self.outcome.touchdown) {
+            (End::DurationReached, Some(contact)) => {
+                let (at, away) = (contact.t_s, contact.from_start_m);
+                format!("landed at {at:.1} s with {:.2} m/s, {away:.1} m from the start", contact.descent_m_s)
+            }
+            (End::DurationReached, None) => "still flying at the end".into(),
+            (end, _) => end_text(&end, t),
+        }
+    }
+
+    fn left_over(&self) -> Option<String> {
+        let given = self.course.legs.len();
+        let waits = || {
+            let last =
+                self.course.legs.last().map_or("the first".into(), |leg| format!("`{}`", order_text(&leg.order)));
+            format!("{given} of {} commands given: {last} was not reached in time", self.commands)
+        };
+        (given < self.commands).then(waits)
+    }
+
+    fn missed(&self) -> Option<String> {
+        let far = |leg: &&Leg| is_a_place(leg) && leg.off_m.is_none_or(|off| off > self.radius_m);
+        let missed = self.course.legs.iter().find(far)?;
+        let off = missed.off_m.unwrap_or(f64::NAN);
+        Some(format!("`{}` missed by {off:.1} m", order_text(&missed.order)))
+    }
+
+    /// Of a flight that was told to land: whether it did, and where.
+    fn aloft(&self) -> Option<String> {
+        let last = self.course.legs.iter().rfind(|leg| !matches!(leg.order, Order::Disarm))?;
+        if !matches!(last.order, Order::Land | Order::Return) {
+            return None;
+        }
+        let Some(contact) = self.outcome.touchdown else { return Some("it has not landed".into()) };
+        let ([x, y, _], place) = (contact.position_m, last.place.unwrap_or(contact.position_m));
+        let off = libm::hypot(x - place[0], y - place[1]);
+        if off > self.radius_m {
+            return Some(format!("landed {off:.1} m from its place"));
+        }
+        (!self.course.disarmed).then(|| "landed, and not disarmed".into())
+    }
+}
+
+/// Whether it has to be somewhere once the command is carried out.
+fn is_a_place(leg: &Leg) -> bool {
+    matches!(leg.order, Order::TakeOff { .. } | Order::GoTo { .. })
+}
+
+/// Why a flight of `t` seconds ended, in words.
+pub fn end_text(end: &End, t: f64) -> String {
+    match end {
+        End::DurationReached => format!("flown for {t} s"),
+        End::LeftReference => format!("LOST: more than 50 m from its reference at {t:.1} s"),
+        End::NotFinite => format!("LOST: its motion was no longer finite at {t:.1} s"),
+        End::Interrupted => format!("interrupted at {t:.1} s"),
+        End::NeverFlew => "never flew".into(),
+        End::Crashed(crash) if crash.tilt_rad > std::f64::consts::FRAC_PI_3 => {
+            format!("CRASHED at {:.1} s: on the ground with a tilt of {:.0}°", crash.t_s, crash.tilt_rad.to_degrees())
+        }
+        End::Crashed(crash) => {
+            format!("CRASHED at {:.1} s: hit the ground with {:.1} m/s", crash.t_s, crash.descent_m_s)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::timeline::Timeline;
+    use crate::report::touchdown::{Contact, Crash};
+
+    const TAKE_OFF: Order = Order::TakeOff { height_m: 5.0 };
+
+    fn leg(order: Order, off_m: f64) -> Leg {
+        Leg { order, place: Some([0.0; 3]), off_m: Some(off_m) }
+    }
+
+    fn course(legs: Vec<Leg>) -> Course {
+        Course { legs, disarmed: true, timeline: Timeline::default(), ..Course::default() }
+    }
+
+    fn landed(away: f64) -> Outcome {
+        let contact =
+            Contact { t_s: 46.9, descent_m_s: 0.4, drift_m_s: 0.0, position_m: [away, 0.0, 0.0], from_start_m: away };
+        Outcome { ticks: 60_000, touchdown: Some(contact), ..Outcome::default() }
+    }
+
+    fn reason(course: &Course, outcome: &Outcome) -> String {
+        judge(course, outcome, 2, REACHED_BY_GNSS_M).reason.unwrap_or_default()
+    }
+
+    #[test]
+    fn a_mission_is_completed_if_all_is_done_and_the_vehicle_is_down_in_its_place() {
+        let whole = course(vec![leg(TAKE_OFF, 0.2), leg(Order::Return, 1.0)]);
+        assert!(judge(&whole, &landed(0.5), 2, REACHED_BY_GNSS_M).completed);
+        assert_eq!(reason(&whole, &landed(3.5)), "landed 3.5 m from its place");
+        assert_eq!(reason(&whole, &Outcome::default()), "it has not landed");
+        assert_eq!(reason(&Course { disarmed: false, ..whole.clone() }, &landed(0.5)), "landed, and not disarmed");
+        let missed = course(vec![leg(TAKE_OFF, 3.2), leg(Order::Return, 1.0)]);
+        assert_eq!(reason(&missed, &landed(0.5)), "`take-off to 5 m` missed by 3.2 m");
+        let left_over = course(vec![leg(TAKE_OFF, 0.1)]);
+        assert!(reason(&left_over, &Outcome::default()).starts_with("1 of 2 commands given: `take-off to 5 m`"));
+    }
+
+    #[test]
+    fn what_the_vehicle_did_by_itself_comes_first_and_then_how_it_ended() {
+        let response = Some((31.1, "Position lost: descending"));
+        let lost = Course { response, ..course(vec![leg(TAKE_OFF, 0.1), leg(Order::Land, 0.1)]) };
+        assert_eq!(
+            reason(&lost, &landed(12.3)),
+            "Position lost: descending at 31.1 s; landed at 46.9 s with 0.40 m/s, 12.3 m from the start"
+        );
+        let crash = Crash { t_s: 40.0, descent_m_s: 13.0, tilt_rad: 0.1 };
+        let crashed = Outcome { end: End::Crashed(crash), ..landed(1.0) };
+        assert!(reason(&lost, &crashed).ends_with("CRASHED at 40.0 s: hit the ground with 13.0 m/s"));
+    }
+}

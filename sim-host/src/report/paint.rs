@@ -1,0 +1,53 @@
+//! Colour, where the terminal has it.
+
+use std::io::IsTerminal as _;
+
+/// Colours, or none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Paint {
+    on: bool,
+}
+
+impl Paint {
+    /// None: for files and pipes.
+    pub const PLAIN: Self = Self { on: false };
+
+    /// For standard output: none unless it is a terminal, nor if `NO_COLOR` is set or `TERM` is `dumb`.
+    pub fn for_stdout() -> Self {
+        let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+        let able = std::env::var_os("TERM").is_some_and(|term| term != "dumb");
+        Self { on: wanted && able && std::io::stdout().is_terminal() }
+    }
+
+    /// Green and bold for what is well, red and bold for what is not.
+    pub fn verdict(self, text: &str, good: bool) -> String {
+        self.paint(if good { "1;32" } else { "1;31" }, text)
+    }
+
+    /// Dim, line by line: for what matters less.
+    pub fn dim(self, text: &str) -> String {
+        text.split_inclusive('\n').map(|line| self.dim_line(line)).collect()
+    }
+
+    fn dim_line(self, line: &str) -> String {
+        let bare = line.trim_end_matches('\n');
+        self.paint("2", bare) + &line[bare.len()..]
+    }
+
+    fn paint(self, code: &str, text: &str) -> String {
+        if self.on && !text.is_empty() { format!("\x1b[{code}m{text}\x1b[0m") } else { text.to_owned() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colour_is_around_the_text_and_nowhere_without_a_terminal() {
+        let paint = Paint { on: true };
+        assert_eq!(paint.verdict("well", true), "\x1b[1;32mwell\x1b[0m");
+        assert_eq!(paint.dim("a\n\nb\n"), "\x1b[2ma\x1b[0m\n\n\x1b[2mb\x1b[0m\n");
+        assert_eq!(Paint::PLAIN.verdict("well", false) + &Paint::PLAIN.dim("a\n"), "wella\n");
+    }
+}

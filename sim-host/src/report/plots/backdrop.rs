@@ -1,0 +1,196 @@
+//! What a flight was doing behind what is drawn of it: phases, faults, events.
+
+use super::style::{Color, INK, Key, Role, palette};
+use super::svg::{Anchor, Area, Font, Stroke, text_width};
+
+/// Height of the strip of one kind's names.
+const STRIP: f64 = 17.0;
+const SIZE: f64 = 11.5;
+/// The event that ends a flight.
+pub(super) const DISARMED: &str = "disarmed";
+/// How strong a phase's colour is behind its name, and behind the lines.
+const STRIP_TINT: f64 = 0.45;
+const SHADE_TINT: f64 = 0.16;
+
+/// A stretch of a flight with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Span {
+    pub(super) name: String,
+    /// s.
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) color: Color,
+}
+
+impl Span {
+    fn kind(&self) -> &str {
+        kind_of(&self.name)
+    }
+}
+
+/// A phase's name without its number: `go-to 2` is a `go-to`.
+fn kind_of(name: &str) -> &str {
+    name.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ')
+}
+
+/// Phases, faults and events of a flight, drawn behind a panel over time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Backdrop {
+    pub(super) phases: Vec<Span>,
+    pub(super) faults: Vec<Span>,
+    /// Events with their times, s.
+    pub(super) events: Vec<(f64, String)>,
+    /// When it has landed, s; before all times, if it never flew.
+    pub(super) landed: Option<f64>,
+    /// Whether names stand above the panel, or the shades alone are drawn.
+    pub(super) named: bool,
+}
+
+impl Backdrop {
+    /// The same with names above the panel.
+    pub(super) fn named(&self) -> Self {
+        Self { named: true, ..self.clone() }
+    }
+
+    /// The legend's entries of phases, each once, and of faults.
+    pub(super) fn keys(&self) -> Vec<Key<'_>> {
+        let faults = (!self.faults.is_empty()).then_some(Key::Line("fault", Role::Fault));
+        self.phases_once().map(|(name, color)| Key::Series(name, color.tint(STRIP_TINT))).chain(faults).collect()
+    }
+
+    /// The legend's entries of legs in the colours of phases.
+    pub(super) fn leg_keys(&self) -> Vec<Key<'_>> {
+        self.phases_once().map(|(name, color)| Key::Line(name, Role::Leg(color))).collect()
+    }
+
+    fn phases_once(&self) -> impl Iterator<Item = (&str, Color)> {
+        let mut seen: Vec<&Span> = Vec::new();
+        for span in &self.phases {
+            if seen.iter().all(|known| known.kind() != span.kind()) {
+                seen.push(span);
+            }
+        }
+        seen.into_iter().map(|span| (span.kind(), span.color))
+    }
+
+    /// When all is over, s: it was disarmed, and did not fly again. Infinite, if it was not.
+    pub(super) fn end(&self) -> f64 {
+        let flown = self.phases.last().map_or(f64::INFINITY, |phase| phase.to);
+        time_of(&self.events, DISARMED).filter(|t| *t >= flown).unwrap_or(f64::INFINITY)
+    }
+
+    /// Whether the vehicle flies at `t`, s: always, where nothing is known of phases. What it is to do before and after
+    /// is no reference to compare with.
+    pub(super) fn flies(&self, t: f64) -> bool {
+        let landed = self.landed.is_some_and(|landed| t >= landed);
+        let flies = || self.phases.is_empty() || self.phases.iter().any(|span| (span.from..span.to).contains(&t));
+        !landed && flies()
+    }
+
+    /// Rows of names, from the bottom: phases, faults, events.
+    fn strips(&self) -> [bool; 3] {
+        [!self.phases.is_empty(), !self.faults.is_empty(), !self.events.is_empty()].map(|any| any && self.named)
+    }
+
+    /// Pixels that the names need above a panel.
+    pub(super) fn height(&self) -> f64 {
+        STRIP * self.strips().iter().filter(|strip| **strip).count() as f64
+    }
+
+    /// The middle of a kind's strip, above the panel's upper edge.
+    fn strip(&self, kind: usize) -> Option<f64> {
+        let strips = self.strips();
+        let below = strips[..kind].iter().filter(|strip| **strip).count() as f64;
+        strips[kind].then_some(-STRIP * (below + 0.5))
+    }
+
+    /// Draws shades and names into a panel whose horizontal axis shows `range`, s.
+    pub(super) fn draw(&self, chart: &Area, range: (f64, f64)) {
+        for span in &self.phases {
+            draw_phase(chart, range, span, self.strip(0));
+        }
+        for span in &self.faults {
+            self.draw_fault(chart, range, span);
+        }
+    }
+
+    /// A fault: bars at both ends and a line along the upper edge, so that the phases show below it.
+    fn draw_fault(&self, chart: &Area, range: (f64, f64), span: &Span) {
+        let (left, right) = (place(chart, range, span.from), place(chart, range, span.to));
+        if right <= left {
+            return;
+        }
+        let edge = Stroke { color: span.color, width: 1.2, dashed: true };
+        chart.line([(left, chart.height), (left, 0.0)], edge);
+        chart.line([(left, -2.5), (right, -2.5)], Role::Fault.stroke());
+        if span.to < range.1 {
+            chart.line([(right, 0.0), (right, chart.height)], edge);
+        }
+        let Some(middle) = self.strip(1) else { return };
+        chart.rectangle((left, middle - 0.5 * STRIP), (right, middle + 0.5 * STRIP), span.color.tint(0.3));
+        // A name that does not fit goes on beyond a short fault, or to its left.
+        let wide = text_width(&span.name, SIZE);
+        let (x, anchor) = match () {
+            () if wide < right - left => (left + 4.0, Anchor::Start),
+            () if right + wide + 4.0 < chart.width => (right + 4.0, Anchor::Start),
+            () => (left - 4.0, Anchor::End),
+        };
+        chart.text((x, middle), &span.name, Font::new(SIZE, anchor));
+    }
+
+    /// Draws a line at each event, and its name where those before leave room.
+    pub(super) fn draw_events(&self, chart: &Area, range: (f64, f64)) {
+        let mut taken = 0.0;
+        for (t, name) in self.events.iter().filter(|(t, _)| (range.0..=range.1).contains(t)) {
+            let x = place(chart, range, *t);
+            chart.line([(x, 0.0), (x, chart.height)], Stroke { color: INK, width: 1.0, dashed: true });
+            let Some(middle) = self.strip(2) else { continue };
+            let wide = text_width(name, SIZE);
+            let left = (x - 0.5 * wide).clamp(0.0, (chart.width - wide).max(0.0)).max(taken);
+            if left + wide > chart.width + 12.0 {
+                continue;
+            }
+            chart.line([(x, middle + 0.5 * STRIP), (x, 0.0)], Stroke { color: INK, width: 1.0, dashed: true });
+            chart.text((left, middle), name, Font::new(SIZE, Anchor::Start));
+            taken = left + wide + 6.0;
+        }
+    }
+}
+
+/// A phase: a shade, and its name where it fits; the legend has it too.
+fn draw_phase(chart: &Area, range: (f64, f64), span: &Span, strip: Option<f64>) {
+    let (left, right) = (place(chart, range, span.from), place(chart, range, span.to));
+    if right <= left {
+        return;
+    }
+    chart.rectangle((left, 0.0), (right, chart.height), span.color.tint(SHADE_TINT));
+    let Some(middle) = strip else { return };
+    // A gap shows where one of a kind follows another.
+    chart.rectangle((left + 0.5, middle - 0.5 * STRIP), (right - 0.5, middle + 0.5 * STRIP), span.color.tint(STRIP_TINT));
+    if text_width(&span.name, SIZE) < right - left {
+        chart.text((f64::midpoint(left, right), middle), &span.name, Font::new(SIZE, Anchor::Middle));
+    }
+}
+
+/// When something happened, s.
+pub(super) fn time_of(events: &[(f64, String)], name: &str) -> Option<f64> {
+    events.iter().find(|(_, known)| known == name).map(|(t, _)| *t)
+}
+
+/// Pixels from the left, within the panel.
+fn place(chart: &Area, (from, to): (f64, f64), t: f64) -> f64 {
+    chart.width * ((t - from) / (to - from)).clamp(0.0, 1.0)
+}
+
+/// The colour of a mode, the same in every figure.
+pub(super) fn phase_color(name: &str) -> Color {
+    match kind_of(name) {
+        "take-off" => palette::GREEN,
+        "hold" => palette::SKY,
+        "go-to" | "velocity" => palette::BLUE,
+        "trajectory" => palette::ORANGE,
+        "return" => palette::PURPLE,
+        "land" | "descent" | "motor-out" => palette::VERMILION,
+        _ => palette::GREY,
+    }
+}

@@ -1,0 +1,314 @@
+//! The paper's Figures 2 to 7, laid out as its captions say, and one of the coupled vehicle beside them.
+//!
+//! The text gives no time windows. Where two lines coincide after the approach, the approach and the error are shown:
+//! the first second holds every time that the paper names; its times are marked.
+//!
+//! On the surface a control input switches every 10 µs (its mean ± m K, or ± I K). What is drawn is its mean over the
+//! millisecond from one row to the next, as the motion tells it, in the band within which it switches: single values
+//! taken every millisecond would show one side of the switching alone.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+
+use super::axis::{Quantity, Unit};
+use super::backdrop::Backdrop;
+use super::disturbance::{applied_panel, error_panel};
+use super::flight::{Disturbance, Figures};
+use super::page::{grid, save, size_of};
+use super::panel::{ANGLES, POSITIONS, Panel};
+use super::path;
+use super::series::{Points, angle_over_time, angles_deg, over_time, thin_path};
+use super::style::{Color, Key, Role, palette};
+use super::tracking::phase_panel;
+use crate::decoupled::STEP_S;
+use crate::paper::claims::{ALTITUDE_AT_REST, ALTITUDE_ERROR, Y_FOLLOWS, Z_FOLLOWS};
+use crate::paper::flights::{Flights, Flown, SEED};
+use crate::record::Row;
+use crate::report::timeline::Timeline;
+use crate::report::angles::roll_pitch_yaw;
+use crate::report::metrics::errors;
+
+/// What is shown of the approach, s.
+const APPROACH_S: f64 = 1.0;
+/// Height of a panel: of four in a figure, of six or nine, and of twelve.
+const HIGH: u32 = 310;
+const MIDDLE: u32 = 250;
+const LOW: u32 = 215;
+/// Distances are shown from a hundredth of a millimetre on, as logarithms of metres.
+const DISTANCES: (f64, f64) = (-5.0, 2.0);
+const FOLLOWING: [Key; 3] = [Key::Reference, Key::Flown, Key::Start];
+const SURFACE: Key = Key::Line("surface s = 0", Role::Series(palette::ORANGE));
+const SWITCHES: Key = Key::Series("switches within", palette::BAND);
+
+/// Draws all into `folder`. Returns the files written, in the paper's order.
+///
+/// # Errors
+/// When a file cannot be written; the message names it.
+pub fn draw(flights: &Flights, folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut files = vec![altitude(folder, &flights.ideal)?, position(folder, &flights.ideal)?];
+    files.push(attitude(folder, &flights.attitude)?);
+    for (flown, name) in [(&flights.disturbed, ""), (&flights.disturbed_output, "-output")] {
+        if let Some(applied) = figures(flown).disturbance {
+            files.push(disturbance(&folder.join(format!("figure-5-disturbance{name}.svg")), flown, &applied)?);
+            files.push(disturbed(&folder.join(format!("figure-6-disturbed{name}.svg")), flown, applied.acting)?);
+        }
+    }
+    files.push(helix(folder, &flights.ideal)?);
+    files.push(coupled(folder, flights)?);
+    Ok(files)
+}
+
+/// Figure 2: altitude, its error, its phase plot, its control input.
+fn altitude(folder: &Path, flown: &Flown) -> Result<PathBuf> {
+    let start = approach(&flown.rows);
+    let millimetres = |t: f64| flown.at(t).map_or(f64::NAN, |row| 1e3 * errors(row)[2]);
+    let [follows, settled] = [Z_FOLLOWS.time_s, ALTITUDE_ERROR.time_s];
+    let claimed = events(&[
+        (follows, &format!("{follows} s: {:.0} mm", millimetres(follows))),
+        (settled, &format!("{settled} s: {:.0} mm, paper 2 mm", millimetres(settled))),
+    ]);
+    let error = Panel { backdrop: claimed, ..titled("b) tracking error", error_panel(start, 2)) };
+    let constants = flown.scenario.constants();
+    let mean = |pair: &[Row]| {
+        let acceleration = (pair[1].velocity[2] - pair[0].velocity[2]) / (pair[1].t - pair[0].t);
+        constants.mass * (acceleration + constants.gravity) + constants.drag.z * pair[0].velocity[2]
+    };
+    let thrust: Points = start.windows(2).map(|pair| (pair[0].t, mean(pair))).collect();
+    let gain = f64::from(flown.control().z.gain);
+    let sliding = Sliding { from_s: reached(start, 5, gain), swing: constants.mass * gain };
+    let panels = [
+        titled("a) altitude", tracking(&flown.rows, 2)),
+        error,
+        surface(flown, 2, "c) phase plot"),
+        switched("d) control input", Quantity::new("U1", Unit::Newton), thrust, &sliding),
+    ];
+    let path = folder.join("figure-2-altitude.svg");
+    let legend = [FOLLOWING.as_slice(), &[SURFACE, SWITCHES]].concat();
+    save(&path, size_of(2, HIGH), &heading(flown, "Figure 2: altitude"), &legend, |area| grid(area, 2, &panels))?;
+    Ok(path)
+}
+
+/// Figure 3: x and y, their errors and their phase portraits.
+fn position(folder: &Path, flown: &Flown) -> Result<PathBuf> {
+    let start = approach(&flown.rows);
+    let panels: Vec<Panel> = [(0, None), (1, Some((Y_FOLLOWS.time_s, "0.4 s: follows")))]
+        .into_iter()
+        .flat_map(|(axis, claimed)| {
+            let name = POSITIONS[axis];
+            let backdrop = events(claimed.as_slice());
+            [
+                titled(&format!("{name}: tracking"), tracking(&flown.rows, axis)),
+                Panel { backdrop, ..titled(&format!("{name}: error of the first second"), error_panel(start, axis)) },
+                surface(flown, axis, &format!("{name}: phase portrait")),
+            ]
+        })
+        .collect();
+    let path = folder.join("figure-3-position.svg");
+    let legend = [FOLLOWING.as_slice(), &[SURFACE]].concat();
+    let heading = heading(flown, "Figure 3: position");
+    save(&path, size_of(2, HIGH), &heading, &legend, |area| grid(area, 3, &panels))?;
+    Ok(path)
+}
+
+/// Figure 4: roll, pitch and yaw, their errors and their control inputs.
+fn attitude(folder: &Path, flown: &Flown) -> Result<PathBuf> {
+    let start = approach(&flown.rows);
+    let panels: Vec<Panel> = (0..3)
+        .flat_map(|axis| {
+            let (name, input) = (ANGLES[axis], format!("U{}", axis + 2));
+            let control = flown.control();
+            let gains = [&control.roll, &control.pitch, &control.yaw][axis];
+            let gain = f64::from(gains.gain);
+            let swing = flown.scenario.constants().inertia[axis] * gain;
+            let sliding = Sliding { from_s: reached(start, axis, gain), swing };
+            [
+                titled(&format!("{name}: tracking"), angle(&flown.rows, axis)),
+                titled(&format!("{name}: error of the first second"), error_panel(start, axis + 3)),
+                switched(
+                    &format!("{name}: control input"),
+                    Quantity::new(input, Unit::NewtonMetre),
+                    mean_torque(flown, start, axis),
+                    &sliding,
+                ),
+            ]
+        })
+        .collect();
+    let path = folder.join("figure-4-attitude.svg");
+    let heading = heading(flown, "Figure 4: roll, pitch and yaw");
+    let legend = [Key::Reference, Key::Flown, SWITCHES];
+    save(&path, size_of(3, MIDDLE), &heading, &legend, |area| grid(area, 3, &panels))?;
+    Ok(path)
+}
+
+/// Figure 5: the disturbance of all six coordinates.
+fn disturbance(path: &Path, flown: &Flown, applied: &Disturbance) -> Result<PathBuf> {
+    let panels = [0, 3, 1, 4, 2, 5].map(|axis| applied_panel(applied, axis));
+    let on = if applied.on_accelerations { "accelerations" } else { "outputs" };
+    let heading = heading(flown, &format!("Figure 5: Gaussian disturbance of the {on}"));
+    save(path, size_of(3, LOW), &heading, &[Key::Disturbed], |area| grid(area, 2, &panels))?;
+    Ok(path.to_owned())
+}
+
+/// Figure 6: all six coordinates under the disturbance, and their errors around it.
+fn disturbed(path: &Path, flown: &Flown, acting: (f64, f64)) -> Result<PathBuf> {
+    let rows = &flown.rows;
+    let around = &rows[rows.partition_point(|row| row.t < acting.0 - 1.0)..];
+    let letters = ["a) position x", "b) position y", "c) altitude", "d) roll", "e) pitch", "f) yaw"];
+    let outputs = |first: usize| {
+        let output = move |axis: usize| if axis < 3 { tracking(rows, axis) } else { angle(rows, axis - 3) };
+        let error = move |axis: usize| titled("its error", error_panel(around, axis));
+        let shown = move |axis: usize| titled(letters[axis], output(axis));
+        (first..first + 3).map(shown).chain((first..first + 3).map(error))
+    };
+    let shade = |panel: Panel| Panel { shaded: Some(acting), ..panel };
+    let panels: Vec<Panel> = outputs(0).chain(outputs(3)).map(shade).collect();
+    let heading = heading(flown, "Figure 6: tracking under disturbance");
+    let legend = [Key::Disturbed, Key::Reference, Key::Flown];
+    save(path, size_of(4, LOW), &heading, &legend, |area| grid(area, 3, &panels))?;
+    Ok(path.to_owned())
+}
+
+/// Figure 7: the helix in space and from above.
+fn helix(folder: &Path, flown: &Flown) -> Result<PathBuf> {
+    let path = folder.join("figure-7-helix.svg");
+    path::draw(&path, &heading(flown, "Figure 7: helix (4 sin t, 5 cos t, 2 + t) m from (0, 0, 0)"), &figures(flown))?;
+    Ok(path)
+}
+
+/// What Table 1 does where the vehicle has to tilt to move, beside gains that fly.
+fn coupled(folder: &Path, flights: &Flights) -> Result<PathBuf> {
+    let Flights { ideal, literal, literal_slow, helix, .. } = flights;
+    let compared: [(&str, &Flown, Color); 4] = [
+        ("decoupled", ideal, palette::GREEN),
+        ("coupled", literal, palette::VERMILION),
+        ("slow gains, wide layer", literal_slow, palette::PURPLE),
+        ("own gains", helix, palette::SKY),
+    ];
+    let within = ideal.rows.len();
+    let lines =
+        compared.map(|(_, flown, color)| (Role::Series(color), distance(&flown.rows[..within.min(flown.rows.len())])));
+    let distances = Panel::over_time("d) distance from the helix", "distance, m", lines.to_vec());
+    let panels = [
+        from_above("a) from above: Table 1 on the coupled model", literal),
+        from_above("b) from above: own gains on the rigid body", helix),
+        titled("c) pitch: Table 1 on the coupled model", angle(&literal.rows, 1)),
+        Panel { decades_up: Some(DISTANCES), ..distances },
+    ];
+    let path = folder.join("coupled-vehicle.svg");
+    let keys = compared.map(|(name, _, color)| Key::Series(name, color));
+    let legend = [[Key::Reference, Key::Flown].as_slice(), &keys].concat();
+    let heading = "Coupled vehicle: Table 1, and gains that fly";
+    save(&path, size_of(2, 400), heading, &legend, |area| grid(area, 2, &panels))?;
+    Ok(path)
+}
+
+fn figures(flown: &Flown) -> Figures<'_> {
+    Figures::new(&flown.scenario, SEED, &flown.rows, &[], &Timeline::default())
+}
+
+fn heading(flown: &Flown, title: &str) -> String {
+    format!("{title}\n{}", flown.name)
+}
+
+fn titled(title: &str, panel: Panel) -> Panel {
+    Panel { title: title.into(), ..panel }
+}
+
+/// Times that the paper names.
+fn events(times: &[(f64, &str)]) -> Backdrop {
+    let events = times.iter().map(|(t, name)| (*t, (*name).to_owned())).collect();
+    Backdrop { events, named: true, ..Backdrop::default() }
+}
+
+fn approach(rows: &[Row]) -> &[Row] {
+    &rows[..rows.partition_point(|row| row.t <= APPROACH_S)]
+}
+
+fn tracking(rows: &[Row], axis: usize) -> Panel {
+    let lines = vec![
+        (Role::Reference, over_time(rows, |row| row.reference[axis])),
+        (Role::Flown, over_time(rows, |row| row.position[axis])),
+    ];
+    Panel::over_time("", Quantity::place(POSITIONS[axis]), lines)
+}
+
+fn angle(rows: &[Row], axis: usize) -> Panel {
+    let lines = vec![
+        (Role::Reference, angle_over_time(rows, |row| row.desired_attitude[axis].to_degrees())),
+        (Role::Flown, angle_over_time(rows, |row| angles_deg(row)[axis])),
+    ];
+    Panel::over_time("", Quantity::new(ANGLES[axis], Unit::Degree).at_least(2.0), lines)
+}
+
+/// A phase portrait with the surface s = 0 that it ends on; where the paper says that z is at rest, a ring.
+fn surface(flown: &Flown, axis: usize, title: &str) -> Panel {
+    let control = flown.control();
+    let lambda = f64::from([&control.x, &control.y, &control.z][axis].lambda);
+    let panel = titled(title, phase_panel(&flown.rows, axis));
+    let rates = || panel.lines.iter().flat_map(|(_, points)| points).map(|p| p.1).filter(|rate| rate.is_finite());
+    let (low, high) = rates().fold((0.0_f64, 0.0_f64), |(low, high), rate| (low.min(rate), high.max(rate)));
+    // A little further than it is slid along, so that it shows.
+    let (steep, over) = (1.15 * low, 0.6 * high.min(-low));
+    let line = vec![(-over / lambda, over), (-steep / lambda, steep)];
+    let at_rest = (axis == 2).then(|| flown.at(ALTITUDE_AT_REST.time_s)).flatten();
+    let place = |row: &Row| {
+        let error = errors(row)[axis];
+        ((error, -lambda * error), format!("{} s", ALTITUDE_AT_REST.time_s))
+    };
+    let surface = (Role::Series(palette::ORANGE), line);
+    let lines = std::iter::once(surface).chain(panel.lines.iter().cloned()).collect();
+    Panel { lines, places: at_rest.map(place).into_iter().collect(), ..panel }
+}
+
+/// From when on a control input switches, and by how much around its mean.
+struct Sliding {
+    from_s: f64,
+    swing: f64,
+}
+
+/// When a sliding variable comes within what a step of the decoupled model moves it by, s.
+fn reached(rows: &[Row], variable: usize, gain: f64) -> f64 {
+    let row = rows.iter().find(|row| row.s[variable].abs() <= gain * STEP_S);
+    row.map_or(f64::INFINITY, |row| row.t)
+}
+
+/// A control input by its mean, with the band within which it switches.
+fn switched(title: &str, up: Quantity, mean: Points, sliding: &Sliding) -> Panel {
+    let edge = |by: f64| mean.iter().filter(|(t, _)| *t > sliding.from_s).map(|(t, u)| (*t, u + by)).collect();
+    let band = Some((edge(-sliding.swing), edge(sliding.swing)));
+    Panel { band, span: Some((0.0, APPROACH_S)), ..Panel::over_time(title, up, vec![(Role::Flown, mean)]) }
+}
+
+/// The torque about an axis (N m) as the motion tells it: Eq. 2 for U2, U3 or U4, with Ωr = 0.
+fn mean_torque(flown: &Flown, rows: &[Row], axis: usize) -> Points {
+    let constants = flown.scenario.constants();
+    let (inertia, drag) = (&constants.inertia, &constants.rotational_drag);
+    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+    let torque = |rows: &[Row]| {
+        let [before, now, after] = [0, 1, 2].map(|i| roll_pitch_yaw(rows[i].attitude));
+        let h = rows[1].t - rows[0].t;
+        let rate = |i: usize| (after[i] - before[i]) / (2.0 * h);
+        let acceleration = (after[axis] - 2.0 * now[axis] + before[axis]) / (h * h);
+        let gyroscopic = (inertia[next] - inertia[last]) * rate(next) * rate(last);
+        let torque = inertia[axis] * acceleration + drag[axis] * rate(axis) * rate(axis).abs() - gyroscopic;
+        (rows[1].t, torque)
+    };
+    rows.windows(3).map(torque).collect()
+}
+
+fn from_above(title: &str, flown: &Flown) -> Panel {
+    let path = |of: fn(&Row) -> (f64, f64)| thin_path(flown.rows.iter().map(of).collect());
+    let lines = vec![
+        (Role::Reference, path(|row| (row.reference[0], row.reference[1]))),
+        (Role::Flown, path(|row| (row.position[0], row.position[1]))),
+    ];
+    let panel = Panel::path(title, Quantity::place("x (north)"), Quantity::place("y (west)"), vec![]);
+    Panel { lines, equal_scales: true, ..panel }
+}
+
+/// Decimal logarithm of the distance from the reference (m), over time.
+fn distance(rows: &[Row]) -> Points {
+    let squared = |row: &Row| (0..3).map(|axis| (row.reference[axis] - row.position[axis]).powi(2)).sum::<f64>();
+    over_time(rows, |row| libm::log10(squared(row).sqrt()).clamp(DISTANCES.0, DISTANCES.1))
+}

@@ -1,0 +1,141 @@
+//! The course of a flight on sensors or with a pilot: phases, landing, battery, what was known, what failed.
+
+use std::fmt::Write as _;
+
+use super::{aligned, error, undefined};
+use crate::report::sensed::{Knowledge, Sensed};
+use crate::report::summary::Told;
+use crate::report::timeline::{Event, EventKind, Phase};
+
+/// Several lines with a newline at the end.
+pub(super) fn render(told: &Told, sensed: Option<&Sensed>) -> String {
+    let mut text = phases(&told.timeline.phases) + &events(&told.timeline.events);
+    let mut line = |name: &str, value: &str| writeln!(text, "{name:<10}  {value}").expect("a string takes every byte");
+    for place in &told.places {
+        line("reached", &format!("{} within {:.2} m", place.order, place.off_m));
+    }
+    if let Some(sensed) = sensed {
+        line("landed", &landing(sensed));
+    }
+    if let Some([start, end]) = told.battery {
+        line("battery", &format!("{:.0} % at the start, {:.0} % at the end", 100.0 * start, 100.0 * end));
+    }
+    if let Some(known) = sensed.and_then(|sensed| knowledge(&sensed.estimate)) {
+        line("estimate", &known);
+    }
+    text + "\n"
+}
+
+fn phases(phases: &[Phase]) -> String {
+    let mut rows = vec![["phase", "from", "to", "error RMS", "maximum"].map(String::from)];
+    for phase in phases {
+        let times = [phase.from_s, phase.to_s].map(|t| format!("{t:.1} s"));
+        let [from, to] = times;
+        rows.push([phase.name.clone(), from, to, error(phase.error_rms_m, "m"), error(phase.error_max_m, "m")]);
+    }
+    aligned(&rows) + "\n"
+}
+
+/// What failed and what was done, if anything did.
+fn events(events: &[Event]) -> String {
+    use EventKind as K;
+    let matters = |event: &&Event| !matches!(event.kind, K::Order | K::Touchdown | K::Disarmed);
+    if events.iter().find(matters).is_none() {
+        return String::new();
+    }
+    let mut text = String::new();
+    for Event { t_s, kind, text: what } in events.iter().filter(|event| event.kind != K::Order) {
+        let who = if matches!(kind, K::Response | K::Refused) { "vehicle: " } else { "" };
+        writeln!(text, "{t_s:>8.1} s  {who}{what}").expect("a string takes every byte");
+    }
+    text + "\n"
+}
+
+fn landing(sensed: &Sensed) -> String {
+    let disarmed = sensed.disarmed_s.map_or_else(|| "not disarmed".into(), |t| format!("disarmed at {t:.1} s"));
+    let Some(contact) = sensed.touchdown else { return format!("no; {disarmed}") };
+    format!(
+        "at {:.1} s, {:.2} m from the start, with {:.2} m/s down and {:.2} m/s sideways; {disarmed}",
+        contact.t_s, contact.from_start_m, contact.descent_m_s, contact.drift_m_s
+    )
+}
+
+/// What the vehicle's estimate was off by; nothing of one that was never armed.
+fn knowledge(known: &Knowledge) -> Option<String> {
+    let degrees = |value: Option<f64>| value.map_or_else(undefined, |v| format!("{:.2}°", v.to_degrees()));
+    known.tilt_rms_rad?;
+    Some(format!(
+        "RMS error while armed: tilt {}, heading {}, position {}, velocity {}/s",
+        degrees(known.tilt_rms_rad),
+        degrees(known.heading_rms_rad),
+        error(known.position_rms_m, "m"),
+        error(known.velocity_rms_m_s, "m"),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::summary::Place;
+    use crate::report::timeline::Timeline;
+    use crate::report::touchdown::Contact;
+
+    fn told() -> Told {
+        let phase = |name: &str, from_s, to_s, error: Option<f64>| Phase {
+            name: name.into(),
+            from_s,
+            to_s,
+            error_rms_m: error,
+            error_max_m: error.map(|e| 2.0 * e),
+        };
+        let event = |t_s, kind, text: &str| Event { t_s, kind, text: text.into() };
+        Told {
+            mission: None,
+            places: vec![Place { order: "take-off to 5 m".into(), off_m: 0.21 }],
+            battery: Some([1.0, 0.823]),
+            timeline: Timeline {
+                phases: vec![phase("before arming", 0.0, 2.5, None), phase("take-off", 2.5, 8.125, Some(0.034))],
+                events: vec![
+                    event(2.5, EventKind::Order, "arm"),
+                    event(30.0, EventKind::FaultBegins, "fault: gnss off"),
+                    event(31.1, EventKind::Response, "Position lost: descending"),
+                ],
+            },
+        }
+    }
+
+    #[test]
+    fn a_flight_on_sensors_tells_what_it_did() {
+        let estimate = Knowledge {
+            tilt_rms_rad: Some(0.005),
+            heading_rms_rad: Some(0.02),
+            position_rms_m: Some(1.25),
+            velocity_rms_m_s: Some(0.05),
+        };
+        let touchdown = Some(Contact {
+            t_s: 71.5,
+            descent_m_s: 0.4,
+            drift_m_s: 0.1,
+            position_m: [0.3, 0.4, 0.0],
+            from_start_m: 0.5,
+        });
+        let sensed = Sensed { estimate, touchdown, disarmed_s: Some(73.0) };
+        let expected = "\
+phase           from     to  error RMS    maximum
+before arming  0.0 s  2.5 s          –          –
+take-off       2.5 s  8.1 s  34.000 mm  68.000 mm
+
+    30.0 s  fault: gnss off
+    31.1 s  vehicle: Position lost: descending
+
+reached     take-off to 5 m within 0.21 m
+landed      at 71.5 s, 0.50 m from the start, with 0.40 m/s down and 0.10 m/s sideways; disarmed at 73.0 s
+battery     100 % at the start, 82 % at the end
+estimate    RMS error while armed: tilt 0.29°, heading 1.15°, position 1.25 m, velocity 50.000 mm/s
+
+";
+        assert_eq!(render(&told(), Some(&sensed)), expected);
+        let text = render(&Told { timeline: Timeline::default(), ..told() }, Some(&Sensed::default()));
+        assert!(text.contains("no; not disarmed") && !text.contains("estimate"), "{text}");
+    }
+}

@@ -1,0 +1,126 @@
+//! Who is heard over the link: ground stations come, and are lost when they fall silent.
+//!
+//! By the wall clock, in which ground stations live: they send a heartbeat a second, however fast the simulation runs.
+
+use std::net::SocketAddr;
+use std::time::{Duration, Instant};
+
+/// A ground station that has been silent this long is lost.
+pub const LOST_AFTER: Duration = Duration::from_secs(5);
+/// More are not kept, so that a port scan cannot make the list grow.
+const STATIONS_MAX: usize = 16;
+
+/// A change among those who are heard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum News {
+    /// Heard for the first time, or again.
+    Heard {
+        /// Its address.
+        address: SocketAddr,
+        /// Its MAVLink system.
+        system: u8,
+    },
+    /// Silent for [`LOST_AFTER`].
+    Lost {
+        /// Its address.
+        address: SocketAddr,
+        /// Its MAVLink system.
+        system: u8,
+    },
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Station {
+    address: SocketAddr,
+    system: u8,
+    heard: Instant,
+    /// Whether that it is there has been told.
+    told: bool,
+}
+
+/// The ground stations that are heard.
+#[derive(Clone, Debug, Default)]
+pub struct Stations {
+    all: Vec<Station>,
+}
+
+impl Stations {
+    /// A datagram has come. Only one that begins like a MAVLink frame is a ground station's.
+    pub fn hear(&mut self, address: SocketAddr, datagram: &[u8], now: Instant) {
+        let Some(system) = sender(datagram) else { return };
+        if let Some(station) = self.all.iter_mut().find(|station| station.address == address) {
+            station.heard = now;
+        } else if self.all.len() < STATIONS_MAX {
+            self.all.push(Station { address, system, heard: now, told: false });
+        }
+    }
+
+    /// The next change that has not been told, if there is any.
+    pub fn news(&mut self, now: Instant) -> Option<News> {
+        if let Some(new) = self.all.iter_mut().find(|station| !station.told) {
+            new.told = true;
+            return Some(News::Heard { address: new.address, system: new.system });
+        }
+        let lost = self.all.iter().position(|station| now.saturating_duration_since(station.heard) > LOST_AFTER)?;
+        let Station { address, system, .. } = self.all.swap_remove(lost);
+        Some(News::Lost { address, system })
+    }
+}
+
+/// The MAVLink system that has sent a frame: its number's place depends on the version, which the first byte says.
+fn sender(datagram: &[u8]) -> Option<u8> {
+    match datagram.first()? {
+        0xfd => datagram.get(5).copied(),
+        0xfe => datagram.get(3).copied(),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn address(port: u16) -> SocketAddr {
+        SocketAddr::from(([127, 0, 0, 1], port))
+    }
+
+    /// Heartbeats of system 255 and of system 245 in MAVLink 2 and 1.
+    const SECOND: [u8; 9] = [0xfd, 9, 0, 0, 7, 255, 190, 0, 0];
+    const FIRST: [u8; 6] = [0xfe, 9, 7, 245, 190, 0];
+
+    #[test]
+    fn a_station_is_told_when_it_comes_when_it_is_lost_and_when_it_is_back() {
+        let (mut stations, start) = (Stations::default(), Instant::now());
+        let at = |seconds: u64| start + Duration::from_secs(seconds);
+        let (address, system) = (address(14550), 255);
+        for second in 0..3 {
+            stations.hear(address, &SECOND, at(second));
+        }
+        assert_eq!(stations.news(at(3)), Some(News::Heard { address, system }));
+        assert_eq!(stations.news(at(7)), None);
+        assert_eq!(stations.news(at(8)), Some(News::Lost { address, system }));
+        assert_eq!(stations.news(at(100)), None);
+        stations.hear(address, &SECOND, at(100));
+        assert_eq!(stations.news(at(100)), Some(News::Heard { address, system }));
+    }
+
+    #[test]
+    fn both_versions_name_their_sender_and_noise_is_no_station() {
+        let (mut stations, now) = (Stations::default(), Instant::now());
+        for noise in [&b""[..], b"hello", &[0xfd, 9], &[0xfe]] {
+            stations.hear(address(1), noise, now);
+        }
+        assert_eq!(stations.news(now), None);
+        stations.hear(address(2), &FIRST, now);
+        assert_eq!(stations.news(now), Some(News::Heard { address: address(2), system: 245 }));
+    }
+
+    #[test]
+    fn there_are_never_too_many() {
+        let (mut stations, now) = (Stations::default(), Instant::now());
+        for port in 1..1000 {
+            stations.hear(address(port), &SECOND, now);
+        }
+        assert_eq!(stations.all.len(), STATIONS_MAX);
+    }
+}

@@ -1,0 +1,290 @@
+//! The console of `serve`, in lockstep and without a clock: lines go in at given times, and what is printed is held against
+//! the truth.
+
+use firmware::commander::{Event, Refusal};
+use firmware::signals::TICK_S_EXACT;
+use nalgebra::{UnitQuaternion, Vector3};
+use sim_host::console::{Control, Session};
+use sim_host::flight;
+use sim_host::plant::rigid_body::RigidBody;
+use sim_host::plant::{Motion, Plant as _};
+use sim_host::scenario::Scenario;
+use sim_host::sil::Flight;
+
+fn flight(name: &str, seed: u64) -> Flight<RigidBody> {
+    let scenario = Scenario::load(name, &[]).expect("built in");
+    flight::lockstep(&scenario, seed, flight::rigid_body(&scenario, seed)).expect("flies")
+}
+
+/// A session, and what it has printed.
+struct Bench {
+    session: Session,
+    printed: Vec<String>,
+    /// Lines before this one have been looked at.
+    seen: usize,
+    /// Speed downwards in the last tick in the air before each touchdown, m/s, and where that was. As in
+    /// `report::touchdown`, one that has not been half a metre up does not touch down.
+    touchdowns: Vec<(f64, Vector3<f64>)>,
+    before: Motion,
+    has_flown: bool,
+}
+
+impl Bench {
+    fn new(name: &str) -> Self {
+        let session = Session::new(flight(name, 1));
+        let before = session.flight().plant().motion();
+        Self { session, printed: Vec::new(), seen: 0, touchdowns: Vec::new(), before, has_flown: false }
+    }
+
+    fn motion(&self) -> Motion {
+        self.session.flight().plant().motion()
+    }
+
+    fn in_air(&self, motion: &Motion) -> bool {
+        let ground = self.session.flight().plant().ground().expect("a ground");
+        let attitude = UnitQuaternion::new_normalize(motion.attitude);
+        ground.clearances(&motion.position, &attitude).iter().all(|clearance| *clearance > 0.0)
+    }
+
+    fn tick(&mut self) {
+        self.session.tick(&[]);
+        let now = self.motion();
+        self.has_flown |= now.position.z > 0.5;
+        if self.has_flown && self.in_air(&self.before) && !self.in_air(&now) {
+            self.has_flown = false;
+            self.touchdowns.push((-self.before.velocity.z, now.position));
+        }
+        self.before = now;
+        self.printed.extend(self.session.take_lines().iter().map(ToString::to_string));
+    }
+
+    fn fly(&mut self, seconds: f64) {
+        for _ in 0..(seconds / TICK_S_EXACT).round() as u32 {
+            self.tick();
+        }
+    }
+
+    /// Flies until a line ends like that; returns it. Nothing before it is looked at again.
+    fn until(&mut self, end: &str, within_s: f64) -> String {
+        for _ in 0..(within_s / TICK_S_EXACT).round() as u32 {
+            if let Some(place) = self.printed.iter().skip(self.seen).position(|line| line.contains(end)) {
+                self.seen += place + 1;
+                return self.printed[self.seen - 1].clone();
+            }
+            self.tick();
+        }
+        panic!("no `{end}` within {within_s} s: {:#?}", self.printed);
+    }
+
+    /// Enters a line; returns the first answer.
+    fn enter(&mut self, line: &str) -> String {
+        self.seen = self.printed.len();
+        assert_eq!(self.session.enter(line), None, "{line}");
+        self.until("", 0.1)
+    }
+
+    fn arm_and_climb(&mut self, height: f64) {
+        self.until("] ready to arm", 10.0);
+        self.enter("arm");
+        self.enter(&format!("takeoff {height}"));
+        self.until("mode: take-off → hold", 20.0);
+    }
+}
+
+/// A line without its time stamp.
+fn text(line: &str) -> &str {
+    line.split_once("] ").map_or(line, |(_, text)| text)
+}
+
+/// The answer to a refused command.
+fn refusal(command: &str, reason: Refusal, remedy: &str) -> String {
+    format!("{command}: refused, {}{remedy}", reason.reason())
+}
+
+/// The numbers in a line.
+fn numbers(line: &str) -> Vec<f64> {
+    text(line).split(|c: char| !c.is_ascii_digit() && c != '.').filter_map(|word| word.parse().ok()).collect()
+}
+
+#[test]
+fn a_whole_flight_is_commanded_by_lines_and_told_as_it_was() {
+    let mut bench = Bench::new("field");
+    bench.until("] ready to arm", 10.0);
+    let home = bench.motion().position;
+    assert_eq!(text(&bench.enter("arm")), "arm: accepted");
+    bench.until("] armed: the rotors idle", 0.1);
+    assert_eq!(text(&bench.enter("takeoff 5")), "take-off to 5 m: accepted");
+    bench.until("mode: idle → take-off", 0.1);
+    bench.until("] in the air", 3.0);
+    bench.until("mode: take-off → hold", 10.0);
+    bench.fly(3.0);
+    // By satellites, height is known to a metre or so.
+    assert!((bench.motion().position.z - 5.0).abs() < 1.5, "{}", bench.motion().position);
+
+    assert_eq!(text(&bench.enter("goto 5 0 5 90")), "go to north 5, west 0, up 5 m, yaw 90°: accepted");
+    bench.until("mode: hold → go-to", 0.1);
+    bench.fly(10.0);
+    assert!((bench.motion().position.xy() - Vector3::new(5.0, 0.0, 0.0).xy()).norm() < 2.0);
+    assert_eq!(text(&bench.enter("wind 4 -1")), "wind set: north 4.0, west -1.0, up 0.0 m/s");
+    bench.fly(5.0);
+    assert!((bench.motion().position.xy() - Vector3::new(5.0, 0.0, 0.0).xy()).norm() < 2.0, "it leans into the wind");
+
+    assert_eq!(text(&bench.enter("fault gnss off")), "fault: gnss off");
+    bench.fly(1.0);
+    assert_eq!(text(&bench.enter("clear")), "no faults: 1 cleared");
+    bench.fly(5.0);
+    assert_eq!(text(&bench.enter("land")), "land: accepted");
+    let landed = bench.until("] landed: touched down at", 30.0);
+    bench.until("] disarmed", 3.0);
+
+    let (speed, place) = *bench.touchdowns.first().expect("it has come down");
+    let away = (place - home).xy().norm();
+    // Printed to 0.01.
+    assert_eq!(numbers(&landed).len(), 2, "{landed}");
+    assert!((numbers(&landed)[0] - speed).abs() <= 0.0051, "{landed}: {speed} m/s");
+    assert!((numbers(&landed)[1] - away).abs() <= 0.0051, "{landed}: {away} m");
+    assert!(speed < 1.0, "{landed}");
+    let lines = bench.printed.len();
+    bench.fly(5.0);
+    assert_eq!(bench.printed.len(), lines, "{:?}", bench.printed.last());
+}
+
+#[test]
+fn lines_are_stamped_with_simulated_time() {
+    let mut bench = Bench::new("pad");
+    bench.fly(1.234);
+    let line = bench.enter("wind");
+    assert!(line.starts_with("[    1.23 s] wind: north 0.0"), "{line}");
+}
+
+#[test]
+fn a_failure_and_what_the_vehicle_does_about_it_are_told() {
+    let mut bench = Bench::new("field");
+    bench.arm_and_climb(5.0);
+    bench.enter("fault gnss off");
+    let text_of = |line: &str| text(line).to_lowercase();
+    let told = bench.until("failsafe: ", 5.0);
+    assert_eq!(text_of(&told), format!("failsafe: {}", Event::PositionLost.text()).to_lowercase());
+    bench.until("mode: hold → descent", 0.1);
+    let refused = bench.enter("hold");
+    assert_eq!(text(&refused), refusal("hold", Refusal::NoPosition, "; wait for sensors"));
+    bench.until("landed: touched down at", 30.0);
+    bench.until("disarmed", 3.0);
+    bench.until(&format!("not ready to arm: {}", Refusal::NoPosition.reason()), 3.0);
+    bench.enter("clear");
+    bench.until("] ready to arm", 10.0);
+}
+
+#[test]
+fn faults_are_told_when_they_begin_and_when_they_end() {
+    let mut bench = Bench::new("field");
+    assert_eq!(text(&bench.enter("fault baro stuck from_s=1 to_s=2")), "fault from 1 s on: baro stuck");
+    assert_eq!(bench.enter("faults"), "  fault sensor=baro kind=stuck from_s=1.0 to_s=2.0");
+    let begun = bench.until("fault: baro stuck", 2.0);
+    let over = bench.until("fault over: baro stuck", 2.0);
+    // The console looks each 20 ms.
+    assert!(begun.starts_with("[    1.0") && over.starts_with("[    2.0"), "{begun} {over}");
+    assert_eq!(text(&bench.enter("faults")), "no faults");
+    assert_eq!(text(&bench.enter("clear")), "no faults");
+}
+
+#[test]
+fn killed_in_the_air_it_falls_and_that_is_told() {
+    let mut bench = Bench::new("field");
+    bench.arm_and_climb(5.0);
+    let height = bench.motion().position.z;
+    assert_eq!(text(&bench.enter("kill")), "kill: accepted");
+    bench.until("disarmed in the air", 0.1);
+    let landed = bench.until("touched down at", 20.0);
+    // v = √(2 g h); drag takes a little.
+    let fallen = (2.0 * 9.81 * height).sqrt();
+    assert!((0.8 * fallen..1.01 * fallen).contains(&numbers(&landed)[0]), "{landed}: {fallen}");
+}
+
+#[test]
+fn a_velocity_goes_on_until_the_next_command() {
+    let mut bench = Bench::new("field");
+    bench.arm_and_climb(5.0);
+    bench.enter("velocity 1 0 0");
+    let start = bench.motion().position.x;
+    bench.fly(10.0);
+    let flown = bench.motion().position.x - start;
+    // 1 m/s for 10 s, less the time to get there.
+    assert!((8.0..10.5).contains(&flown), "{flown}");
+    assert_eq!(text(&bench.enter("hold")), "hold: accepted");
+    bench.until("mode: velocity → hold", 0.1);
+    let lines = bench.printed.len();
+    bench.fly(5.0);
+    assert_eq!(bench.printed.len(), lines, "{:?}", bench.printed.last());
+    assert!(bench.motion().velocity.norm() < 0.5);
+}
+
+#[test]
+fn what_cannot_be_done_is_refused_with_the_reason() {
+    let mut bench = Bench::new("field");
+    assert_eq!(text(&bench.enter("arm")), refusal("arm", Refusal::NotAligned, "; wait for sensors"));
+    bench.until("] ready to arm", 10.0);
+    assert_eq!(text(&bench.enter("takeoff 5")), refusal("take-off to 5 m", Refusal::Disarmed, "; `arm` first"));
+    assert_eq!(
+        text(&bench.enter("goto 0 0 -1")),
+        "goto: UP = -1 m is not above the ground, which is at 0 m: use `land`"
+    );
+    bench.enter("arm");
+    assert_eq!(text(&bench.enter("hold")), refusal("hold", Refusal::OnGround, "; `takeoff` first"));
+    assert_eq!(text(&bench.enter("fault pose off")), "there is no `pose` on board");
+    let mut ideal = Bench::new("pad");
+    let refused = ideal.enter("fault gnss off");
+    assert!(text(&refused).starts_with("nothing fails on ideal state"), "{refused}");
+}
+
+#[test]
+fn many_lines_at_once_are_carried_out_in_their_order() {
+    let mut bench = Bench::new("pad");
+    bench.until("] ready to arm", 1.0);
+    for _ in 0..10 {
+        bench.session.enter("arm");
+        bench.session.enter("disarm");
+    }
+    bench.session.enter("arm");
+    bench.session.enter("takeoff 2");
+    bench.fly(1.0);
+    let answers = bench.printed.iter().filter(|line| line.ends_with(": accepted")).count();
+    assert_eq!(answers, 22, "{:#?}", bench.printed);
+    bench.until("mode: take-off → hold", 10.0);
+}
+
+#[test]
+fn the_pace_and_the_end_are_for_whoever_runs_the_session() {
+    let mut session = Session::new(flight("pad", 1));
+    assert_eq!(session.enter("speed 10"), Some(Control::Speed(10.0)));
+    assert_eq!(session.enter("quit"), Some(Control::Quit));
+}
+
+#[test]
+fn questions_and_bad_lines_change_no_bit_of_the_flight() {
+    let mut plain = flight("field", 3);
+    let mut session = Session::new(flight("field", 3));
+    let harmless = ["help", "status", "wind", "faults", "nonsense", "takeoff -5", "fault gns off", "goto 0 0 -1", ""];
+    for tick in 0..20_000 {
+        if tick % 100 == 0 {
+            session.enter(harmless[tick / 100 % harmless.len()]);
+        }
+        plain.step(&mut ());
+        session.tick(&[]);
+        assert_eq!(session.flight().plant().motion(), plain.plant().motion(), "tick {tick}");
+    }
+    assert!(session.take_lines().len() > 100, "each was answered");
+}
+
+#[test]
+fn help_lists_what_is_known_and_explains_each() {
+    let mut bench = Bench::new("pad");
+    bench.enter("help");
+    bench.fly(0.1);
+    for command in ["help", "arm", "takeoff", "goto", "land", "wind", "fault", "clear", "return", "kill", "status"] {
+        let listed = bench.printed.iter().any(|line| line.starts_with(&format!("  {command} ")));
+        assert!(listed, "{command}: {:#?}", bench.printed);
+        let explained = bench.enter(&format!("help {command}"));
+        assert!(text(&explained).starts_with(command), "{explained}");
+    }
+}
