@@ -132,9 +132,7 @@ fn read_text(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String
     let file = std::fs::File::open(name).map_err(|error| {
         let remedy = built_in_of(name, built_in).filter(|_| error.kind() == ErrorKind::NotFound);
         let remedy = remedy.map_or(String::new(), |near| format!(": did you mean the built-in `{near}`?"));
-        let why = error.to_string();
-        let why = why.split(" (os error").next().unwrap_or(&why);
-        anyhow!("{}: {why}{remedy}", cannot())
+        anyhow!("{}: {error}{remedy}", cannot())
     })?;
     let mut bytes = Vec::new();
     file.take(LARGEST + 1).read_to_end(&mut bytes).with_context(cannot)?;
@@ -142,8 +140,7 @@ fn read_text(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String
         bail!("{}: it is larger than {} MiB, which no {kind} file is", cannot(), LARGEST >> 20);
     }
     String::from_utf8(bytes).map_err(|error| {
-        let line =
-            error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|byte| **byte == b'\n').count() + 1;
+        let line = line(&String::from_utf8_lossy(error.as_bytes()), error.utf8_error().valid_up_to());
         anyhow!("{}: line {line} is not UTF-8: is it a text file?", cannot())
     })
 }

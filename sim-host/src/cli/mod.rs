@@ -416,7 +416,11 @@ fn note_idle_seeds(scenario: &Scenario, given: bool) {
 }
 
 fn one_line(error: &anyhow::Error) -> String {
-    format!("{error:#}").replace('\n', " ")
+    // The system's number of an error, "(os error 2)", tells nobody more than its text does.
+    let text = format!("{error:#}").replace('\n', " ");
+    let mut pieces = text.split(" (os error ");
+    let first = pieces.next().unwrap_or_default().to_owned();
+    pieces.fold(first, |text, piece| text + piece.split_once(')').map_or("", |(_, rest)| rest))
 }
 
 /// Writes a result to standard output. A reader that has gone away is not an error.

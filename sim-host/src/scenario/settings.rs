@@ -104,10 +104,10 @@ fn no_table(key: &str, value: &Value) -> Refusal {
 fn entry<'a>(values: &'a mut [Value], key: &str, index: &str) -> Result<&'a mut Value> {
     let count = values.len();
     let entry = index.parse::<usize>().ok().and_then(|index| values.get_mut(index));
-    Ok(entry.with_context(|| match count {
+    entry.with_context(|| match count {
         0 => format!("`{key}.{index}` is not there: `{key}` is empty"),
         count => format!("`{key}.{index}` is not there: `{key}` has the entries 0 to {}", count - 1),
-    })?)
+    })
 }
 
 #[cfg(test)]

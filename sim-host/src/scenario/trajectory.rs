@@ -88,13 +88,11 @@ pub(super) fn resolve(scenario: &mut toml::Table, folder: &Path) -> Result<()> {
 /// Refuses a kind that there is none of.
 fn require_known(kinds: &toml::Table) -> Result<()> {
     const KINDS: [&str; 6] = ["hold", "step", "helix", "figure-eight", "waypoints", "csv"];
-    for kind in kinds.keys().filter(|kind| *kind != "spline" && !KINDS.contains(&kind.as_str())) {
-        let refusal =
-            Refusal::new("trajectory", format!("must be one of {}", KINDS.join(", "))).given(format!("`{kind}`"));
-        let near = nearest_name(kind, KINDS);
-        return Err(near.map_or(refusal.clone(), |near| refusal.remedy(format!("did you mean `{near}`?"))).into());
-    }
-    Ok(())
+    let is_known = |kind: &str| kind == "spline" || KINDS.contains(&kind);
+    let Some(kind) = kinds.keys().find(|kind| !is_known(kind)) else { return Ok(()) };
+    let refusal = Refusal::new("trajectory", format!("must be one of {}", KINDS.join(", "))).given(format!("`{kind}`"));
+    let near = nearest_name(kind, KINDS);
+    Err(near.map_or(refusal.clone(), |near| refusal.remedy(format!("did you mean `{near}`?"))).into())
 }
 
 fn seconds(value: &toml::Value) -> Option<f64> {
@@ -142,15 +140,19 @@ fn of_waypoints(file: &Waypoints, join_s: f64) -> Result<Spline> {
 
 /// x, y, z and unwrapped yaw of each point.
 fn places(file: &Waypoints) -> Result<Vec<[f64; 4]>> {
-    ensure!(file.points.len() >= 2, "`points` must be at least 2, not {}", file.points.len());
+    if file.points.len() < 2 {
+        return Err(Refusal::new("points", "must have 2 or more points").given(file.points.len()).into());
+    }
     let mut places: Vec<[f64; 4]> = Vec::new();
-    for point in &file.points {
+    for (index, point) in file.points.iter().enumerate() {
         let [x, y, z] = point.position_m;
-        [x, y, z].iter().try_for_each(|v| within("points.position_m", *v, -LENGTH_MAX_M, LENGTH_MAX_M))?;
+        for (axis, value) in [x, y, z].into_iter().enumerate() {
+            within(&format!("points.{index}.position_m.{axis}"), value, -LENGTH_MAX_M, LENGTH_MAX_M)?;
+        }
         let last = places.last().map_or(0.0, |place| place[3]);
-        let yaw = point
-            .yaw_deg
-            .map_or(Ok(last), |deg| within("points.yaw_deg", deg, -3600.0, 3600.0).map(|()| deg.to_radians()))?;
+        let yaw = point.yaw_deg.map_or(Ok(last), |deg| {
+            within(&format!("points.{index}.yaw_deg"), deg, -3600.0, 3600.0).map(|()| deg.to_radians())
+        })?;
         places.push([x, y, z, nearest(yaw, last)]);
     }
     Ok(places)

@@ -89,7 +89,10 @@ fn a_path_beyond_the_vehicle_is_refused_by_the_limit() {
         (["trajectory.waypoints.speed_m_s=30", "trajectory.waypoints.acceleration_m_s2=30"], "`tilt_max_rad` is 1.2"),
         (["trajectory.waypoints.acceleration_m_s2=9", "thrust_to_weight=1.1"], "(`thrust_to_weight`): fly it slower"),
         (["trajectory.waypoints.acceleration_m_s2=9", "thrust_to_weight=4"], ""),
-        (["trajectory.waypoints.points=[]", "duration_s=3"], "`points` must be at least 2, not 0"),
+        (
+            ["trajectory.waypoints.points=[]", "duration_s=3"],
+            "`trajectory.waypoints.points` must have 2 or more points, not 0",
+        ),
     ] {
         match load("waypoints", &settings) {
             Ok(_) => assert_eq!(error, ""),

@@ -55,7 +55,7 @@ fn what_is_wrong_with_waypoints_is_named() {
     for (from, to, error) in [
         ("at_s = 5.5", "at_s = 3.25", "`points.at_s` must rise by 0.05 s at least, not from 3.25 to 3.25"),
         (", at_s = 8", "", "3 of 4 points have `at_s`: give it to all of them, or to none"),
-        ("[-2, 0, 1]", "[-2, 0, 1e5]", "`points.position_m` must be between -10000 and 10000, not 100000"),
+        ("[-2, 0, 1]", "[-2, 0, 1e5]", "position_m.2` must be between -10000 and 10000 m, not 100000"),
         (
             "at_s = 8 },\n]",
             "at_s = 8 }]\nspeed_m_s = 2",
@@ -66,7 +66,11 @@ fn what_is_wrong_with_waypoints_is_named() {
             "at_s = 8 }]\nrepeat = true",
             "with `repeat` and `at_s` the last of `points` must be the first again",
         ),
-        ("at_s = 8 },\n]", "at_s = 8 }]\nspeed = 2", "unknown field `speed`"),
+        (
+            "at_s = 8 },\n]",
+            "at_s = 8 }]\nspeed = 2",
+            "`trajectory.waypoints.speed` is no key: did you mean `speed_m_s`?",
+        ),
         (
             "[trajectory.waypoints]",
             "[trajectory.hold]\n[trajectory.waypoints]",
