@@ -123,6 +123,13 @@ class Simulator:
     def write(self, line):
         self.process.stdin.write(line + "\n")
 
+    def says(self, text):
+        """The next line of its standard output that holds a text."""
+        for line in self.process.stdout:
+            if text in line:
+                return line
+        pytest.fail(f"it ended without saying `{text}`")
+
     def end_input(self):
         self.process.stdin.close()
         self.process.stdin = None

@@ -2,6 +2,7 @@
 
 import math
 import random
+import signal
 import socket
 import statistics
 import subprocess
@@ -9,7 +10,7 @@ import subprocess
 import pytest
 from pymavlink.dialects.v20 import common as mavlink
 
-from conftest import HANG_S, PREARM_CHECK, Station
+from conftest import HANG_S, PREARM_CHECK, Simulator, Station
 
 ARM_DISARM = mavlink.MAV_CMD_COMPONENT_ARM_DISARM
 TAKEOFF = mavlink.MAV_CMD_NAV_TAKEOFF
@@ -339,21 +340,43 @@ def test_an_empty_battery_brings_it_home(vehicle, station):
 
 
 def test_faults_are_taken_in_lines(vehicle, station):
-    answers, complaints = vehicle.process.stdout, vehicle.process.stderr
     vehicle.write("fault sensor=gnss kind=off")
-    assert answers.readline().startswith("fault ")
+    vehicle.says("fault: gnss off")
     station.wait("SYS_STATUS", lambda status: not gps_is_healthy(status), within_ms=3_000)
     vehicle.write("faults")
-    listed = answers.readline()
-    assert "sensor=gnss" in listed and "kind=off" in listed
+    vehicle.says("fault sensor=gnss kind=off")
     vehicle.write("clear")
-    assert answers.readline() == "no faults\n"
+    vehicle.says("no faults: 1 cleared")
     station.wait("SYS_STATUS", gps_is_healthy, within_ms=10_000)
-    complaints.readline()  # What is flown.
     vehicle.write("fault sensor=gps kind=off")
-    assert "gps" in complaints.readline()
+    vehicle.says("there is no sensor `gps`")
     vehicle.end_input()
     station.collect(1_000)
+
+
+def test_what_a_ground_station_does_is_printed(vehicle, station):
+    climb(station)
+    vehicle.says("ground station 255 connected from " + station.address)
+    vehicle.says("ground station 255: arm: accepted")
+    vehicle.says("armed")
+    vehicle.says("ground station 255: take-off to 2 m: accepted")
+    vehicle.write("land")
+    vehicle.says("land: accepted")
+    vehicle.says("landed: touched down at 0.")
+    vehicle.says("disarmed")
+
+
+@pytest.mark.parametrize("end, code", [("quit", 0), (signal.SIGINT, 130)])
+def test_it_ends_in_order_and_says_how_long_was_flown(station, simulator_path, end, code):
+    simulator = Simulator(station)
+    station.wait("HEARTBEAT")
+    if end == "quit":
+        simulator.write(end)
+    else:
+        simulator.process.send_signal(end)
+    _, told = simulator.process.communicate(timeout=HANG_S)
+    assert simulator.process.returncode == code
+    assert "x real time" in told.strip().splitlines()[-1]
 
 
 def test_two_stations_are_both_served(vehicle, station):

@@ -10,10 +10,10 @@ use firmware::signals::{TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
 
 use super::line::Tone;
-use crate::failures;
 use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
 use crate::record::{Recorder as _, Row};
+use crate::report::timeline::fault_name;
 use crate::report::touchdown::{Contact, Touchdown};
 use crate::sil::Flight;
 
@@ -115,10 +115,10 @@ impl Watch {
         let new = self.looked_at..flight.next_tick();
         for fault in suite.faults().list(self.looked_at) {
             if new.contains(&tick(fault.from_s)) {
-                tell(Tone::Alarm, format!("fault: {}", failures::brief(&fault)));
+                tell(Tone::Alarm, format!("fault: {}", fault_name(&fault)));
             }
             if fault.to_s.is_some_and(|to_s| new.contains(&tick(to_s))) {
-                tell(Tone::Good, format!("fault over: {}", failures::brief(&fault)));
+                tell(Tone::Good, format!("fault ends: {}", fault_name(&fault)));
             }
         }
     }

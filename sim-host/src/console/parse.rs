@@ -521,6 +521,15 @@ mod tests {
     }
 
     #[test]
+    fn the_manual_has_the_same_table() {
+        let manual = include_str!("../../../docs/serve.md");
+        let rows: Vec<&str> = manual.lines().filter(|line| line.starts_with("| `")).collect();
+        let table: Vec<String> =
+            COMMANDS.iter().map(|entry| format!("| `{}` | {} |", entry.usage(), entry.summary())).collect();
+        assert_eq!(rows, table);
+    }
+
+    #[test]
     fn a_started_name_is_completed_if_only_one_goes_on_like_that() {
         assert_eq!(completion("tak"), Some("eoff"));
         assert_eq!(completion("faults"), Some(""));

@@ -16,6 +16,7 @@ use super::parse::{self, COMMANDS, Command};
 use crate::failures;
 use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
+use crate::report::timeline::fault_name;
 use crate::sensors::Fault;
 use crate::sil::Flight;
 
@@ -259,7 +260,7 @@ impl Session {
         let fault = Fault { from_s: fault.from_s.max(now_s), ..*fault };
         self.flight.inject(&fault)?;
         if fault.from_s > now_s {
-            self.say(Tone::Plain, format!("fault from {} s on: {}", fault.from_s, failures::brief(&fault)));
+            self.say(Tone::Plain, format!("fault from {} s on: {}", fault.from_s, fault_name(&fault)));
         }
         Ok(())
     }
@@ -305,7 +306,7 @@ impl Session {
             text = format!("{text}; battery {:.1} V, {:.0} %", battery.voltage_v, battery.soc * 100.0);
         }
         let [north, west, up] = shown(self.flight.steady_wind());
-        let faults: Vec<String> = self.faults().iter().map(failures::brief).collect();
+        let faults: Vec<String> = self.faults().iter().map(fault_name).collect();
         let faults = if faults.is_empty() { "no faults".to_owned() } else { format!("faults: {}", faults.join(", ")) };
         format!("{text}; wind {north:.1} {west:.1} {up:.1} m/s; {faults}")
     }

@@ -181,7 +181,7 @@ fn faults_are_told_when_they_begin_and_when_they_end() {
     assert_eq!(text(&bench.enter("fault baro stuck from_s=1 to_s=2")), "fault from 1 s on: baro stuck");
     assert_eq!(bench.enter("faults"), "  fault sensor=baro kind=stuck from_s=1.0 to_s=2.0");
     let begun = bench.until("fault: baro stuck", 2.0);
-    let over = bench.until("fault over: baro stuck", 2.0);
+    let over = bench.until("fault ends: baro stuck", 2.0);
     // The console looks each 20 ms.
     assert!(begun.starts_with("[    1.0") && over.starts_with("[    2.0"), "{begun} {over}");
     assert_eq!(text(&bench.enter("faults")), "no faults");
