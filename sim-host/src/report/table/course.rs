@@ -15,7 +15,7 @@ pub(super) fn render(told: &Told, sensed: Option<&Sensed>) -> String {
         line(name, &format!("{:.2} m from {}", place.off_m, place.order));
     }
     if let Some(landing) = sensed.and_then(landing) {
-        line("landed", &landing);
+        line("touchdown", &landing);
     }
     if let Some([start, end]) = told.battery {
         line("battery", &format!("{:.0} % at the start, {:.0} % at the end", 100.0 * start, 100.0 * end));
@@ -134,13 +134,13 @@ take-off       2.5 s  8.1 s    0.034 m  0.068 m
     31.1 s  vehicle: Position lost: descending
 
 places      0.21 m from take-off to 5 m
-landed      at 71.5 s, 0.50 m from the start, with 0.40 m/s down and 0.10 m/s sideways; disarmed at 73.0 s
+touchdown   at 71.5 s, 0.50 m from the start, with 0.40 m/s down and 0.10 m/s sideways; disarmed at 73.0 s
 battery     100 % at the start, 82 % at the end
 estimate    RMS error while armed: tilt 0.29°, heading 1.15°, position 1.250 m, velocity 0.050 m/s
 
 ";
         assert_eq!(render(&told(), Some(&sensed)), expected);
         let text = render(&Told { timeline: Timeline::default(), ..told() }, Some(&Sensed::default()));
-        assert!(!text.contains("landed") && !text.contains("estimate"), "{text}");
+        assert!(!text.contains("touchdown") && !text.contains("estimate"), "{text}");
     }
 }
