@@ -2,20 +2,20 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 
 use super::Which;
 use crate::analyse::{Analysis, Loop, analyse};
-use crate::report::{OutFolder, plots};
+use crate::report::{Staged, plots};
 
 pub(super) fn run(which: &Which, seed: u64, out: Option<&Path>, as_json: bool) -> Result<()> {
     let analysis = analyse(&which.load()?, seed)?;
     if let Some(path) = out {
-        OutFolder::create(path)?;
-        let file = path.join("analyse.json");
-        std::fs::write(&file, serde_json::to_string(&analysis)? + "\n")
-            .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", file.display()))?;
-        plots::analysis::draw(path, &analysis)?;
+        let staged = Staged::begin(path)?;
+        let folder = staged.folder();
+        folder.text("analyse.json", &(serde_json::to_string(&analysis)? + "\n"))?;
+        plots::analysis::draw(folder.path(), &analysis)?;
+        staged.finish()?;
     }
     super::say(&if as_json { serde_json::to_string(&analysis)? } else { table(&analysis) })
 }

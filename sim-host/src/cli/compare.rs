@@ -5,7 +5,7 @@ use anyhow::Result;
 use super::CompareArgs;
 use crate::compare::{Comparison, Contest};
 use crate::matrix::Matrix;
-use crate::report::{OutFolder, comparison, progress};
+use crate::report::{Staged, comparison, progress};
 
 pub(super) fn run(args: &CompareArgs) -> Result<()> {
     let mut matrix = Matrix::load(&args.matrix, &args.settings.set)?;
@@ -15,10 +15,11 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
     matrix.select(args.scenarios.as_deref(), args.disturbances.as_deref())?;
     matrix.file.seeds = args.seeds.unwrap_or(matrix.file.seeds);
     // Before the flights, which take a while: a folder that cannot be written is better known now.
-    let folder = args.out.as_deref().map(OutFolder::create).transpose()?;
+    let staged = args.out.as_deref().map(Staged::begin).transpose()?;
     let found = fly(&Contest::new(&matrix)?, args)?;
-    if let Some(folder) = folder {
-        folder.comparison(&found)?;
+    if let Some(staged) = staged {
+        staged.folder().comparison(&found)?;
+        staged.finish()?;
     }
     super::say(&if args.json { serde_json::to_string(&found)? } else { comparison::render(&found) })
 }

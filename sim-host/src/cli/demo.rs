@@ -25,10 +25,10 @@ pub(super) fn run() -> Result<()> {
         let contents = staged.finish()?;
         let about = paint.dim(&format!("  {}\n", scenario.file.summary));
         let heading = table::heading(&summary, paint) + &about + "\n" + &table::result(&summary);
-        super::say(&format!("{heading}{}\n ", pictures(&folder, &contents)))?;
+        super::say(&format!("{heading}{}\n", pictures(&folder, &contents)))?;
         ensure!(!interrupt::requested(), Interrupted);
     }
-    super::say(NEXT)
+    super::say(&format!("\n{NEXT}"))
 }
 
 /// Where the pictures are, and which to look at first.

@@ -15,10 +15,9 @@ use crate::report::mission::{self, REACHED_BY_GNSS_M, REACHED_M};
 use crate::report::summary::Told;
 use crate::report::timeline::{Course, Event, EventKind};
 use crate::report::{
-    Figures, Flight, Metrics, OutFolder, Progress, SensedRecorder, Summary, Timeline, TimelineRecorder,
-    TruthWriter,
+    Figures, Flight, Metrics, OutFolder, Progress, SensedRecorder, Summary, Timeline, TimelineRecorder, TruthWriter,
 };
-use crate::scenario::Scenario;
+use crate::scenario::{Group, Scenario};
 use crate::sil::{End, Outcome};
 
 /// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
@@ -133,11 +132,21 @@ pub(super) fn summarise(
         real_time_factor: duration_s / flown.wall_s,
         saturated_fraction: f64::from(outcome.saturated_ticks) / f64::from(outcome.ticks.max(1)),
         papers_helix: scenario.file.trajectory == Trajectory::PAPER_HELIX,
+        settles: settles(scenario, metrics),
         time_optimal_s: scenario.file.time_optimal_s,
         disturbance_onset_s: scenario.file.disturbance.map(|d| d.from_s),
         end: outcome.end,
     };
     Summary::new(flight, metrics)
+}
+
+/// Whether it is of interest when each axis settled: in the paper's cases, and where the flight began away from its
+/// reference or the reference jumped. An eight's corners are a question of errors.
+fn settles(scenario: &Scenario, metrics: &Metrics) -> bool {
+    let file = &scenario.file;
+    let was_away = metrics.axes().named().iter().any(|(_, axis)| axis.settle_5cm_s != Some(0.0));
+    let repeats = matches!(file.trajectory, Trajectory::FigureEight { .. } | Trajectory::Spline(_));
+    file.group() == Group::Paper || (was_away && !repeats)
 }
 
 /// What a folder holds besides the flight: by which program, from what, and how to fly it again.

@@ -34,6 +34,8 @@ pub struct Flight {
     pub time_optimal_s: Option<f64>,
     /// Whether the reference is the paper's helix, of which it makes its claims.
     pub papers_helix: bool,
+    /// Whether the flight is one of reaching a reference: when each axis settled is then shown.
+    pub settles: bool,
     /// When a disturbance set in, where one did, s.
     pub disturbance_onset_s: Option<f64>,
     /// Why it ended.
@@ -120,6 +122,9 @@ pub struct Summary {
     /// Why it ended, with the details.
     #[serde(skip)]
     pub ended: End,
+    /// Whether it is of interest when each axis settled.
+    #[serde(skip)]
+    pub settles: bool,
     /// Whether the paper's claims belong beside these figures.
     #[serde(skip)]
     pub papers_helix: bool,
@@ -141,6 +146,7 @@ impl Summary {
             end: flight.end.name(),
             crash,
             ended: flight.end,
+            settles: flight.settles,
             axes: if survived { metrics.axes() } else { unsettled(&metrics.axes()) },
             time_optimal_s: flight.time_optimal_s,
             chattering: metrics.chattering(),
@@ -254,6 +260,7 @@ pub(super) mod tests {
             saturated_fraction: 0.0123,
             time_optimal_s: Some(1.31),
             papers_helix: true,
+            settles: true,
             disturbance_onset_s: None,
             end: if survived { End::DurationReached } else { End::LeftReference },
         }

@@ -15,7 +15,7 @@ use crate::sensors::faults::Kind;
 /// A stretch of a flight in which the vehicle did one thing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Phase {
-    /// What it did: a mode's name, `go-to 2`, `join`, `trajectory`, `before arming`, `on the ground`, `disarmed`.
+    /// What it did: a mode's name, `go-to 2`, `join`, `trajectory`, `before arming`, `armed`, `landed`, `disarmed`.
     pub name: String,
     /// Start, s.
     pub from_s: f64,
@@ -85,7 +85,7 @@ pub struct Leg {
     pub order: Order,
     /// Where it leads to, m, where it leads anywhere: home for a return, and where the vehicle was for a landing.
     pub place: Option<[f64; 3]>,
-    /// True distance from there when the next command was given, or at the end, m.
+    /// True distance from there when the next command was given, the vehicle first acted by itself, or at the end, m.
     pub off_m: Option<f64>,
 }
 
@@ -118,6 +118,7 @@ pub struct TimelineRecorder {
     armed_before: bool,
     armed: bool,
     mode: Option<Mode>,
+    flown: bool,
     event: Option<firmware::commander::Event>,
     replied: bool,
     end_s: f64,
@@ -189,8 +190,12 @@ impl TimelineRecorder {
         }
     }
 
-    /// How far the vehicle is from where the newest command leads to.
+    /// How far the vehicle is from where the newest command leads to. Once it has acted by itself, it is no longer on its
+    /// way there.
     fn arrive(&mut self) {
+        if self.course.response.is_some() {
+            return;
+        }
         let position = self.position;
         if let Some(leg) = self.course.legs.last_mut() {
             leg.off_m = leg.place.map(|place| distance(&place, &position));
@@ -208,8 +213,9 @@ impl TimelineRecorder {
             self.event = commander.event;
             if let Some(event) = commander.event {
                 self.say(t, EventKind::Response, event.text());
-                if self.mode != Some(commander.mode) {
-                    self.course.response.get_or_insert((t, event.text()));
+                if self.mode != Some(commander.mode) && self.course.response.is_none() {
+                    self.arrive();
+                    self.course.response = Some((t, event.text()));
                 }
             }
         }
@@ -221,7 +227,8 @@ impl TimelineRecorder {
         match commander.mode {
             Mode::Disarmed if self.armed_before => ("disarmed", None, false),
             Mode::Disarmed => ("before arming", None, false),
-            Mode::Idle => ("on the ground", None, false),
+            Mode::Idle if self.flown => ("landed", None, false),
+            Mode::Idle => ("armed", None, false),
             Mode::GoTo => ("go-to", Some(self.legs_given()), true),
             Mode::Follow if matches!(commander.directive, Directive::GoTo { .. }) => ("join", None, true),
             Mode::Follow => ("trajectory", None, true),
@@ -256,6 +263,7 @@ impl Recorder for TimelineRecorder {
         }
         self.armed = commander.armed;
         self.armed_before |= commander.armed;
+        self.flown |= !matches!(commander.mode, Mode::Disarmed | Mode::Idle);
         let (name, number, controlled) = self.doing(commander);
         let is_same = self.course.timeline.phases.last().is_some_and(|phase| is_named(&phase.name, name, number));
         if !is_same {

@@ -12,6 +12,7 @@ mod control_laws;
 mod day;
 mod determinism;
 mod effects;
+mod endings;
 mod fault_schedules;
 mod flights;
 mod landing;

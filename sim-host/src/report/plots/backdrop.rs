@@ -166,7 +166,11 @@ fn draw_phase(chart: &Area, range: (f64, f64), span: &Span, strip: Option<f64>) 
     chart.rectangle((left, 0.0), (right, chart.height), span.color.tint(SHADE_TINT));
     let Some(middle) = strip else { return };
     // A gap shows where one of a kind follows another.
-    chart.rectangle((left + 0.5, middle - 0.5 * STRIP), (right - 0.5, middle + 0.5 * STRIP), span.color.tint(STRIP_TINT));
+    chart.rectangle(
+        (left + 0.5, middle - 0.5 * STRIP),
+        (right - 0.5, middle + 0.5 * STRIP),
+        span.color.tint(STRIP_TINT),
+    );
     if text_width(&span.name, SIZE) < right - left {
         chart.text((f64::midpoint(left, right), middle), &span.name, Font::new(SIZE, Anchor::Middle));
     }

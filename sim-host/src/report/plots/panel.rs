@@ -95,12 +95,7 @@ impl Panel {
     }
 
     /// A path in a plane, its start marked.
-    pub(super) fn path(
-        title: &str,
-        across: impl Into<Quantity>,
-        up: impl Into<Quantity>,
-        points: Points,
-    ) -> Self {
+    pub(super) fn path(title: &str, across: impl Into<Quantity>, up: impl Into<Quantity>, points: Points) -> Self {
         let lines = vec![(Role::Flown, points)];
         Self { across: across.into(), mark_start: true, ..Self::over_time(title, up, lines) }
     }
@@ -141,7 +136,8 @@ impl Panel {
 
     /// What is shown across and up, before scales are made equal.
     pub(super) fn ranges(&self) -> ((f64, f64), (f64, f64)) {
-        let Scales { across, up, .. } = Self { equal_scales: false, mark_start: true, ..self.clone() }.scales((1.0, 1.0));
+        let Scales { across, up, .. } =
+            Self { equal_scales: false, mark_start: true, ..self.clone() }.scales((1.0, 1.0));
         (across, up)
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{aligned, error, undefined};
+use super::{aligned, undefined};
 use crate::report::sensed::{Knowledge, Sensed};
 use crate::report::summary::Told;
 use crate::report::timeline::{Event, EventKind, Phase};
@@ -11,11 +11,11 @@ use crate::report::timeline::{Event, EventKind, Phase};
 pub(super) fn render(told: &Told, sensed: Option<&Sensed>) -> String {
     let mut text = phases(&told.timeline.phases) + &events(&told.timeline.events);
     let mut line = |name: &str, value: &str| writeln!(text, "{name:<10}  {value}").expect("a string takes every byte");
-    for place in &told.places {
-        line("reached", &format!("{} within {:.2} m", place.order, place.off_m));
+    for (place, name) in told.places.iter().zip(std::iter::once("places").chain(std::iter::repeat(""))) {
+        line(name, &format!("{:.2} m from {}", place.off_m, place.order));
     }
-    if let Some(sensed) = sensed {
-        line("landed", &landing(sensed));
+    if let Some(landing) = sensed.and_then(landing) {
+        line("touchdown", &landing);
     }
     if let Some([start, end]) = told.battery {
         line("battery", &format!("{:.0} % at the start, {:.0} % at the end", 100.0 * start, 100.0 * end));
@@ -31,7 +31,7 @@ fn phases(phases: &[Phase]) -> String {
     for phase in phases {
         let times = [phase.from_s, phase.to_s].map(|t| format!("{t:.1} s"));
         let [from, to] = times;
-        rows.push([phase.name.clone(), from, to, error(phase.error_rms_m, "m"), error(phase.error_max_m, "m")]);
+        rows.push([phase.name.clone(), from, to, metres(phase.error_rms_m), metres(phase.error_max_m)]);
     }
     aligned(&rows) + "\n"
 }
@@ -51,13 +51,14 @@ fn events(events: &[Event]) -> String {
     text + "\n"
 }
 
-fn landing(sensed: &Sensed) -> String {
+/// The landing, if there was one.
+fn landing(sensed: &Sensed) -> Option<String> {
     let disarmed = sensed.disarmed_s.map_or_else(|| "not disarmed".into(), |t| format!("disarmed at {t:.1} s"));
-    let Some(contact) = sensed.touchdown else { return format!("no; {disarmed}") };
-    format!(
+    let contact = sensed.touchdown?;
+    Some(format!(
         "at {:.1} s, {:.2} m from the start, with {:.2} m/s down and {:.2} m/s sideways; {disarmed}",
         contact.t_s, contact.from_start_m, contact.descent_m_s, contact.drift_m_s
-    )
+    ))
 }
 
 /// What the vehicle's estimate was off by; nothing of one that was never armed.
@@ -68,9 +69,13 @@ fn knowledge(known: &Knowledge) -> Option<String> {
         "RMS error while armed: tilt {}, heading {}, position {}, velocity {}/s",
         degrees(known.tilt_rms_rad),
         degrees(known.heading_rms_rad),
-        error(known.position_rms_m, "m"),
-        error(known.velocity_rms_m_s, "m"),
+        metres(known.position_rms_m),
+        metres(known.velocity_rms_m_s),
     ))
+}
+
+fn metres(value: Option<f64>) -> String {
+    value.map_or_else(undefined, |v| format!("{v:.3} m"))
 }
 
 #[cfg(test)]
@@ -121,21 +126,21 @@ mod tests {
         });
         let sensed = Sensed { estimate, touchdown, disarmed_s: Some(73.0) };
         let expected = "\
-phase           from     to  error RMS    maximum
-before arming  0.0 s  2.5 s          –          –
-take-off       2.5 s  8.1 s  34.000 mm  68.000 mm
+phase           from     to  error RMS  maximum
+before arming  0.0 s  2.5 s          –        –
+take-off       2.5 s  8.1 s    0.034 m  0.068 m
 
     30.0 s  fault: gnss off
     31.1 s  vehicle: Position lost: descending
 
-reached     take-off to 5 m within 0.21 m
-landed      at 71.5 s, 0.50 m from the start, with 0.40 m/s down and 0.10 m/s sideways; disarmed at 73.0 s
+places      0.21 m from take-off to 5 m
+touchdown   at 71.5 s, 0.50 m from the start, with 0.40 m/s down and 0.10 m/s sideways; disarmed at 73.0 s
 battery     100 % at the start, 82 % at the end
-estimate    RMS error while armed: tilt 0.29°, heading 1.15°, position 1.25 m, velocity 50.000 mm/s
+estimate    RMS error while armed: tilt 0.29°, heading 1.15°, position 1.250 m, velocity 0.050 m/s
 
 ";
         assert_eq!(render(&told(), Some(&sensed)), expected);
         let text = render(&Told { timeline: Timeline::default(), ..told() }, Some(&Sensed::default()));
-        assert!(text.contains("no; not disarmed") && !text.contains("estimate"), "{text}");
+        assert!(!text.contains("touchdown") && !text.contains("estimate"), "{text}");
     }
 }

@@ -1,0 +1,147 @@
+//! How flights end, and what they leave: verdicts by the truth, folders that are whole, and Ctrl-C.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+
+/// A folder of its own, in which the program runs.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("glissade-{}-endings-{name}", std::process::id()));
+        fs::create_dir_all(&path).expect("the temporary folder can be written");
+        Self(path)
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_sim-host"));
+        command.args(arguments).current_dir(&self.0).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().expect("the program starts")
+    }
+
+    fn json(&self, arguments: &[&str]) -> Value {
+        serde_json::from_slice(&self.run(arguments).stdout).expect("JSON")
+    }
+
+    fn text(&self, arguments: &[&str]) -> String {
+        String::from_utf8(self.run(arguments).stdout).expect("UTF-8")
+    }
+
+    /// Starts a flight of a day, and waits until its truth.csv grows.
+    fn flying(&self, out: &str) -> Child {
+        let child = self.command(&["run", "day", "--out", out]).spawn().expect("the program starts");
+        let truth = self.0.join(format!(".{out}.partial/truth.csv"));
+        while fs::metadata(&truth).map_or(0, |file| file.len()) < 1_000_000 {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        child
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+#[test]
+fn a_vehicle_too_heavy_to_fly_has_not_survived() {
+    let folder = Folder::new("heavy");
+    let heavy = ["run", "outdoor-tour", "--set", "truth.mass_factor=3", "--set", "duration_s=12"];
+    let json = folder.json(&[&heavy[..], &["--json"]].concat());
+    assert_eq!((&json["survived"], &json["end"]), (&false.into(), &"never-flew".into()));
+    assert_eq!(json["mission"]["completed"], false);
+    let text = folder.text(&heavy);
+    assert!(text.contains("mission NOT completed\n  never flew"), "{text}");
+}
+
+#[test]
+fn a_hard_touchdown_is_a_crash_and_the_flight_goes_on() {
+    let folder = Folder::new("crash");
+    // With little left of its thrust from 15 s on, it falls from 20 m.
+    let fall = ["run", "lost-rotor", "--set", "truth.mass_factor=1.0", "--set", "fault.0.from_s=20"];
+    let fallen: Vec<&str> =
+        [&fall[..], &["--set", "thrust_to_weight=1.6", "--set", "duration_s=40", "--json"]].concat();
+    let json = folder.json(&fallen);
+    assert_eq!((&json["survived"], &json["end"]), (&false.into(), &"crashed".into()), "{json}");
+    assert!(
+        json["crash"]["descent_m_s"].as_f64().expect("a speed") > 4.0 || json["crash"]["tilt_rad"].as_f64() > Some(1.0)
+    );
+    assert!(json["duration_s"].as_f64() > json["crash"]["t_s"].as_f64(), "it is simulated on");
+}
+
+#[test]
+fn a_whole_tour_is_a_completed_mission() {
+    let json = Folder::new("tour").json(&["run", "outdoor-tour", "--json"]);
+    assert_eq!((&json["mission"]["completed"], &json["survived"]), (&true.into(), &true.into()));
+    let names: Vec<&str> =
+        json["phases"].as_array().expect("phases").iter().filter_map(|p| p["name"].as_str()).collect();
+    let expected = ["before arming", "armed", "take-off", "hold", "go-to 1", "go-to 2", "go-to 3", "go-to 4", "join"];
+    assert_eq!(names[..9], expected);
+    assert_eq!(names[9..], ["trajectory", "return", "land", "landed", "disarmed"]);
+    assert!(json["touchdown"]["from_start_m"].as_f64() < Some(3.0));
+}
+
+#[test]
+fn a_lost_receiver_is_told_with_what_the_vehicle_did() {
+    let text = Folder::new("gnss").text(&["run", "path-gnss-lost", "--set", "duration_s=50"]);
+    let order =
+        ["mission NOT completed", "Position estimate lost: descending at", "landed at", "fault: gnss off", "touchdown"];
+    let places: Vec<_> =
+        order.iter().map(|words| text.find(words).unwrap_or_else(|| panic!("{words}: {text}"))).collect();
+    assert!(places.is_sorted(), "{text}");
+    assert!(!text.contains("never") && !text.contains('\x1b'), "{text}");
+}
+
+#[test]
+fn a_folder_flies_again_by_itself() {
+    let folder = Folder::new("again");
+    let settings = ["--set", "duration_s=2", "--set", "airframe.mass_kg=0.9", "--set", "control.x.gain=18"];
+    let first = folder.json(&[&["run", "helix", "--seed", "3", "--out", "out", "--json"], &settings[..]].concat());
+    let again = folder.json(&["run", "out/scenario.toml", "--seed", "3", "--json"]);
+    assert_eq!(again["truth_sha256"], first["truth_sha256"]);
+    let provenance = fs::read_to_string(folder.0.join("out/provenance.toml")).expect("it is there");
+    assert!(provenance.contains("airframe.mass_kg=0.9") && provenance.contains("seed = 3"), "{provenance}");
+    assert!(provenance.contains(env!("CARGO_PKG_VERSION")), "{provenance}");
+}
+
+#[test]
+fn a_killed_run_leaves_the_folder_of_the_flight_before() {
+    let folder = Folder::new("killed");
+    folder.json(&["run", "step", "--set", "duration_s=1", "--out", "out", "--json"]);
+    let whole = fs::read(folder.0.join("out/truth.csv")).expect("it is there");
+    let mut child = folder.flying("out");
+    child.kill().and_then(|()| child.wait()).expect("it can be killed");
+    assert!(fs::read(folder.0.join("out/truth.csv")).expect("it is still there") == whole);
+    folder.json(&["run", "step", "--set", "duration_s=2", "--out", "out", "--json"]);
+    assert_eq!(fs::read_to_string(folder.0.join("out/truth.csv")).expect("it is there").lines().count(), 1 + 2000);
+    assert!(!folder.0.join(".out.partial").exists() && !folder.0.join("out/estimate.csv").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_flight_keeps_what_was_flown() {
+    let folder = Folder::new("interrupted");
+    let child = folder.flying("out");
+    let pid = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &pid]).status().expect("kill is there").success());
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(130));
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    assert!(text.contains("mission NOT completed\n  interrupted at") && text.contains("wrote out:"), "{text}");
+    let summary = fs::read_to_string(folder.0.join("out/summary.json")).expect("it is there");
+    let summary: Value = serde_json::from_str(&summary).expect("JSON");
+    assert_eq!(summary["end"], "interrupted");
+    let truth = fs::read_to_string(folder.0.join("out/truth.csv")).expect("it is there");
+    let rows = truth.lines().count() - 1;
+    assert_eq!(Some(rows as f64 / 1e3), summary["duration_s"].as_f64());
+    assert!(truth.ends_with('\n'), "the last row is whole");
+}
