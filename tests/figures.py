@@ -114,7 +114,7 @@ def flights_table():
 def helix_picture():
     with tempfile.TemporaryDirectory() as folder:
         fly("helix", "--out", folder)
-        return (Path(folder) / "fig7-helix.svg").read_text(encoding="utf-8")
+        return (Path(folder) / "path.svg").read_text(encoding="utf-8")
 
 
 def compare():
