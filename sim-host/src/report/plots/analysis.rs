@@ -88,7 +88,13 @@ fn attitude(folder: &Path, analysis: &Analysis) -> Result<PathBuf> {
     let panels: Vec<Panel> = analysis.attitude.iter().flat_map(|axis| [step(axis), noise(axis)]).collect();
     let path = folder.join("attitude.svg");
     let heading = format!("Steps of the attitude, noise of the rates\n{}", analysis.scenario);
-    save(&path, size_of(3, 260), &heading, &[Key::Line("a small step", Role::Reference), Key::Line("5°", Role::Flown)], |area| grid(area, 2, &panels))?;
+    save(
+        &path,
+        size_of(3, 260),
+        &heading,
+        &[Key::Line("a small step", Role::Reference), Key::Line("5°", Role::Flown)],
+        |area| grid(area, 2, &panels),
+    )?;
     Ok(path)
 }
 

@@ -205,9 +205,8 @@ fn maps_of_cells(
 }
 
 fn draw_square(area: &Area, left: u32, at: (usize, usize), (label, color, strength): (String, Color, f64)) {
-    let corner = |column: usize, row: usize| {
-        (f64::from(left + SQUARE.0 * column as u32), f64::from(30 + SQUARE.1 * row as u32))
-    };
+    let corner =
+        |column: usize, row: usize| (f64::from(left + SQUARE.0 * column as u32), f64::from(30 + SQUARE.1 * row as u32));
     // Less than the full colour: the label stays readable.
     let ((x0, y0), (x1, y1)) = (corner(at.0, at.1), corner(at.0 + 1, at.1 + 1));
     area.rectangle((x0, y0), (x1, y1), palette::GRID);

@@ -77,7 +77,10 @@ fn attitude(folder: &Path, figures: &Figures) -> Result<PathBuf> {
         let velocity = Quantity::new(format!("v{} error", POSITIONS[axis]), Unit::MetrePerSecond);
         let named = format!("velocity {}: true − estimated", DIRECTIONS[axis]);
         [
-            Panel { title: format!("{}: true − estimated", about[axis]), ..error_panel(beliefs, angle, turn, turn_sigma) },
+            Panel {
+                title: format!("{}: true − estimated", about[axis]),
+                ..error_panel(beliefs, angle, turn, turn_sigma)
+            },
             Panel { title: named, ..error_panel(beliefs, velocity, speed, move |b| f64::from(b.sigma[3 + axis])) },
         ]
     });
@@ -94,8 +97,7 @@ fn innovations(folder: &Path, figures: &Figures) -> Result<PathBuf> {
     let panels = (0..SOURCES.len()).filter_map(|number| innovation_panel(figures.beliefs, number));
     let panels: Vec<_> = panels.map(|panel| placed(figures, panel)).collect();
     let path = folder.join("innovations.svg");
-    let legend =
-        legend(figures, &[Key::Dots("reading", palette::FLOWN), Key::Line("95 % line", Role::Limit)]);
+    let legend = legend(figures, &[Key::Dots("reading", palette::FLOWN), Key::Line("95 % line", Role::Limit)]);
     let heading = figures.heading("Normalised innovations squared (NIS)");
     let rows = panels.len().div_ceil(2).max(1);
     save(&path, size_of(rows, PANEL), &heading, &legend, |area| grid(area, 2, &panels))?;

@@ -72,7 +72,8 @@ impl<'a> Figures<'a> {
             Order::GoTo { position_m, .. } => Some(position_m.map(f64::from)),
             _ => None,
         };
-        let backdrop = if kind == Kind::Piloted { phases::backdrop(scenario, rows, timeline) } else { Backdrop::default() };
+        let backdrop =
+            if kind == Kind::Piloted { phases::backdrop(scenario, rows, timeline) } else { Backdrop::default() };
         let end = backdrop.end() + AFTERWARDS_S;
         Self {
             of: format!("{}, seed {seed}", scenario.name),

@@ -95,12 +95,7 @@ impl Panel {
     }
 
     /// A path in a plane, its start marked.
-    pub(super) fn path(
-        title: &str,
-        across: impl Into<Quantity>,
-        up: impl Into<Quantity>,
-        points: Points,
-    ) -> Self {
+    pub(super) fn path(title: &str, across: impl Into<Quantity>, up: impl Into<Quantity>, points: Points) -> Self {
         let lines = vec![(Role::Flown, points)];
         Self { across: across.into(), mark_start: true, ..Self::over_time(title, up, lines) }
     }
@@ -141,7 +136,8 @@ impl Panel {
 
     /// What is shown across and up, before scales are made equal.
     pub(super) fn ranges(&self) -> ((f64, f64), (f64, f64)) {
-        let Scales { across, up, .. } = Self { equal_scales: false, mark_start: true, ..self.clone() }.scales((1.0, 1.0));
+        let Scales { across, up, .. } =
+            Self { equal_scales: false, mark_start: true, ..self.clone() }.scales((1.0, 1.0));
         (across, up)
     }
 
@@ -183,6 +179,8 @@ impl Panel {
         for (value, label) in right {
             let (x, bottom) = scales.place((value, scales.up.0));
             chart.line([(x, 0.0), (x, bottom)], grid);
+            // At the right edge, within the page.
+            let x = x.min(chart.width + RIGHT - 0.5 * text_width(&label, 12.0) - 1.0);
             chart.text((x, bottom + 12.0), &label, Font::new(12.0, Anchor::Middle));
         }
         for (value, label) in rising {

@@ -52,7 +52,8 @@ pub(super) fn draw(path: &Path, heading: &str, figures: &Figures) -> Result<()> 
     let space = frame.height(SPACE).clamp(LOWEST, HIGHEST);
     let height = space.max(plan);
     let phases = figures.backdrop.leg_keys();
-    let lines = if phases.is_empty() { vec![Key::Reference, Key::Flown] } else { vec![Key::Line("reference", Role::Guide)] };
+    let lines =
+        if phases.is_empty() { vec![Key::Reference, Key::Flown] } else { vec![Key::Line("reference", Role::Guide)] };
     let legend: Vec<Key> = phases.into_iter().chain(lines).chain([Key::Start]).collect();
     save(path, (WIDTH, HEADING + height as u32), heading, &legend, |area| {
         let (left, right) = area.split_right(SPACE);

@@ -57,12 +57,8 @@ fn events(scenario: &Scenario, rows: &[Row], timeline: &Timeline) -> Vec<(f64, S
     let of = |kind: EventKind| timeline.events.iter().find(|event| event.kind == kind).map(|event| event.t_s);
     let landed = of(EventKind::Touchdown).or_else(|| touchdown(scenario, rows));
     let lost = rows.last().filter(|row| !row.is_tracking()).map(|row| row.t);
-    let named = [
-        (landed, TOUCHDOWN),
-        (of(EventKind::Crash), "crash"),
-        (of(EventKind::Disarmed), DISARMED),
-        (lost, "lost"),
-    ];
+    let named =
+        [(landed, TOUCHDOWN), (of(EventKind::Crash), "crash"), (of(EventKind::Disarmed), DISARMED), (lost, "lost")];
     let mut events: Vec<_> = named.into_iter().filter_map(|(t, name)| Some((t?, name.to_owned()))).collect();
     events.sort_by(|a, b| a.0.total_cmp(&b.0));
     events
@@ -83,11 +79,15 @@ pub(super) fn flight(folder: &Path, figures: &Figures) -> Result<PathBuf> {
     let rows = figures.rows;
     let panels = [height(figures), distance(figures), speed(rows), tilt(rows), rotors(rows)];
     let last = panels.len() - 1;
-    let panels: Vec<Panel> = panels.into_iter().enumerate().map(|(i, panel)| {
-        let backdrop = if i == 0 { figures.backdrop.named() } else { figures.backdrop.clone() };
-        let across = if i == last { panel.across.clone() } else { Quantity::from("") };
-        Panel { span: figures.span(), across, backdrop, ..panel }
-    }).collect();
+    let panels: Vec<Panel> = panels
+        .into_iter()
+        .enumerate()
+        .map(|(i, panel)| {
+            let backdrop = if i == 0 { figures.backdrop.named() } else { figures.backdrop.clone() };
+            let across = if i == last { panel.across.clone() } else { Quantity::from("") };
+            Panel { span: figures.span(), across, backdrop, ..panel }
+        })
+        .collect();
     let path = folder.join("flight.svg");
     let legend: Vec<Key> = figures.backdrop.keys().into_iter().chain([Key::Reference, Key::Flown]).collect();
     let heading = figures.heading("Flight, phase by phase");

@@ -50,8 +50,7 @@ pub(super) struct Frame {
 impl Frame {
     /// Around what was flown and its reference.
     pub(super) fn around(rows: &[Row]) -> Self {
-        let range =
-            |axis: usize| extent(rows.iter().flat_map(|row| [row.position[axis], row.reference[axis]]));
+        let range = |axis: usize| extent(rows.iter().flat_map(|row| [row.position[axis], row.reference[axis]]));
         let ranges = [0, 1, 2].map(|axis| range(axis).unwrap_or((0.0, 1.0)));
         let longest = ranges.iter().map(|(low, high)| high - low).fold(1e-3, f64::max);
         let step = axis::step(longest, STEPS);

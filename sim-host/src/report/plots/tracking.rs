@@ -112,8 +112,11 @@ fn save_pairs(
         Panel::over_time(title, Quantity::new(format!("{} error", names[axis]), unit), line)
     };
     let of_axis = |axis: usize| {
-        let whole = [absolute(axis), panel(rows, axis, "reference − flown")].map(|panel| {
-            Panel { span: figures.span(), shaded: acting(figures), backdrop: figures.backdrop.clone(), ..panel }
+        let whole = [absolute(axis), panel(rows, axis, "reference − flown")].map(|panel| Panel {
+            span: figures.span(),
+            shaded: acting(figures),
+            backdrop: figures.backdrop.clone(),
+            ..panel
         });
         let after = format!("the same after {TRACKING_FROM_S} s");
         let after = Panel { shaded: acting(figures), ..panel(tracked, axis, &after) };
