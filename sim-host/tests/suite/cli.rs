@@ -257,7 +257,7 @@ fn a_flight_on_sensors_leaves_what_was_believed() {
     let estimate = fs::read_to_string(folder.0.join("out/estimate.csv")).expect("estimate.csv is there");
     assert_eq!(estimate.lines().count(), 1 + 6000 / 20);
     assert!(estimate.contains(",take-off,1,"), "it has taken off");
-    for figure in ["fig8-estimate-position", "fig9-estimate-attitude", "fig10-innovations"] {
+    for figure in ["flight", "estimate-position", "estimate-attitude", "innovations"] {
         assert!(folder.0.join(format!("out/{figure}.svg")).is_file(), "{figure}");
     }
     let ideal = folder.succeeds(&["run", "helix", "--set", "duration_s=1", "--out", "ideal", "--json"]);

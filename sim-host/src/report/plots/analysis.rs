@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 
+use super::axis::{Quantity, Unit};
 use super::page::{grid, save, size_of};
 use super::panel::Panel;
 use super::series::Points;
@@ -32,7 +33,7 @@ fn of_loop(folder: &Path, scenario: &str, one: &Loop) -> Result<PathBuf> {
     };
     let panels = [
         bode("gain", "|L|, dB", decibels(&one.response), decibels(&simulated), vec![0.0]),
-        bode("phase", "phase of L, °", phases(&one.response), phases(&simulated), vec![-180.0]),
+        bode("phase", Quantity::new("phase of L", Unit::Degree), phases(&one.response), phases(&simulated), vec![-180.0]),
         nyquist(&one.response, &simulated),
         bode("sensitivity", "|1/(1 + L)|, dB", sensitivity(&one.response), sensitivity(&simulated), vec![0.0]),
     ];
@@ -47,7 +48,7 @@ fn decibels_of(square: f64) -> f64 {
 }
 
 /// Over frequencies given as their logarithm, with levels to compare with.
-fn bode(title: &str, up: &str, line: Points, dots: Points, levels: Vec<f64>) -> Panel {
+fn bode(title: &str, up: impl Into<Quantity>, line: Points, dots: Points, levels: Vec<f64>) -> Panel {
     let across = extent(&line);
     let level = |v: f64| (Role::Level, vec![(across.0, v), (across.1, v)]);
     let lines = levels.into_iter().map(level).chain([(Role::Flown, line)]).collect();
@@ -92,7 +93,7 @@ fn attitude(folder: &Path, analysis: &Analysis) -> Result<PathBuf> {
         &path,
         size_of(3, 260),
         &heading,
-        &[Key::Line("a small step", Role::Reference), Key::Line("5°", Role::Flown)],
+        &[Key::Line("a small step", Role::Reference), Key::Line("a step of 5°", Role::Flown)],
         |area| grid(area, 2, &panels),
     )?;
     Ok(path)

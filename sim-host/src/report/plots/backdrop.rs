@@ -122,11 +122,13 @@ impl Backdrop {
         }
         let edge = Stroke { color: span.color, width: 1.2, dashed: true };
         chart.line([(left, chart.height), (left, 0.0)], edge);
-        chart.line([(left, -2.5), (right, -2.5)], Role::Fault.stroke());
         if span.to < range.1 {
             chart.line([(right, 0.0), (right, chart.height)], edge);
         }
-        let Some(middle) = self.strip(1) else { return };
+        let Some(middle) = self.strip(1) else {
+            chart.line([(left, -2.5), (right, -2.5)], Role::Fault.stroke());
+            return;
+        };
         chart.rectangle((left, middle - 0.5 * STRIP), (right, middle + 0.5 * STRIP), span.color.tint(0.3));
         // A name that does not fit goes on beyond a short fault, or to its left.
         let wide = text_width(&span.name, SIZE);
@@ -138,23 +140,38 @@ impl Backdrop {
         chart.text((x, middle), &span.name, Font::new(SIZE, anchor));
     }
 
-    /// Draws a line at each event, and its name where those before leave room.
+    /// Draws a line at each event, and its name above.
     pub(super) fn draw_events(&self, chart: &Area, range: (f64, f64)) {
-        let mut taken = 0.0;
-        for (t, name) in self.events.iter().filter(|(t, _)| (range.0..=range.1).contains(t)) {
-            let x = place(chart, range, *t);
-            chart.line([(x, 0.0), (x, chart.height)], Stroke { color: INK, width: 1.0, dashed: true });
-            let Some(middle) = self.strip(2) else { continue };
-            let wide = text_width(name, SIZE);
-            let left = (x - 0.5 * wide).clamp(0.0, (chart.width - wide).max(0.0)).max(taken);
-            if left + wide > chart.width + 12.0 {
-                continue;
+        let stroke = Stroke { color: INK, width: 1.0, dashed: true };
+        let shown: Vec<_> = self.events.iter().filter(|(t, _)| (range.0..=range.1).contains(t)).collect();
+        let names: Vec<_> = shown.iter().map(|(t, name)| (place(chart, range, *t), text_width(name, SIZE))).collect();
+        let strip = self.strip(2);
+        let top = strip.map_or(0.0, |middle| middle + 0.5 * STRIP);
+        for (((_, name), (x, _)), left) in shown.iter().zip(&names).zip(apart(&names, chart.width)) {
+            chart.line([(*x, top), (*x, chart.height)], stroke);
+            if let Some(middle) = strip {
+                chart.text((left, middle), name, Font::new(SIZE, Anchor::Start));
             }
-            chart.line([(x, middle + 0.5 * STRIP), (x, 0.0)], Stroke { color: INK, width: 1.0, dashed: true });
-            chart.text((left, middle), name, Font::new(SIZE, Anchor::Start));
-            taken = left + wide + 6.0;
         }
     }
+}
+
+/// Left edges of names (the middle that each would have, and its width) that do not overlap and end within `width`.
+fn apart(names: &[(f64, f64)], width: f64) -> Vec<f64> {
+    const GAP: f64 = 6.0;
+    let mut free = 0.0_f64;
+    let mut lefts: Vec<f64> = Vec::with_capacity(names.len());
+    for (middle, wide) in names {
+        let left = (middle - 0.5 * wide).max(free);
+        free = left + wide + GAP;
+        lefts.push(left);
+    }
+    let mut limit = width;
+    for (left, (_, wide)) in lefts.iter_mut().zip(names).rev() {
+        *left = left.min(limit - wide);
+        limit = *left - GAP;
+    }
+    lefts
 }
 
 /// A phase: a shade, and its name where it fits; the legend has it too.
@@ -196,5 +213,17 @@ pub(super) fn phase_color(name: &str) -> Color {
         "return" => palette::PURPLE,
         "land" | "descent" | "motor-out" => palette::VERMILION,
         _ => palette::GREY,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_keep_apart_and_within_the_panel() {
+        assert_eq!(apart(&[(10.0, 20.0), (100.0, 20.0)], 200.0), [0.0, 90.0]);
+        assert_eq!(apart(&[(190.0, 20.0), (195.0, 20.0), (196.0, 20.0)], 200.0), [128.0, 154.0, 180.0]);
+        assert!(apart(&[], 200.0).is_empty());
     }
 }

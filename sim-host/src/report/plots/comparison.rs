@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 
+use super::axis;
 use super::page::save;
 use super::series::extent;
 use super::style::{Color, INK, Key, palette};
@@ -121,7 +122,9 @@ fn ticks(low: f64, high: f64) -> Vec<f64> {
     let steps: &[f64] = if high / low < 300.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
     let decades = [0.001, 0.01, 0.1, 1.0, 10.0, 100.0, 1000.0, 10_000.0, 100_000.0];
     let all = decades.iter().flat_map(|decade| steps.iter().map(move |step| step * decade));
-    all.filter(|value| (low..=high).contains(value)).collect()
+    let ticks: Vec<f64> = all.filter(|value| (low..=high).contains(value)).collect();
+    // A narrow range has its own round numbers.
+    if ticks.len() > 1 { ticks } else { axis::ticks((low, high), axis::step(high - low, 4.0)) }
 }
 
 /// Each other controller's RMS error over the first one's, a map a controller.
@@ -271,6 +274,7 @@ mod tests {
     #[test]
     fn ticks_are_round_and_few() {
         assert_eq!(ticks(1.5, 60.0), [2.0, 5.0, 10.0, 20.0, 50.0]);
+        assert_eq!(ticks(1100.0, 2500.0), [1500.0, 2000.0, 2500.0]);
         assert_eq!(ticks(0.008, 90.0), [0.01, 0.1, 1.0, 10.0]);
     }
 }

@@ -179,6 +179,8 @@ impl Panel {
         for (value, label) in right {
             let (x, bottom) = scales.place((value, scales.up.0));
             chart.line([(x, 0.0), (x, bottom)], grid);
+            // At the right edge, within the page.
+            let x = x.min(chart.width + RIGHT - 0.5 * text_width(&label, 12.0) - 1.0);
             chart.text((x, bottom + 12.0), &label, Font::new(12.0, Anchor::Middle));
         }
         for (value, label) in rising {

@@ -45,7 +45,7 @@ pub(super) mod palette {
     /// While a disturbance acts.
     pub(in super::super) const DISTURBED: Color = Color(222, 226, 230);
     /// Two standard deviations.
-    pub(in super::super) const BAND: Color = Color(205, 225, 240);
+    pub(in super::super) const BAND: Color = Color(200, 204, 210);
     /// Things of a kind that stand side by side.
     pub(in super::super) const SERIES: [Color; 6] = [BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY];
     /// Grid.

@@ -162,11 +162,11 @@ fn axes_have_units_and_figures_have_headings() {
             assert!(svg.contains(word), "{name} has no {word}");
         }
     };
-    says("position", &["Position and its error", "made-up, seed 1", ">x, m<", ">t, s<", ">x error, m<"]);
+    says("position", &["Position and its error", "made-up, seed 1", ">x, m<", ">t, s<", ">y error, m<"]);
     says("position", &["reference", "flown", "disturbance acts", "the same after 4 s", ">y error, mm<"]);
     says("attitude", &[">roll, °<", ">pitch error, °<"]);
     says("rotors", &[">U1, N<", ">U2, mN m<", ">speed, rad/s<"]);
-    says("phase", &[">x error, m<", ">x error rate, m/s<", "start"]);
+    says("phase", &[">y error, m<", ">y error rate, m/s<", "start"]);
     says("disturbance", &["disturbance, m/s²", "disturbance, rad/s²"]);
     says("path", &["x (north), m", "y (west), m", "z (up), m", "from above", "height"]);
 }
