@@ -1,4 +1,4 @@
-//! Controllers that can be flown, with their gains, as they stand in a tuning file.
+//! Controllers that can be flown, with their gains, as written in a tuning file.
 
 mod smc;
 
@@ -78,10 +78,10 @@ impl Controller {
         }
     }
 
-    /// Refuses gains with which its laws are not defined; the firmware refuses those of its own.
+    /// Checks that its laws are defined for these gains; the firmware refuses those of its own.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         match self {
             Self::Smc(_) => Ok(()),

@@ -47,7 +47,8 @@ pub fn ground(scenario: &Scenario) -> Option<Ground> {
 /// A plant with the firmware of a scenario in its loop, flying by its own sliding mode laws.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses, or that it asks for another controller.
+/// The firmware refuses the configuration: the first field that is out of range, or that it asks for another
+/// controller.
 pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Flight<P>> {
     scenario.controller.require_smc("this command")?;
     let config = scenario.flight_config();
@@ -59,7 +60,7 @@ pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Fl
 /// The same with other control laws.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
     scenario: &Scenario,
     seed: u64,
@@ -82,7 +83,7 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
 /// Flies a scenario to its end, or until the vehicle is lost.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 pub fn fly(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Outcome> {
     let mut touchdown = ground(scenario).map(Touchdown::new);
     let outcome = on_its_plant(scenario, seed, &mut (recorder, &mut touchdown))?;
@@ -103,7 +104,7 @@ fn on_its_plant(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) ->
 /// Flies a scenario to its end, and measures what it is judged by.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 pub fn assess(scenario: &Scenario, assess: &Assess, seed: u64) -> Result<Measures> {
     let file = &scenario.file;
     let place = |command: &Command| match command.order {

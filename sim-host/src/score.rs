@@ -38,7 +38,7 @@ pub struct Score {
     pub torque_rms_n_m: Option<f64>,
     /// Mean of ω² over rotors and time, (rad/s)².
     pub omega_squared_mean_rad2_s2: Option<f64>,
-    /// Total variation of the commanded ω², summed over the rotors, a second: (rad/s)²/s.
+    /// Total variation of the commanded ω², summed over the rotors, per second: (rad/s)²/s.
     pub chattering_rad2_s3: Option<f64>,
     /// Fraction of the ticks in which the mixer could not give the whole demand.
     pub saturated_fraction: f64,
@@ -121,7 +121,7 @@ impl Recorder for Scorer {
 /// Flies a scenario under a seed, and scores it.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 pub fn fly(scenario: &Scenario, seed: u64) -> Result<Score> {
     let mut scorer = Scorer::new(scenario);
     let outcome = flight::fly(scenario, seed, &mut scorer)?;

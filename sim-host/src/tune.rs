@@ -32,10 +32,10 @@ use serde::{Deserialize, Serialize};
 use crate::files::{self, built_in};
 use crate::scenario::TUNINGS;
 
-/// Tunes that come with the binary.
+/// Tunes built into the binary.
 const TUNES: [(&str, &str); 4] = built_in!("tunes": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
 
-/// Courses that come with the binary.
+/// Courses built into the binary.
 const COURSES: [(&str, &str); 1] = built_in!("courses": "x500");
 
 /// A tune file.
@@ -55,7 +55,7 @@ struct TuneFile {
 /// What is varied, and how it is judged.
 #[derive(Clone, Debug)]
 pub struct Tune {
-    /// Its name, or the path that it was read from.
+    /// Its name, or the path of its file.
     pub name: String,
     /// Gains as points of the unit cube.
     pub space: Space,
@@ -67,7 +67,7 @@ impl Tune {
     /// Loads a built-in tune by name or a file by path, with the tuning and the course that it names.
     ///
     /// # Errors
-    /// One line that names the file, the key, and what is wrong with it.
+    /// One line with the file, the key and the error.
     pub fn load(name: &str) -> Result<Self> {
         let context = || format!("tune `{name}`");
         let file: TuneFile = files::read(name, "tune", &TUNES)?;

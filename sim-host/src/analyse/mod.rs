@@ -186,7 +186,7 @@ pub fn analyse(scenario: &Scenario, seed: u64) -> Result<Analysis> {
 /// The same for a scenario that hovers, with its laws. They are to be fresh; clones of them are flown.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 fn of_laws<A, P>(hover: &Scenario, seed: u64, attitude: &A, position: &P) -> Result<Analysis>
 where
     A: AttitudeLaw + Clone + Sync,

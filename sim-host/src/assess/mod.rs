@@ -88,7 +88,7 @@ impl Assess {
     /// Refuses what cannot be judged.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         within("assess.from_s", self.from_s, 0.0, LONGEST_S)?;
         if let Some(to_s) = self.to_s {

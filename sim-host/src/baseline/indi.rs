@@ -32,11 +32,11 @@ use crate::refusal::within;
 /// Longest delay that can be made up for, ticks.
 const DELAY_TICKS_MAX: usize = 16;
 
-/// Gains of both laws, as they stand in a file.
+/// Gains of both laws, as written in a tuning file.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Indi {
-    /// Greatest tilt that position control asks for, rad.
+    /// Greatest tilt that position control demands, rad.
     pub tilt_max_rad: f32,
     /// kx, 1/s².
     pub position_1_s2: AxisPair,
@@ -61,10 +61,10 @@ pub struct Indi {
 }
 
 impl Indi {
-    /// Refuses gains with which the laws are not defined.
+    /// Checks that the laws are defined for these gains.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         require_tilt("indi.tilt_max_rad", self.tilt_max_rad)?;
         for (key, gain) in [
@@ -96,7 +96,7 @@ pub struct IndiPosition {
 }
 
 impl IndiPosition {
-    /// Stepped once a job of the outer partition, with valid gains.
+    /// With valid gains; evaluated once per job of the outer partition.
     pub fn new(airframe: &Airframe, gains: &Indi) -> Self {
         let low_pass = || Butterworth::new(&Vector3::repeat(gains.acceleration_cutoff_hz), OUTER_STEP_S);
         Self {
@@ -202,7 +202,7 @@ pub struct IndiAttitude {
 }
 
 impl IndiAttitude {
-    /// Stepped once a tick, with valid gains.
+    /// With valid gains; evaluated once per tick.
     pub fn new(airframe: &Airframe, gains: &Indi) -> Self {
         let low_pass = || Butterworth::new(&gains.rate_cutoff_hz.vector(), TICK_S);
         Self {

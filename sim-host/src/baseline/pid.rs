@@ -27,11 +27,11 @@ use super::filter::{Difference, LowPass};
 use super::{AxisPair, OUTER_STEP_S, clamp_each, require_cutoff, require_tilt};
 use crate::refusal::within;
 
-/// Gains of the cascade, as they stand in a file; PX4's parameters in brackets.
+/// Gains of the cascade, as written in a tuning file; PX4's parameters in brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pid {
-    /// Greatest tilt that position control asks for, rad (`MPC_TILTMAX_AIR`).
+    /// Greatest tilt that position control demands, rad (`MPC_TILTMAX_AIR`).
     pub tilt_max_rad: f32,
     /// Velocity wanted for an error of the position, 1/s (`MPC_XY_P`, `MPC_Z_P`).
     pub position_p_1_s: AxisPair,
@@ -68,10 +68,10 @@ pub struct Pid {
 }
 
 impl Pid {
-    /// Refuses gains with which the laws are not defined.
+    /// Checks that the laws are defined for these gains.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         require_tilt("pid.tilt_max_rad", self.tilt_max_rad)?;
         for (key, gain) in [
@@ -111,7 +111,7 @@ pub struct PidPosition {
 }
 
 impl PidPosition {
-    /// Stepped once a job of the outer partition, with valid gains.
+    /// With valid gains; evaluated once per job of the outer partition.
     pub fn new(airframe: &Airframe, gains: &Pid) -> Self {
         Self {
             gains: *gains,
@@ -214,7 +214,7 @@ pub struct PidAttitude {
 const INTEGRAL_STOPS_AT_RAD_S: f32 = 6.981_317;
 
 impl PidAttitude {
-    /// Stepped once a tick, with valid gains.
+    /// With valid gains; evaluated once per tick.
     pub fn new(airframe: &Airframe, gains: &Pid) -> Self {
         Self {
             gains: *gains,

@@ -1,5 +1,5 @@
-//! Gains of the sliding mode laws, by axis, as they stand in a file: each axis by its gains, or by what is known of it
-//! ([`AxisBounds`], told apart by `answer_s`), from which the gains follow.
+//! Gains of the sliding mode laws, by axis, as written in a tuning file: each axis by its gains, or by what is known of
+//! it ([`AxisBounds`], told apart by `answer_s`), from which the gains follow.
 
 use firmware::control::attitude::{AttitudeForm, AttitudeGains};
 use firmware::control::design::AxisBounds;
@@ -15,7 +15,7 @@ use crate::refusal::{Refusal, typed};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Control {
-    /// Greatest tilt that position control asks for, rad.
+    /// Greatest tilt that position control demands, rad.
     pub tilt_max_rad: f32,
     /// Time constant to which the rotors' lag is brought down, s; 0 for none.
     #[serde(default)]

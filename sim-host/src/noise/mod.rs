@@ -91,7 +91,7 @@ impl Noise {
         }
     }
 
-    /// What acts at `tick`. To be asked for each tick in turn, once; [`now`](Self::now) says it again.
+    /// What acts at `tick`. Call once per tick, in order; [`now`](Self::now) says it again.
     #[inline]
     pub fn at(&mut self, tick: u32) -> &Disturbed {
         if self.ticks.contains(&tick) {

@@ -38,12 +38,11 @@ struct CourseFile {
 /// What counts in a flight. The cost of a controller is the mean over its flights, so that with logarithms of the
 /// errors a controller that halves one flight's error gains as much as one that halves another's, whatever their sizes.
 ///
-/// A flight that is survived costs
-/// `rms ln(RMS + floor) + yaw ln(yaw RMS + floor) + settling S/T + chattering ln(1 + v) + saturation σ`
-/// with the distance from the trajectory in m and the heading's error in rad, S the time until the distance stays within
-/// 5 cm, T the time that counts, v the total variation of the commanded ω² a second in units of Σω² in hover, σ the
-/// saturated part of the flight. A flight that is lost costs `lost (2 − t/D)`, t the time flown of the whole D:
-/// the later, the better.
+/// A flight that is survived costs `rms ln(RMS + floor) + yaw ln(yaw RMS + floor) + settling S/T + chattering ln(1 + v)
+/// + saturation σ` with the distance from the trajectory in m and the heading's error in rad, S the time until the
+/// distance stays within 5 cm, T the time that counts, v the total variation of the commanded ω² per second in units of
+/// Σω² in hover, σ the saturated part of the flight. A flight that is lost costs `lost (2 − t/D)`, t the time flown of
+/// the whole D: the later, the better.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weights {
@@ -178,7 +177,7 @@ impl Sortie {
 /// Flights and weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
-    /// Its name, or the path that it was read from.
+    /// Its name, or the path of its file.
     pub name: String,
     /// What counts.
     pub weights: Weights,
@@ -189,8 +188,8 @@ impl Course {
     /// Loads a built-in course by name or a file by path.
     ///
     /// # Errors
-    /// One line that names the file, the key, and what is wrong with it: a scenario or a disturbance that the matrix does
-    /// not have, or a seed that it judges with.
+    /// One line with the file, the key and the error: a scenario or a disturbance that the matrix does not have, or a
+    /// seed that it judges with.
     pub fn load(name: &str) -> Result<Self> {
         let file: CourseFile = files::read(name, "course", &COURSES)?;
         let context = || format!("course `{name}`");
