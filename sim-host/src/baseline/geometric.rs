@@ -8,8 +8,8 @@
 //! ```
 //!
 //! The derivatives of Rd follow from those of f: the reference's jerk and snap, and the errors' derivatives with the
-//! acceleration that the model gives and its difference from job to job. There is no drag in these papers, and none
-//! here: the integral takes of it what it can. The thrust is f along the body's axis, which the partition sees to.
+//! acceleration that the model gives and its difference from job to job. Like these papers, the law has no drag model:
+//! the integral compensates what it can. The thrust is f along the body's axis, which the partition computes.
 
 use anyhow::Result;
 use firmware::airframe::Airframe;
@@ -78,7 +78,7 @@ impl Geometric {
     }
 }
 
-/// An integral whose contribution is bounded, kept in the units of what it is added to.
+/// An integral with a bounded contribution, in the units of the sum it is added to.
 #[derive(Clone, Debug)]
 struct BoundedIntegral {
     gain: Vector3<f32>,
@@ -93,8 +93,8 @@ impl BoundedIntegral {
         Self { gain, per_step: gain * step_s, most, value: Vector3::zeros() }
     }
 
-    /// The contribution after another step, unless it is to hold; and the gain with which each axis integrates there,
-    /// none where it holds or is at its bound.
+    /// The contribution after another step, unless `hold`; and the gain with which each axis integrates, zero while it
+    /// holds or is at its bound.
     fn step(&mut self, integrand: &Vector3<f32>, hold: bool) -> (Vector3<f32>, Vector3<f32>) {
         if hold {
             return (self.value, Vector3::zeros());

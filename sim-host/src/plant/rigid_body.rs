@@ -125,8 +125,8 @@ impl RigidBody {
         self.ground.as_ref().map_or(position.z, |ground| ground.height_above(&position))
     }
 
-    /// Remaining fraction of each rotor's thrust and torques from now on: 1 for a sound rotor, 0 for one that is gone.
-    /// Its spin goes on.
+    /// Remaining fraction of each rotor's thrust and torque from now on: 1 for a healthy rotor, 0 for a failed one. Its
+    /// spin continues.
     pub fn set_rotor_effectiveness(&mut self, effectiveness: [f64; ROTORS]) {
         self.sound.effectiveness = effectiveness;
         match self.effects.take() {
