@@ -76,8 +76,8 @@ impl Shaking {
         Self { at_rad_s: vibration.at_rad_s, shakes, angle: [0.0; ROTORS], before: None }
     }
 
-    /// What is added to the rates (rad/s) and to the specific force (m/s²) at rotor speeds (rad/s). To be asked for
-    /// once a tick: the angles are the integral of the speeds, taken as linear from tick to tick.
+    /// Vibration of the rates (rad/s) and of the specific force (m/s²) at rotor speeds (rad/s). Call once per
+    /// tick: the angles are the integral of the speeds, interpolated linearly between ticks.
     pub(super) fn sample(&mut self, omega: &[f64; ROTORS]) -> (Vector3<f64>, Vector3<f64>) {
         let before = self.before.replace(*omega);
         let (mut rates, mut force) = (Vector3::zeros(), Vector3::zeros());
