@@ -34,7 +34,7 @@ pub enum Figure {
     Torque,
     /// Mean ω², (rad/s)².
     Omega,
-    /// Total variation of the commanded ω² a second, (rad/s)²/s.
+    /// Total variation of the commanded ω² per second, (rad/s)²/s.
     Chattering,
     /// Fraction of the ticks in which the mixer could not give the whole demand.
     Saturated,
@@ -240,8 +240,8 @@ impl<'a> Contest<'a> {
     /// Loads every scenario and every controller of a matrix.
     ///
     /// # Errors
-    /// One line that names the scenario or tuning, the key, and what is wrong with it; two scenarios or two controllers of
-    /// one name; or that no cell is left.
+    /// One line with the scenario or tuning, the key and the error; two scenarios or two controllers of one name; or
+    /// that no cell is left.
     pub fn new(matrix: &'a Matrix) -> Result<Self> {
         require_told_apart("controllers", &matrix.file.controllers)?;
         require_told_apart("scenarios", &matrix.file.scenarios)?;
@@ -262,7 +262,7 @@ impl<'a> Contest<'a> {
     /// the number of threads.
     ///
     /// # Errors
-    /// What of a scenario the firmware refuses.
+    /// The firmware refuses the configuration of a scenario.
     pub fn fly(&self, flown: impl Fn() + Sync) -> Result<Comparison> {
         let mut entries: Vec<(&Case, &str, Scenario)> = Vec::new();
         for case in &self.cases {

@@ -1,4 +1,4 @@
-//! Controllers that can be flown, with their gains, as they stand in a tuning file.
+//! Controllers that can be flown, with their gains, as written in a tuning file.
 
 mod smc;
 
@@ -28,13 +28,13 @@ pub enum Controller {
     Indi(Indi),
 }
 
-/// A tuning file: a summary, one controller's table, and nothing else.
+/// A tuning file: a summary and the table of one controller.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Table")]
 pub struct TuningFile {
-    /// Where the gains come from.
+    /// Origin of the gains.
     pub summary: String,
-    /// The controller, as a table of its name.
+    /// The controller, as a table with its name.
     #[serde(flatten)]
     pub controller: Controller,
 }
@@ -42,7 +42,7 @@ pub struct TuningFile {
 impl TryFrom<Table> for TuningFile {
     type Error = anyhow::Error;
 
-    // By hand, for a flattened enumeration takes the first table that it knows and drops every other key unread.
+    // Deserialised by hand, because a flattened enum takes the first known table and silently drops every other key.
     fn try_from(mut table: Table) -> Result<Self> {
         let choices = Controller::NAMES.join(", ");
         let Some(Value::String(summary)) = table.remove("summary") else {
@@ -65,7 +65,7 @@ impl TryFrom<Table> for TuningFile {
 }
 
 impl Controller {
-    /// The names of all.
+    /// The names of all controllers.
     pub(crate) const NAMES: [&str; 4] = ["smc", "pid", "geometric", "indi"];
 
     /// Its name in a file.
@@ -78,10 +78,10 @@ impl Controller {
         }
     }
 
-    /// Refuses gains with which its laws are not defined; the firmware refuses those of its own.
+    /// Checks that its laws are defined for these gains; the firmware refuses those of its own.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         match self {
             Self::Smc(_) => Ok(()),
@@ -102,7 +102,7 @@ impl Controller {
         }
     }
 
-    /// Puts into a flight's configuration what of the controller the firmware itself is told.
+    /// Copies the controller's settings into the firmware's configuration.
     pub fn configure(&self, config: &mut FlightConfig) {
         match self {
             Self::Smc(control) => {

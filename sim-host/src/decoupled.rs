@@ -1,7 +1,7 @@
 //! The paper's figures: Eq. 2 with the specific force and the torques as direct inputs of any size and sign, and
 //! the firmware's own control laws evaluated at every plant step, as a continuous-time block diagram would.
 //!
-//! This is the reading in which Table 1's gains give the paper's curves. No rotor turns in it: Ωr = 0.
+//! In this interpretation Table 1's gains give the paper's curves. It has no rotors: Ωr = 0.
 
 use firmware::airframe::Airframe;
 use firmware::control::attitude;
@@ -19,11 +19,11 @@ use crate::reference;
 use crate::scenario::{AttitudeWave, Scenario};
 use crate::sil::{End, Outcome};
 
-/// Plant steps a second.
+/// Plant steps per second.
 const STEPS_A_SECOND: f64 = 1e5;
 /// Plant step, s.
 pub(crate) const STEP_S: f64 = 1.0 / STEPS_A_SECOND;
-/// Plant steps in a row of the record.
+/// Plant steps per row of the record.
 const STEPS_A_ROW: u32 = 100;
 
 /// The decoupled model with the control laws in its loop.
@@ -42,7 +42,7 @@ pub struct Decoupled {
     step: u32,
 }
 
-/// What the laws ask for at a step.
+/// Demands of the laws at a step.
 struct Control {
     force: Vector3<f64>,
     torque: Vector3<f64>,
@@ -97,7 +97,7 @@ impl Decoupled {
         angles.into()
     }
 
-    /// Eq. 25–31 on the state as measured.
+    /// Eq. 25–31 on the measured state.
     fn control(&mut self, disturbed: &Disturbed) -> Control {
         let measured: Vector3<f32> = (self.state.position + disturbed.position).cast();
         let velocity: Vector3<f32> = self.state.velocity.cast();

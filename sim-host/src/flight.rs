@@ -1,4 +1,4 @@
-//! From a scenario to a flight: builds plant and firmware, and runs them.
+//! From a scenario to a flight: builds plant and firmware, and runs them in lockstep.
 
 use anyhow::{Result, anyhow};
 use firmware::autopilot::Autopilot;
@@ -26,7 +26,7 @@ use crate::sensors::Suite;
 use crate::sil::{Flight, Outcome};
 use crate::weather::Weather;
 
-/// The rigid-body plant of a scenario, in the motion with which a flight under `seed` begins.
+/// The rigid-body plant of a scenario, in the initial motion under `seed`.
 pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
     let position = Vector3::from(scenario.file.start_position_m);
     let plant =
@@ -37,7 +37,7 @@ pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
     }
 }
 
-/// The ground of a scenario, if there is any.
+/// The ground of a scenario, if any.
 pub fn ground(scenario: &Scenario) -> Option<Ground> {
     let (file, c) = (&scenario.file, scenario.constants());
     let height = file.world.ground_height_m.unwrap_or(file.start_position_m[2]);
@@ -47,7 +47,8 @@ pub fn ground(scenario: &Scenario) -> Option<Ground> {
 /// A plant with the firmware of a scenario in its loop, flying by its own sliding mode laws.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses, or that it asks for another controller.
+/// The firmware refuses the configuration: the first field that is out of range, or that it asks for another
+/// controller.
 pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Flight<P>> {
     scenario.controller.require_smc("this command")?;
     let config = scenario.flight_config();
@@ -59,7 +60,7 @@ pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Fl
 /// The same with other control laws.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
     scenario: &Scenario,
     seed: u64,
@@ -82,7 +83,7 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
 /// Flies a scenario to its end, or until the vehicle is lost.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 pub fn fly(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Outcome> {
     let mut touchdown = ground(scenario).map(Touchdown::new);
     let outcome = on_its_plant(scenario, seed, &mut (recorder, &mut touchdown))?;
@@ -100,10 +101,10 @@ fn on_its_plant(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) ->
     })
 }
 
-/// Flies a scenario to its end, and measures what it is judged by.
+/// Flies a scenario to its end, and returns the measures of its assessment.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 pub fn assess(scenario: &Scenario, assess: &Assess, seed: u64) -> Result<Measures> {
     let file = &scenario.file;
     let place = |command: &Command| match command.order {
@@ -118,7 +119,7 @@ pub fn assess(scenario: &Scenario, assess: &Assess, seed: u64) -> Result<Measure
     Ok(assessor.finish(!outcome.end.is_lost()))
 }
 
-/// Flies a scenario on a plant by the control laws that it asks for.
+/// Flies a scenario on a plant with its control laws.
 fn on_plant<P: Plant>(scenario: &Scenario, seed: u64, plant: P, recorder: &mut impl Recorder) -> Result<Outcome> {
     let (ticks, airframe) = (scenario.ticks(), scenario.airframe.flight());
     Ok(match &scenario.controller {

@@ -1,4 +1,4 @@
-//! Places on the WGS-84 ellipsoid, and the local frame that touches it at home.
+//! Positions on the WGS-84 ellipsoid, and the local tangent frame at home.
 //!
 //! ```text
 //! (north, west, up) about home  ◄──►  earth-centred, earth-fixed  ◄──►  latitude, longitude, height
@@ -16,10 +16,10 @@ const EQUATOR_M: f64 = 6_378_137.0;
 const FLATTENING: f64 = 1.0 / 298.257_223_563;
 /// e² = f (2 − f).
 const ECCENTRICITY_2: f64 = FLATTENING * (2.0 - FLATTENING);
-/// Units of a degree in which a receiver tells latitude and longitude.
+/// Units per degree in which a receiver reports latitude and longitude.
 const PER_DEGREE: f64 = 1e7;
 
-/// A place, in full precision.
+/// A geodetic position in full precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Place {
     /// Latitude, rad.
@@ -48,8 +48,8 @@ impl Place {
 
     /// The place of a point, earth-centred, earth-fixed, m.
     ///
-    /// Bowring's formula for the latitude (Survey Review 28, 1985), applied twice: within 10 km of the ellipsoid what
-    /// is left is rounding, some nanometres. Not for the centre of the earth.
+    /// Bowring's formula for the latitude (Survey Review 28, 1985), applied twice: within 10 km of the ellipsoid only
+    /// rounding remains, some nanometres. Not valid at the centre of the Earth.
     pub fn from_ecef(point: &Vector3<f64>) -> Self {
         let across = libm::hypot(point.x, point.y);
         let minor = EQUATOR_M * (1.0 - FLATTENING);
@@ -66,12 +66,12 @@ impl Place {
             reduced = libm::atan2((1.0 - FLATTENING) * sin, cos);
         }
         let (sin, cos) = libm::sincos(latitude);
-        // The form that is well conditioned at the poles too.
+        // This form is well conditioned at the poles too.
         let height_m = across * cos + point.z * sin - EQUATOR_M * EQUATOR_M / normal_radius(sin);
         Self { latitude_rad: latitude, longitude_rad: libm::atan2(point.y, point.x), height_m }
     }
 
-    /// As a receiver tells it: whole 1e-7° and mm.
+    /// As a receiver reports it: whole 1e-7° and mm.
     pub fn rounded(&self) -> Geodetic {
         Geodetic {
             latitude_e7: (self.latitude_rad.to_degrees() * PER_DEGREE).round() as i32,
@@ -80,7 +80,7 @@ impl Place {
         }
     }
 
-    /// What a receiver has told.
+    /// From a receiver's report.
     pub fn of(place: &Geodetic) -> Self {
         Self::from_degrees(
             f64::from(place.latitude_e7) / PER_DEGREE,
@@ -90,12 +90,12 @@ impl Place {
     }
 }
 
-/// N, the radius of curvature across the meridian at a latitude of this sine, m.
+/// N, the radius of curvature in the prime vertical at a latitude with this sine, m.
 fn normal_radius(sin_latitude: f64) -> f64 {
     EQUATOR_M / (1.0 - ECCENTRICITY_2 * sin_latitude * sin_latitude).sqrt()
 }
 
-/// The frame (north, west, up) that touches the ellipsoid at a place.
+/// The local tangent frame (north, west, up) at a position on the ellipsoid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalFrame {
     origin: Vector3<f64>,
@@ -104,7 +104,7 @@ pub struct LocalFrame {
 }
 
 impl LocalFrame {
-    /// With its origin at a place.
+    /// With its origin at a position.
     pub fn at(home: &Place) -> Self {
         let (sin, cos) = libm::sincos(home.latitude_rad);
         let (sin_longitude, cos_longitude) = libm::sincos(home.longitude_rad);

@@ -1,4 +1,47 @@
-//! Glissade on the desktop: the world that the firmware flies in, and the front end to it.
+//! Glissade on the desktop: the simulator, in which the firmware flies in lockstep, and its command line.
+//!
+//! # Example
+//!
+//! Load a built-in scenario, override a setting, fly it, and evaluate its rows:
+//!
+//! ```
+//! use sim_host::record::Row;
+//! use sim_host::{flight, scenario::Scenario};
+//!
+//! let scenario = Scenario::load("x500-hover", &["duration_s=2.0".into()])?;
+//! let mut rows: Vec<Row> = Vec::new();
+//! let outcome = flight::fly(&scenario, 1, &mut rows)?;
+//!
+//! // One row per tick of 1 ms, with the truth and the reference.
+//! assert!(outcome.survived() && outcome.ticks == 2_000);
+//! let last = rows.last().expect("a row per tick");
+//! assert!((last.position[2] - last.reference[2]).abs() < 1e-3);
+//! # Ok::<(), anyhow::Error>(())
+//! ```
+//!
+//! A [`Recorder`](record::Recorder) of your own evaluates rows while they are flown, without storing them:
+//!
+//! ```
+//! use sim_host::record::{Recorder, Row};
+//! use sim_host::{flight, scenario::Scenario};
+//!
+//! /// The greatest commanded rotor speed, rad/s.
+//! #[derive(Default)]
+//! struct Fastest(f64);
+//!
+//! impl Recorder for Fastest {
+//!     fn record(&mut self, row: &Row) {
+//!         self.0 = row.omega_command.iter().fold(self.0, |fastest, omega| fastest.max(*omega));
+//!     }
+//! }
+//!
+//! let scenario = Scenario::load("x500-hover", &["duration_s=1.0".into()])?;
+//! let mut fastest = Fastest::default();
+//! flight::fly(&scenario, 1, &mut fastest)?;
+//! let limit = f64::from(scenario.flight_config().airframe.omega_max_rad_s);
+//! assert!(fastest.0 > 0.0 && fastest.0 <= limit);
+//! # Ok::<(), anyhow::Error>(())
+//! ```
 
 #![cfg_attr(
     test,

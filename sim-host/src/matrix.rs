@@ -11,7 +11,7 @@ use crate::scenario::Scenario;
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
 
-/// Matrices that come with the binary.
+/// Matrices built into the binary.
 const MATRICES: [(&str, &str); 1] = built_in!("matrices": "x500");
 
 /// A disturbance, as settings of a scenario.
@@ -58,7 +58,7 @@ pub struct MatrixFile {
 /// A matrix that can be flown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
-    /// Its name, or the path it was read from.
+    /// Its name, or the path of its file.
     pub name: String,
     /// What to fly.
     pub file: MatrixFile,
@@ -94,7 +94,7 @@ impl Matrix {
     /// Loads a built-in matrix by name or a file by path. `settings` (`KEY=VALUE`) are applied to each scenario.
     ///
     /// # Errors
-    /// One line that names the matrix or file, the key, and what is wrong with it.
+    /// One line with the matrix or file, the key and the error.
     pub fn load(name: &str, settings: &[String]) -> Result<Self> {
         let file: MatrixFile = files::read(name, "matrix", &MATRICES)?;
         file.validate().with_context(|| format!("matrix `{name}`"))?;
@@ -121,8 +121,8 @@ impl Matrix {
     /// Its cells: for each scenario in turn, the disturbances that apply to it.
     ///
     /// # Errors
-    /// One line that names the disturbance, the scenario, the key, and what is wrong with it; a flight that ends before
-    /// anything of it counts has no figures.
+    /// One line with the disturbance, the scenario, the key and the error; a flight that ends before anything of it
+    /// counts has no figures.
     pub fn cases(&self) -> Result<Vec<Case>> {
         let cells = self.file.scenarios.iter().flat_map(|scenario| {
             let applies = |disturbance: &&DisturbanceEntry| disturbance.applies_to(scenario);

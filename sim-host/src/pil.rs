@@ -1,4 +1,4 @@
-//! Processor in the loop: the image under QEMU as the flight controller, one frame each way a tick.
+//! Processor in the loop: the image under QEMU is the flight controller, with one frame each way per tick.
 //!
 //! ```text
 //! plant ── SensorFrame ─► FIFO to-image   ─► IMU driver ─► inner task …   (qemu-system-arm, mps2-an386)
@@ -37,11 +37,11 @@ pub struct PilOptions<'a> {
     pub image: PathBuf,
     /// What it is to fly.
     pub config: &'a FlightConfig,
-    /// Work that its partitions are to pretend.
+    /// Busy-waits added to its partitions' jobs.
     pub busy: BusyWait,
-    /// What the outer partition's job at that tick is to do to the image.
+    /// Fault that the outer partition's job provokes at a tick.
     pub fault: Option<(Tick, Fault)>,
-    /// Longest wait for an answer of the image.
+    /// Time-out for an answer of the image.
     pub timeout: Duration,
 }
 
@@ -52,10 +52,10 @@ impl<'a> PilOptions<'a> {
     }
 }
 
-/// What the image has done in a tick.
+/// Output of the image in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PilOutput {
-    /// The motion that it has controlled: as sensed, or as estimated.
+    /// The motion that it used: as sensed, or as estimated.
     pub nav: NavState,
     /// Speeds for the rotors.
     pub motors: MotorCommand,
@@ -134,7 +134,7 @@ pub struct Pil {
 }
 
 impl Pil {
-    /// Boots the image and hands it its flight.
+    /// Boots the image and sends it the configuration.
     ///
     /// # Errors
     /// In one line: no image, no QEMU, no answer in time, or a configuration that the image refuses.
@@ -158,7 +158,7 @@ impl Pil {
         self.exchange(&Request::Sample(*sample))
     }
 
-    /// Hands the image what a pilot asks for, before the tick that comes next.
+    /// Sends the image a pilot's request, before the next tick.
     ///
     /// # Errors
     /// In one line, why it could not be handed over.
@@ -229,7 +229,7 @@ impl fmt::Display for Difference {
 
 impl std::error::Error for Difference {}
 
-/// Holds a tick of the image against the tick that the desktop has just flown, bit for bit.
+/// Compares a tick of the image with the same tick of the desktop, bit for bit.
 ///
 /// # Errors
 /// The first field that differs.
@@ -249,7 +249,7 @@ fn fields(output: &PilOutput) -> impl Iterator<Item = (&'static str, f32)> {
     nav_fields(&output.nav).into_iter().chain(control_fields(output))
 }
 
-/// What navigation has to say.
+/// The fields of navigation.
 fn nav_fields(nav: &NavState) -> [(&'static str, f32); 13] {
     let (position, velocity, rates, q) = (&nav.position, &nav.velocity, &nav.rates, nav.attitude.quaternion());
     [
@@ -269,7 +269,7 @@ fn nav_fields(nav: &NavState) -> [(&'static str, f32); 13] {
     ]
 }
 
-/// What control makes of it.
+/// The fields of control.
 fn control_fields(output: &PilOutput) -> [(&'static str, f32); 15] {
     let [omega1, omega2, omega3, omega4] = output.motors.omega_rad_s;
     let [u1, u2, u3, u4] = output.demand.as_array();

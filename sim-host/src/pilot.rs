@@ -1,4 +1,4 @@
-//! A pilot by script: what is asked of the vehicle, and when, through the door that a program on board uses.
+//! A scripted pilot: requests and their times, through the interface of a program on board.
 //!
 //! ```toml
 //! [[command]]
@@ -12,26 +12,26 @@
 //! order = { go-to = { position_m = [20.0, 0.0, 10.0], yaw_deg = 90.0 } }
 //! ```
 //!
-//! Commands are carried out one after the other. The pilot knows what the vehicle says of itself and nothing of the truth.
+//! Commands are given one after the other. The pilot knows what the vehicle reports, and not the truth.
 
 use firmware::commander::Request;
 use firmware::signals::{NavState, Tick};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// What is asked of the vehicle. World frame NWU.
+/// Order to the vehicle. World frame NWU.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Order {
-    /// Let the rotors turn; asked again twice a second until they do.
+    /// Arm; repeated twice per second until armed.
     Arm,
-    /// Stop the rotors, on the ground.
+    /// Disarm, on the ground.
     Disarm,
-    /// Stop the rotors, anywhere.
+    /// Disarm by force, anywhere.
     Kill,
-    /// Climb.
+    /// Take off.
     TakeOff {
-        /// Over the ground, m.
+        /// Height above the ground, m.
         height_m: f32,
     },
     /// Brake, and stay.
@@ -43,7 +43,7 @@ pub enum Order {
         /// ψ, °.
         yaw_deg: f32,
     },
-    /// Fly with a velocity until the next command; asked again five times a second.
+    /// Fly with a velocity until the next command; repeated five times per second.
     Velocity {
         /// m/s.
         velocity_m_s: [f32; 3],
@@ -59,15 +59,15 @@ pub enum Order {
     Follow,
 }
 
-/// An order and when it is given: either at a time, or once the vehicle has arrived where it was sent before.
+/// An order with its time: either a fixed time, or the arrival at the last waypoint.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Command {
     /// Simulated time, s.
     pub at_s: Option<f64>,
-    /// How long the vehicle has to have been where it was sent, s.
+    /// Time for which the vehicle must have been at its last waypoint, s.
     pub arrived_for_s: Option<f64>,
-    /// What.
+    /// The order.
     pub order: Order,
 }
 
@@ -89,7 +89,7 @@ impl Order {
         }
     }
 
-    /// After so many ticks the order is given again, as long as it is the last.
+    /// Interval in ticks at which the order is repeated while it is the last one.
     fn again_after(&self, armed: bool) -> Option<Tick> {
         match self {
             Self::Arm if !armed => Some(500),
@@ -99,20 +99,20 @@ impl Order {
     }
 }
 
-/// The pilot looks so often, ticks.
+/// Period of the pilot, ticks.
 const LOOKS_EVERY: Tick = 20;
-/// Where it was sent: within this, m, and slower than this, m/s.
+/// Arrived: within this distance of the waypoint, m, and slower than this, m/s.
 const ARRIVED_M: f32 = 0.5;
 const ARRIVED_M_S: f32 = 0.5;
 
-/// The script, and how far it has come.
+/// The script and its progress.
 #[derive(Clone, Debug)]
 pub struct Pilot {
     script: Vec<Command>,
     /// Commands given.
     done: usize,
     given_at: Tick,
-    /// Where the vehicle has been sent.
+    /// The last waypoint.
     target: Option<Vector3<f32>>,
     arrived_since: Option<Tick>,
 }
@@ -128,7 +128,7 @@ impl Pilot {
         self.done
     }
 
-    /// What is asked at a tick, if anything. To be called each tick, with what the vehicle says of itself.
+    /// The request at a tick, if any. Call once per tick, with the vehicle's own estimate.
     pub fn step(&mut self, tick: Tick, nav: &NavState, armed: bool) -> Option<Request> {
         if !tick.is_multiple_of(LOOKS_EVERY) {
             return None;

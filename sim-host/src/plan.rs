@@ -1,7 +1,7 @@
-//! Planning a joining path: CMA-ES over its duration and shape, judged by the closed loop that will fly it.
+//! Planning of a joining path: CMA-ES over its duration and shape; the cost comes from flying the closed loop.
 //!
-//! The cost is what a flight is measured by: the time from which every axis stays within 5 cm of the trajectory.
-//! The firmware only evaluates the curve; finding it is offline work, and its result is part of a scenario.
+//! The cost is the time from which every axis stays within 5 cm of the trajectory. The firmware only evaluates the
+//! curve; finding it is offline work, and its result is part of a scenario.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -15,7 +15,7 @@ use crate::record::{Recorder, Row};
 use crate::reference;
 use crate::scenario::{PlantKind, Scenario};
 
-/// Shaping points that are planned.
+/// Number of shaping points.
 const POINTS: usize = 6;
 const _: () = assert!(POINTS <= MIDDLE_POINTS);
 
@@ -26,24 +26,24 @@ const PARAMETERS: usize = 2 + 3 * POINTS;
 const DURATION_SCALE: f64 = 0.25;
 const ACCELERATION_SCALE: f64 = 5.0;
 
-/// Masses with which a path is flown, as parts of the vehicle's: its controller believes 1.
+/// Masses with which a path is flown, relative to the mass that the controller assumes.
 const MASSES: [f64; 3] = [1.0, 0.99, 1.01];
 
-/// Paths that are tried before the search moves on.
+/// Population of the search.
 const POPULATION: usize = 24;
 
-/// How long the path is flown on after it has joined, s, to see that it stays joined.
+/// Time flown after joining, s, to check that the error stays small.
 const AFTER_S: f64 = 1.0;
 
-/// Beyond the reference by more than this part of the initial error, a path overshoots.
+/// A path overshoots if it passes the reference by more than this fraction of the initial error.
 const OVERSHOOT_MAX: f64 = 0.08;
 
-/// Settled means within 5 cm; a path is planned to 4 cm, so that a rounded digit does not undo it, and, for
-/// what comes after, to 1.5 mm.
+/// Settled means within 5 cm. A path is planned to 4 cm, so that rounding of its digits does not matter, and to 1.5 mm
+/// for the rest of the flight.
 const AWAY_M: f64 = 0.04;
 const OFF_M: f64 = 1.5e-3;
 
-/// Watches how a flight settles.
+/// Measures the settling of a flight.
 #[derive(Default)]
 struct Approach {
     /// Each axis' error at the start, m.
@@ -51,7 +51,7 @@ struct Approach {
     /// Last time at which each axis was [`AWAY_M`], and [`OFF_M`], or more away, s.
     last_away: [f64; 3],
     last_off: [f64; 3],
-    /// Greatest error beyond the reference, as a part of the initial one.
+    /// Greatest overshoot, as a fraction of the initial error.
     overshoot: f64,
 }
 
@@ -79,7 +79,8 @@ impl Approach {
         self.last_away.into_iter().fold(0.0, f64::max)
     }
 
-    /// The time at which the last axis settles; a little of the others', and of settling to 2 mm; no overshoot.
+    /// The time at which the last axis settles, plus small weights on the others and on settling to 1.5 mm, plus a
+    /// penalty on overshoot.
     fn cost(&self) -> f64 {
         let others: f64 = self.last_away.iter().sum();
         let fine: f64 = self.last_off.iter().sum();
@@ -98,7 +99,7 @@ pub struct Planned {
     pub flights: u64,
 }
 
-/// The plan that a vector of parameters stands for: points are offsets from an even line from start to end.
+/// The plan of a parameter vector: points are offsets from a straight line from start to end.
 fn decode(scenario: &Scenario, x: &DVector<f64>) -> JoinPlan {
     let duration = (1.5 + DURATION_SCALE * x[0]).clamp(0.3, 20.0);
     let start = Vector3::from(scenario.file.start_position_m);
@@ -119,7 +120,7 @@ fn decode(scenario: &Scenario, x: &DVector<f64>) -> JoinPlan {
     }
 }
 
-/// How a plan settles with a vehicle of `mass` times its mass; none if it is refused or the vehicle is lost.
+/// Settling of a plan with `mass` times the vehicle's mass; `None` if it is refused or the vehicle is lost.
 fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass: f64) -> Option<Approach> {
     let mut scenario = scenario.clone();
     scenario.file.duration_s = f64::from(plan.duration_s) + AFTER_S;
@@ -130,8 +131,8 @@ fn try_plan(scenario: &Scenario, plan: &JoinPlan, mass: f64) -> Option<Approach>
     outcome.survived().then_some(approach)
 }
 
-/// Cost of a plan, by flying it: that of the worst of its vehicles. A plan that suits only one is tuned to the last
-/// digit of its flight, and the next change of a control law undoes it.
+/// Cost of a plan: that of its worst vehicle. A plan for a single mass would be overfitted to one flight, and lost with
+/// the next change of a control law.
 fn cost(scenario: &Scenario, plan: &JoinPlan) -> f64 {
     const REFUSED: f64 = 1e3;
     let of = |part: &f64| try_plan(scenario, plan, *part).map_or(REFUSED, |approach| approach.cost());
@@ -141,7 +142,7 @@ fn cost(scenario: &Scenario, plan: &JoinPlan) -> f64 {
 /// Plans the joining path of a scenario with at most `flights` flights.
 ///
 /// # Errors
-/// If the scenario has no path to plan, or the optimiser refuses its options.
+/// The scenario has no path to plan, or the optimiser refuses its options.
 pub fn plan(scenario: &Scenario, flights: usize, seed: u64, mut progress: impl FnMut(u64)) -> Result<Planned> {
     ensure!(
         scenario.file.plant != PlantKind::PaperDecoupled,

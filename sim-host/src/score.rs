@@ -1,8 +1,8 @@
-//! What a flight is compared by: one number a figure of merit, taken row by row, without allocation.
+//! The score of a flight: its figures of merit, computed row by row without allocation.
 //!
-//! The error is the distance from the scenario's own trajectory. It counts from the end of the joining path, where
-//! there is one, because only from there on the trajectory is what guidance flies; from the step, where there is one;
-//! from the first tick otherwise.
+//! The error is the distance from the scenario's own trajectory. It counts from the end of the joining path, if there
+//! is one, because guidance follows the trajectory only from there; from the step, if there is one; otherwise from the
+//! first tick.
 
 use anyhow::Result;
 use firmware::guidance::Trajectory;
@@ -16,8 +16,8 @@ use crate::report::metrics::{WIDE_BAND, errors};
 use crate::scenario::Scenario;
 use crate::sil::Outcome;
 
-/// How a flight went. A lost flight has no figures besides `flown_s` and `saturated_fraction`: those of the part that
-/// was flown would flatter it.
+/// The score of a flight. A lost flight has no figures besides `flown_s` and `saturated_fraction`: those of the time
+/// before the loss would flatter it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Score {
     /// False if the vehicle was lost.
@@ -28,17 +28,17 @@ pub struct Score {
     pub rms_m: Option<f64>,
     /// Greatest distance from the trajectory, m.
     pub max_m: Option<f64>,
-    /// From the start of what counts until the distance stays below 5 cm to the end, s; `None` if it does not.
+    /// Time from the start of the judged time until the distance stays below 5 cm, s; `None` if it does not.
     pub settle_s: Option<f64>,
     /// Greatest angle between the attitude and the desired one, rad.
     pub attitude_max_rad: Option<f64>,
-    /// How far the vehicle sank below its trajectory at most, m.
+    /// Greatest distance of the vehicle below its trajectory, m.
     pub altitude_lost_m: Option<f64>,
     /// Root mean square of the length of the demanded torque, N m.
     pub torque_rms_n_m: Option<f64>,
     /// Mean of ω² over rotors and time, (rad/s)².
     pub omega_squared_mean_rad2_s2: Option<f64>,
-    /// Total variation of the commanded ω², summed over the rotors, a second: (rad/s)²/s.
+    /// Total variation of the commanded ω², summed over the rotors, per second: (rad/s)²/s.
     pub chattering_rad2_s3: Option<f64>,
     /// Fraction of the ticks in which the mixer could not give the whole demand.
     pub saturated_fraction: f64,
@@ -73,7 +73,7 @@ impl Scorer {
         }
     }
 
-    /// The score of the flight that ended so.
+    /// The score of the finished flight.
     pub fn score(&self, outcome: &Outcome) -> Score {
         let flown = Score {
             survived: outcome.survived(),
@@ -109,7 +109,7 @@ impl Recorder for Scorer {
         self.distance.take(distance);
         self.settling.take(row.t, distance);
         self.attitude.take(attitude_error(row));
-        // Above the trajectory, z < 0, nothing is lost; a NaN stays one.
+        // Above the trajectory, z < 0, no altitude is lost; NaN stays NaN.
         self.sunk.take(if z < 0.0 { 0.0 } else { z });
         let [_, roll, pitch, yaw] = row.u;
         self.torque.take(Vector3::new(roll, pitch, yaw).norm());
@@ -121,14 +121,14 @@ impl Recorder for Scorer {
 /// Flies a scenario under a seed, and scores it.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 pub fn fly(scenario: &Scenario, seed: u64) -> Result<Score> {
     let mut scorer = Scorer::new(scenario);
     let outcome = flight::fly(scenario, seed, &mut scorer)?;
     Ok(scorer.score(&outcome))
 }
 
-/// From when on a flight of a scenario counts, s.
+/// Start of the judged time of a scenario's flight, s.
 pub fn counts_from_s(scenario: &Scenario) -> f64 {
     let joined_s = scenario.file.join.as_ref().map_or(0.0, |join| f64::from(join.duration_s));
     match scenario.file.trajectory {

@@ -1,14 +1,14 @@
-//! Medians and what is known of them, without assuming a distribution and without random numbers.
+//! Medians and their confidence intervals, without assuming a distribution and without resampling.
 //!
 //! A figure that a flight does not have, because the vehicle was lost or never settled, is infinite here: worse than
-//! any that a flight has. A median is then infinite too where half of the flights are lost, and JSON has null for it.
+//! any value. The median is then infinite too if half of the flights are lost, and null in JSON.
 
 use serde::Serialize;
 
-/// Least probability with which an interval holds the true median.
+/// Least coverage probability of an interval.
 pub const CONFIDENCE: f64 = 0.95;
 
-/// A root mean square in the making.
+/// Accumulates a root mean square.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MeanSquare {
     sum: f64,
@@ -16,13 +16,13 @@ pub struct MeanSquare {
 }
 
 impl MeanSquare {
-    /// Takes a value.
+    /// Adds a value.
     pub fn take(&mut self, value: f64) {
         self.sum += value * value;
         self.count += 1;
     }
 
-    /// The root of the mean so far; none without a value.
+    /// The root mean square so far; `None` without a value.
     pub fn root(self) -> Option<f64> {
         (self.count > 0).then(|| (self.sum / self.count as f64).sqrt())
     }
@@ -31,16 +31,16 @@ impl MeanSquare {
 /// A median over flights, or over cells.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// Of how many values.
+    /// Number of values.
     pub count: usize,
-    /// The median; infinite (null) where too many are lost.
+    /// The median; infinite (null) if too many flights are lost.
     pub median: f64,
-    /// What holds the true median with at least 95 % probability; none for fewer than six values.
+    /// Confidence interval of the median, at least 95 %; `None` for fewer than six values.
     pub interval: Option<(f64, f64)>,
 }
 
 impl Estimate {
-    /// Of values of which smaller ones are better; `None` is worse than any.
+    /// The median of values of which smaller ones are better; `None` counts as worse than any.
     pub fn of(values: impl Iterator<Item = Option<f64>>) -> Self {
         let mut values: Vec<f64> = values.map(|value| value.unwrap_or(f64::INFINITY)).collect();
         values.sort_by(f64::total_cmp);
@@ -50,7 +50,7 @@ impl Estimate {
     }
 }
 
-/// The median of sorted values; infinite without any.
+/// The median of sorted values; infinite without values.
 fn median(sorted: &[f64]) -> f64 {
     let half = sorted.len() / 2;
     match sorted {

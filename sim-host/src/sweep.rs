@@ -1,4 +1,4 @@
-//! How much disturbance a scenario bears: its standard deviations scaled up until it fails.
+//! Robustness of a scenario: its disturbances' standard deviations are scaled up until it fails.
 
 use anyhow::{Context, Result};
 use serde::Serialize;
@@ -13,7 +13,7 @@ use crate::scenario::{Disturbance, Scenario};
 /// A flight at one strength of the disturbance.
 #[derive(Clone, Debug, Serialize)]
 pub struct Strength {
-    /// What the scenario's standard deviations are multiplied by.
+    /// Factor on the scenario's standard deviations.
     pub factor: f64,
     /// Standard deviations as flown; the ones that the scenario does not use are 0.
     pub acceleration_m_s2: f64,
@@ -54,7 +54,7 @@ impl Recorder for Extremes {
 /// was held and the first that was not, `refinements` times. In the order in which they were flown.
 ///
 /// # Errors
-/// A scenario that has no disturbance.
+/// The scenario has no disturbance.
 pub fn sweep(scenario: &Scenario, seed: u64, refinements: u32) -> Result<Vec<Strength>> {
     let base = scenario.file.disturbance.with_context(|| {
         format!(

@@ -1,4 +1,4 @@
-//! Tuning: the gains of a controller, searched for by a swarm whose particles are judged by flights.
+//! Tuning: a search for the gains of a controller, with costs from flights.
 //!
 //! ```text
 //! tunes/NAME.toml ──► Space: unit cube ──► gains ──► Controller ─┐
@@ -10,9 +10,9 @@
 //! ```
 //!
 //! What is varied ([`Tune`]) and how it is judged ([`Course`]) are files of their own, so that several controllers are
-//! tuned on the same flights to the same cost. The search knows nothing of either: it sees costs of points in the unit
-//! cube. [`Run`] writes each of them down; resuming replays the search with what is known, and so goes on to the bit
-//! where it was.
+//! tuned on the same flights to the same cost. The search is independent of both: it only sees costs of points in the
+//! unit cube. [`Run`] records each cost; resuming replays the search with the recorded costs, and continues
+//! bit-exactly.
 
 mod course;
 mod journal;
@@ -32,30 +32,30 @@ use serde::{Deserialize, Serialize};
 use crate::files::{self, built_in};
 use crate::scenario::TUNINGS;
 
-/// Tunes that come with the binary.
+/// Tunes built into the binary.
 const TUNES: [(&str, &str); 4] = built_in!("tunes": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
 
-/// Courses that come with the binary.
+/// Courses built into the binary.
 const COURSES: [(&str, &str); 1] = built_in!("courses": "x500");
 
 /// A tune file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TuneFile {
-    /// What is tuned, in a line.
+    /// Description, in one line.
     summary: String,
     /// Name or path of the tuning file whose gains are varied.
     base: String,
-    /// Name or path of the course that it is judged on.
+    /// Name or path of the course.
     course: String,
-    /// What is varied.
+    /// The varied parameters.
     parameters: Vec<Parameter>,
 }
 
-/// What is varied, and how it is judged.
+/// The parameter space, and the course.
 #[derive(Clone, Debug)]
 pub struct Tune {
-    /// Its name, or the path that it was read from.
+    /// Its name, or the path of its file.
     pub name: String,
     /// Gains as points of the unit cube.
     pub space: Space,
@@ -67,7 +67,7 @@ impl Tune {
     /// Loads a built-in tune by name or a file by path, with the tuning and the course that it names.
     ///
     /// # Errors
-    /// One line that names the file, the key, and what is wrong with it.
+    /// One line with the file, the key and the error.
     pub fn load(name: &str) -> Result<Self> {
         let context = || format!("tune `{name}`");
         let file: TuneFile = files::read(name, "tune", &TUNES)?;
@@ -84,13 +84,13 @@ impl Tune {
         self.space.controller(point).map_or(self.course.weights.refused(), |controller| self.course.cost(&controller))
     }
 
-    /// What decides the costs of a run, for its journal: two runs of one text ask for the same flights.
+    /// Identity of a run's costs, for its journal: two runs with the same text fly the same flights.
     pub fn identity(&self) -> String {
         format!("{:?} {:?}", self.space, self.course)
     }
 }
 
-/// Refuses a range of whose ends the controller refuses one: part of the search would be spent on nothing.
+/// Refuses a range if the controller refuses one of its ends: part of the search would be wasted.
 fn require_ends(space: &Space, course: &Course) -> Result<()> {
     for (index, parameter) in space.parameters().iter().enumerate() {
         for (end, x) in [("low", 0.0), ("high", 1.0)] {

@@ -1,4 +1,4 @@
-//! What pushes the vehicle besides the disturbance: the wind, and pushes on a schedule.
+//! Wind and scheduled pushes on the vehicle, in addition to the disturbance.
 
 use core::ops::Range;
 
@@ -22,7 +22,7 @@ pub struct Weather {
 }
 
 impl Weather {
-    /// A scenario's under a seed, if it has any.
+    /// The wind and pushes of a scenario under a seed, if it has any.
     pub fn new(scenario: &Scenario, seed: u64) -> Option<Self> {
         let file = &scenario.file;
         let constants = scenario.constants();
@@ -65,13 +65,13 @@ impl Weather {
         &self.sum
     }
 
-    /// The sum of the tick last asked for.
+    /// The sum of the last call.
     pub fn now(&self) -> &Push {
         &self.sum
     }
 }
 
-/// A push and its ticks.
+/// A scheduled push.
 fn scheduled(push: &ScheduledPush) -> (Range<u32>, Push) {
     let tick = |seconds: f64| (seconds / TICK_S_EXACT).round() as u32;
     let acts = Push {

@@ -1,4 +1,4 @@
-//! The plant about hover, an axis at a time: rotor lag, integrators, drag; exact at the ticks.
+//! The plant about hover, one axis at a time: rotor lag, integrators, drag; exact at the ticks.
 
 use nalgebra::{Complex, SMatrix, SVector};
 
@@ -6,11 +6,11 @@ use nalgebra::{Complex, SMatrix, SVector};
 /// τ α̇ = u − α        q̇ = gain (α + reaction α̇) − rate_drag q        θ̇ = q        v̇ = tilt θ − drag v        ẋ = v
 /// ```
 ///
-/// About an axis u is the torque demanded, q and θ rate and angle, v and x what a tilt does to the place. Along z, u is
-/// the thrust demanded, q and θ velocity and height.
+/// About an axis u is the torque demanded, q and θ rate and angle, v and x the horizontal motion due to the tilt. Along
+/// z, u is the thrust demanded, q and θ velocity and height.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Chain {
-    /// τ, s; 0 for rotors that follow at once.
+    /// τ, s; 0 for rotors without lag.
     pub lag_s: f64,
     /// Reaction to spin-up, s.
     pub reaction_s: f64,

@@ -1,5 +1,5 @@
-//! The linear response of a control law, measured on the law itself: a sinusoid of small amplitude on one of its inputs,
-//! the others at rest, once up and once down.
+//! The linear response of a control law, measured on the law itself: a sinusoid of small amplitude on one of its
+//! inputs, the others at rest, with both signs.
 
 use firmware::control::law::{AttitudeInput, AttitudeLaw, PositionInput, PositionLaw, RotorEffect};
 use firmware::signals::{AttitudeTarget, FlatReference, TICK_S_EXACT};
@@ -8,7 +8,7 @@ use nalgebra::{Complex, Quaternion, UnitQuaternion, Vector3};
 use super::sine::Schedule;
 use super::vehicle::{OUTER_STEP_S, Vehicle};
 
-/// What a law's filters get to settle in, s.
+/// Settling time of a law's filters, s.
 const ATTITUDE_SETTLE_S: f64 = 1.0;
 const POSITION_SETTLE_S: f64 = 4.0;
 
@@ -27,14 +27,14 @@ const ACCELERATION_M_S2: f64 = 1e-2;
 pub(super) enum AttitudeChannel {
     Angle,
     Rate,
-    /// Rotor speeds, as the torque that they are believed to give; what spinning up adds to it is the law's to see.
+    /// Rotor speeds, as their estimated torque; the law computes the spin-up reaction.
     Torque,
     TargetAngle,
     TargetRate,
     TargetAcceleration,
 }
 
-/// Torque of an attitude law about `axis` for a unit of an input, at ω.
+/// Torque of an attitude law about `axis` per unit of an input, at ω.
 pub(super) fn attitude<A: AttitudeLaw + Clone>(
     law: &A,
     vehicle: &Vehicle,
@@ -59,18 +59,18 @@ pub(super) fn attitude<A: AttitudeLaw + Clone>(
     schedule.amplitudes((0..schedule.steps()).map(answer))[0]
 }
 
-/// An attitude law with one input that moves.
+/// An attitude law with one varying input.
 struct Probe<'a, A> {
     law: A,
     vehicle: &'a Vehicle,
     axis: usize,
     channel: AttitudeChannel,
-    /// What the rotors did a tick ago.
+    /// Effect of the rotors in the previous tick.
     rotors: Option<RotorEffect>,
 }
 
 impl<A: AttitudeLaw> Probe<'_, A> {
-    /// The law's torque, a tick on, with a value on the input.
+    /// The law's torque in the next tick, with a value on the input.
     fn torque(&mut self, value: f64) -> f64 {
         let axis = self.axis;
         let on = |wanted: AttitudeChannel| if self.channel == wanted { value } else { 0.0 };

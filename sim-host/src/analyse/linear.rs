@@ -1,4 +1,4 @@
-//! The loops, linear, at one frequency: equations in the parent module's text.
+//! The linear loops at one frequency; the equations are in the parent module's docs.
 
 use firmware::control::law::{AttitudeLaw, PositionLaw};
 use nalgebra::{Complex, Matrix3, RowVector3, Vector3};
@@ -14,7 +14,7 @@ use firmware::signals::TICK_S_EXACT;
 pub(super) struct LoopAt {
     /// L.
     pub(super) value: Complex<f64>,
-    /// w: what counts of a demand, s = w · demand.
+    /// w: weights of the demand, s = w · demand.
     pub(super) weights: [Complex<f64>; 3],
     /// An amplitude of s that is small for the laws.
     pub(super) small: f64,
@@ -34,7 +34,7 @@ pub(super) struct AttitudeAt {
 }
 
 impl Moved {
-    /// With what is between demand and rotors.
+    /// With the path from demand to rotors.
     fn after(self, gain: Complex<f64>) -> Self {
         let Self { rate, angle, velocity, position } = self;
         Self { rate: rate * gain, angle: angle * gain, velocity: velocity * gain, position: position * gain }
@@ -42,7 +42,7 @@ impl Moved {
 }
 
 impl AttitudeAt {
-    /// Of `axis`: roll, pitch, yaw.
+    /// For an axis: roll, pitch, yaw.
     pub(super) fn new<A: AttitudeLaw + Clone>(law: &A, vehicle: &Vehicle, axis: usize, omega_rad_s: f64) -> Self {
         let gain = |channel| law::attitude(law, vehicle, axis, channel, omega_rad_s);
         let actuation = vehicle.turning(axis, omega_rad_s);
@@ -86,7 +86,7 @@ pub(super) fn position<A: AttitudeLaw + Clone, P: PositionLaw + Clone>(
     omega_rad_s: f64,
 ) -> LoopAt {
     let gains = law::position(law, axis, omega_rad_s);
-    // The demand that comes back for a demand.
+    // The returned demand for a demand.
     let returned = |weights: [Complex<f64>; 3], motion: [Complex<f64>; 3]| {
         let inputs = vehicle.predicted(axis, motion);
         let asked = |part: usize| -> Complex<f64> { gains.iter().zip(&inputs).map(|(g, input)| g[part] * input).sum() };
@@ -111,7 +111,7 @@ pub(super) fn position<A: AttitudeLaw + Clone, P: PositionLaw + Clone>(
 /// 2π over the outer partition's period.
 const TURN_RAD_S: f64 = core::f64::consts::TAU / OUTER_STEP_S;
 
-/// Below, the images of the hold are less than a millionth.
+/// Below this, the images of the hold are smaller than one millionth.
 const IMAGES_FROM_RAD_S: f64 = 50.0;
 
 /// Weights of the demand of a position loop, and position, velocity and specific thrust for a unit of what comes of it;
@@ -124,7 +124,7 @@ fn reach<A: AttitudeLaw + Clone>(
 ) -> ([Complex<f64>; 3], [Complex<f64>; 3]) {
     let positive = omega_rad_s.abs();
     let (weights, motion) = match axis {
-        // A force along x tilts it about y, one along y about −x, and so back.
+        // A force along x tilts the vehicle about y, one along y about −x.
         0 | 1 => horizontal(attitude, vehicle, 1 - axis, positive),
         _ => vertical(vehicle, positive),
     };
@@ -157,7 +157,7 @@ fn vertical(vehicle: &Vehicle, omega_rad_s: f64) -> ([Complex<f64>; 3], [Complex
     (weights, [moved.angle, moved.rate, actuation.believed / vehicle.mass_kg])
 }
 
-/// Which loop.
+/// A loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Which {
     /// Roll, pitch, yaw.
@@ -183,7 +183,7 @@ impl Which {
         }
     }
 
-    /// How often its law runs, s.
+    /// Period of its law, s.
     pub(super) fn step_s(self) -> f64 {
         match self {
             Self::Attitude(_) => TICK_S_EXACT,

@@ -11,7 +11,7 @@ use serde::Serialize;
 pub struct Sample {
     /// ω, rad/s.
     pub omega_rad_s: f64,
-    /// Of a loop L(e^(jωh)), what is closed being 1 + L.
+    /// L(e^(jωh)), with 1 + L as the characteristic function of the closed loop.
     pub value: Complex<f64>,
 }
 
@@ -28,37 +28,37 @@ impl From<Sample> for Flat {
     }
 }
 
-/// A gain at which the loop begins to oscillate.
+/// A gain margin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GainMargin {
-    /// What the loop's gain may be multiplied by.
+    /// Factor on the loop's gain at which it begins to oscillate.
     pub factor: f64,
-    /// At which frequency it then oscillates, rad/s.
+    /// Frequency of that oscillation, rad/s.
     pub omega_rad_s: f64,
 }
 
-/// Margins of a loop that is stable as it is. What it has no limit in is left out.
+/// Margins of a stable loop; `None` for a margin without limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Margins {
     /// Highest frequency at which |L| = 1, rad/s.
     pub crossover_rad_s: Option<f64>,
     /// The least gain above 1.
     pub gain_upper: Option<GainMargin>,
-    /// The greatest gain below 1: for a loop that too little gain makes unstable.
+    /// The greatest gain below 1, for a conditionally stable loop.
     pub gain_lower: Option<GainMargin>,
-    /// Smallest distance of L's phase from −180° where |L| = 1, degrees; below zero on the far side.
+    /// Smallest phase margin at |L| = 1, degrees; negative if unstable.
     pub phase_deg: Option<f64>,
-    /// The least delay with which it oscillates, s.
+    /// Delay margin, s.
     pub delay_s: Option<f64>,
-    /// The frequency at which it then does, rad/s.
+    /// Frequency of oscillation at that delay, rad/s.
     pub delay_omega_rad_s: Option<f64>,
     /// max |1/(1 + L)|.
     pub sensitivity_peak: f64,
-    /// Where, rad/s.
+    /// Its frequency, rad/s.
     pub sensitivity_omega_rad_s: f64,
 }
 
-/// Size.
+/// Magnitude.
 pub(super) fn size(value: Complex<f64>) -> f64 {
     value.norm_sqr().sqrt()
 }
@@ -69,7 +69,7 @@ pub(super) fn angle(value: Complex<f64>) -> f64 {
 }
 
 impl Margins {
-    /// Of samples in ascending order of frequency, near enough to each other for lines between them.
+    /// From samples in ascending order of frequency, dense enough for linear interpolation.
     ///
     /// `nyquist_rad_s` is π/h of a sampled loop whose samples end short of it. There L is real, and its real part is flat:
     /// a loop of a fast law and a double integrator has its gain margin there.
@@ -121,7 +121,7 @@ impl Margins {
         let part = size_a / (size_a - size_b);
         let omega = between(a.omega_rad_s, b.omega_rad_s, part);
         let turn = angle(b.value / a.value);
-        // From −180°, in [0, 2π): what a delay has to turn.
+        // From −180°, in [0, 2π): the phase that a delay must add.
         let from_minus_1 = wrapped(angle(a.value) + part * turn + PI);
         let phase_deg = (if from_minus_1 > PI { from_minus_1 - TAU } else { from_minus_1 }).to_degrees();
         self.crossover_rad_s = Some(self.crossover_rad_s.map_or(omega, |most| most.max(omega)));
@@ -144,7 +144,7 @@ fn wrapped(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).floor()
 }
 
-/// Frequencies with even ratios, from the first to the last, rad/s.
+/// Logarithmically spaced frequencies, from the first to the last, rad/s.
 pub(super) fn frequencies(first: f64, last: f64, count: usize) -> Vec<f64> {
     let ratio = libm::log(last / first);
     (0..count).map(|i| first * libm::exp(ratio * i as f64 / (count - 1) as f64)).collect()

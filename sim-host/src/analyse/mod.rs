@@ -4,11 +4,11 @@
 //! and z at the specific force with its two derivatives, between position law and flatness, the attitude loops closed. All
 //! is sampled: z = e^(jωh) with h = 1 ms, and 4 ms for the position laws.
 //!
-//! **The law** is the one that flies. Its gains C at ω are measured on it (`law`): a small sinusoid on one input, the
-//! others at rest, and the least-squares fit of its output. Where a law is not linear that is its describing function.
+//! **The law** is the code that flies. Its gains C at ω are measured on it (`law`): a small sinusoid on one input, the
+//! others at rest, and a least-squares fit of its output. For a law that is not linear this is its describing function.
 //! **The vehicle** is analytic, in f64 (`chain`, `vehicle`): rotor lag, rigid body and drag with the command held for a
-//! tick; D is the command for a demand (the firmware's lead) with the actuation delay, R what the firmware believes the
-//! rotors' speeds to give (that spinning them up turns the body is Cω's), X the motion for a torque.
+//! tick; D is the command for a demand (the firmware's lead compensation) with the actuation delay, R the torque that
+//! the firmware estimates from the rotor speeds (the spin-up reaction is in Cω), X the motion for a torque.
 //!
 //! ```text
 //! attitude    L = −(Cθ Xθ D + CΩ XΩ D + Cω R)
@@ -18,13 +18,13 @@
 //! kn(ω)       ¼ Σ_m (mh)ⁿ/n! e^(−jω(m + 2)h), m = 0..3: released at tick 0, held from tick 2, carried on by Taylor
 //! ```
 //!
-//! w weighs a demand (f, ḟ, f̈) by the torque that comes of it, so L is one number although the demand is three. A gain or
-//! a delay of the demand multiplies L. The 4 ms hold has images at ω ± 2π/4h and ω − 4π/4h. With them the loop is a sum of
-//! such products, a 3 × 3 matrix, and L its largest eigenvalue: near the crossover the only one that is not zero. What
-//! couples the axes is left out: about a level hover it is of second order, unless the rotors are not alike.
+//! w weighs a demand (f, ḟ, f̈) by the resulting torque, so L is a scalar although the demand has three components. A
+//! gain or a delay of the demand multiplies L. The 4 ms hold has images at ω ± 2π/4h and ω − 4π/4h. With them the loop
+//! is a sum of such products, a 3 × 3 matrix, and L its largest eigenvalue: near the crossover the only one that is not
+//! zero. Coupling between axes is neglected: about a level hover it is of second order, unless the rotors are unequal.
 //!
-//! **The simulation** is the whole firmware on the nonlinear plant (`simulated`), with a tap on the law: a
-//! sinusoid there measures L, a gain or a delay there shows where the loop really becomes unstable.
+//! **The simulation** is the whole firmware on the nonlinear plant (`simulated`), with a tap on the law: a sinusoid
+//! there measures L, a gain or a delay there shows where the loop becomes unstable.
 
 pub mod chain;
 mod law;
@@ -58,23 +58,23 @@ use vehicle::Vehicle;
 /// Frequencies of a loop's response.
 const POINTS: usize = 240;
 
-/// The step of the attitude, °, and one that is small for any law.
+/// The attitude step, °, and one that is small for any law.
 pub const STEP_DEG: f64 = 5.0;
 const SMALL_STEP_DEG: f64 = 0.05;
 
 /// Deviation of the test noise on the rates, rad/s.
 const NOISE_RAD_S: f64 = 1e-3;
-/// How long it is flown, ticks.
+/// Its duration, ticks.
 const NOISE_TICKS: u32 = 20_000;
 
 /// L at a frequency, linear and in the simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Check {
-    /// As linearised.
+    /// From the linear model.
     pub linear: Sample,
-    /// As measured.
+    /// From the simulation.
     pub simulated: Sample,
-    /// |L| simulated over |L| linear, less 1.
+    /// |L| simulated over |L| linear, minus 1.
     pub gain_error: f64,
     /// Difference of the phases, °.
     pub phase_error_deg: f64,
@@ -83,11 +83,11 @@ pub struct Check {
 /// A change to a loop in the simulation, near a margin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MarginCheck {
-    /// What the loop's gain was multiplied by.
+    /// Factor on the loop's gain.
     pub gain: f64,
-    /// How much later its demand took effect, s.
+    /// Additional delay of the demand, s.
     pub delay_s: f64,
-    /// Whether the margins say that it comes to rest.
+    /// Whether it should come to rest, by the margins.
     pub expected_stable: bool,
     /// Whether it came to rest.
     pub stable: bool,
@@ -98,20 +98,21 @@ pub struct MarginCheck {
 pub struct Loop {
     /// roll, pitch, yaw, x, y, z.
     pub name: &'static str,
-    /// Whether it comes to rest in the simulation as it is; if not, its margins mean nothing.
+    /// Whether the unmodified loop comes to rest in the simulation; if not, its margins are meaningless.
     pub stable: bool,
     /// Its margins, linear.
     pub margins: Margins,
     /// Around the crossover.
     pub checks: Vec<Check>,
-    /// 5 % on either side of each gain margin, and the whole steps on either side of the delay margin, 7 % off at least:
-    /// the other loops, closed, move it by some of that, and nearer it would take too long to tell.
+    /// 5 % on either side of each gain margin, and the whole steps on either side of the delay margin, 7 % off at
+    /// least: the other loops, closed, shift it by some of that, and a flight closer to it would take too long to
+    /// decide.
     pub margin_checks: Vec<MarginCheck>,
     /// L.
     pub response: Vec<Sample>,
 }
 
-/// How an attitude axis follows.
+/// Tracking of an attitude axis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attitude {
     /// roll, pitch, yaw.
@@ -120,9 +121,9 @@ pub struct Attitude {
     pub bandwidth_rad_s: Option<f64>,
     /// From 10 % to 90 % of a step of [`STEP_DEG`] in the simulation, s.
     pub rise_s: Option<f64>,
-    /// Beyond the step, of its size.
+    /// As a fraction of the step.
     pub overshoot: f64,
-    /// Rotor speed commanded for noise on this axis' measured rate, over frequency: RMS over the rotors, rad/s for each
+    /// Commanded rotor speed for noise on this axis' measured rate, over frequency: RMS over the rotors, rad/s per
     /// rad/s.
     pub noise_gain: Vec<(f64, f64)>,
     /// The step in the simulation: time (s) and angle in units of the step.
@@ -131,10 +132,10 @@ pub struct Attitude {
     pub small_step: Vec<(f64, f64)>,
 }
 
-/// RMS of the rotors' commanded speed, in rad/s for each rad/s of noise on all three rates, white from tick to tick.
+/// RMS of the commanded rotor speeds, in rad/s per rad/s of noise on all three rates, white from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Noise {
-    /// For a standard deviation of 1 rad/s a sample, linear.
+    /// For a standard deviation of 1 rad/s per sample, linear.
     pub per_sample: f64,
     /// The same in the simulation.
     pub per_sample_simulated: f64,
@@ -142,25 +143,26 @@ pub struct Noise {
     pub per_density: f64,
 }
 
-/// All of a scenario.
+/// The analysis of a scenario.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Analysis {
     /// Its name.
     pub scenario: String,
-    /// What flies it.
+    /// The controller.
     pub controller: &'static str,
     /// Roll, pitch, yaw, x, y, z.
     pub loops: Vec<Loop>,
     /// Roll, pitch, yaw.
     pub attitude: Vec<Attitude>,
-    /// From the rates to the rotors.
+    /// From rate noise to the rotors.
     pub noise: Noise,
 }
 
-/// Analyses a scenario's vehicle and controller about hover, whatever it is the scenario flies; `seed` is the test noise's.
+/// Analyses a scenario's vehicle and controller about hover, whatever the scenario flies; `seed` is that of the test
+/// noise.
 ///
 /// # Errors
-/// A scenario on another plant than the rigid body, and what of it the firmware refuses.
+/// The scenario has another plant than the rigid body, or the firmware refuses its configuration.
 pub fn analyse(scenario: &Scenario, seed: u64) -> Result<Analysis> {
     scenario.require_rigid_body()?;
     let hover = vehicle::hovering(scenario);
@@ -183,10 +185,10 @@ pub fn analyse(scenario: &Scenario, seed: u64) -> Result<Analysis> {
     }
 }
 
-/// The same for a scenario that hovers, with its laws. They are to be fresh; clones of them are flown.
+/// The same for a hovering scenario, with its laws, which must be in their initial state; clones of them are flown.
 ///
 /// # Errors
-/// What of the scenario the firmware refuses.
+/// The firmware refuses the configuration: the first field that is out of range.
 fn of_laws<A, P>(hover: &Scenario, seed: u64, attitude: &A, position: &P) -> Result<Analysis>
 where
     A: AttitudeLaw + Clone + Sync,
@@ -255,7 +257,7 @@ where
     })
 }
 
-/// Changes on either side of each margin, with the frequency to watch and whether the loop ought to bear them.
+/// Changes on either side of each margin, with the frequency of oscillation and whether the loop should stay stable.
 fn near_margins(margins: &Margins, step_s: f64) -> Vec<(Change, f64, bool)> {
     let mut changes = Vec::new();
     let gain = |factor: f64| Change { gain: factor, delay_steps: 0 };
@@ -307,7 +309,7 @@ where
     Ok((attitude, variance))
 }
 
-/// Where a response of size 1 first falls below 1/√2, rad/s.
+/// Frequency at which a response of DC gain 1 first falls below 1/√2, rad/s.
 fn bandwidth(points: &[(f64, f64, f64)]) -> Option<f64> {
     let level = core::f64::consts::FRAC_1_SQRT_2;
     points.windows(2).find(|pair| pair[0].1 >= level && pair[1].1 < level).map(|pair| {

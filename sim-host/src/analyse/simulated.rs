@@ -1,4 +1,4 @@
-//! The same in the simulation: the whole firmware and the nonlinear plant in lockstep, with a tap on a law.
+//! The loops in the simulation: the whole firmware and the nonlinear plant in lockstep, with a tap on a law.
 
 use std::cell::RefCell;
 
@@ -18,14 +18,14 @@ use crate::noise::White;
 use crate::record::{Recorder, Row};
 use crate::scenario::Scenario;
 
-/// How long a loop is left to settle before its answer to a sinusoid is looked at, in units of 1/ω of its crossover.
+/// Settling time before the response to a sinusoid is evaluated, in units of 1/ω of the crossover.
 const SETTLING: f64 = 30.0;
 
-/// How long a loop at its margin is watched: in units of 1/ω, and at least so many steps.
+/// Duration of a flight at a margin: in units of 1/ω, and in steps at least.
 const WATCHED: f64 = 400.0;
 const WATCHED_STEPS: u32 = 2_000;
 
-/// The push that starts it, in units of the swing of a sinusoid that is small for the laws: so that it has far to grow.
+/// The initial push, in units of the amplitude of a small sinusoid: an oscillation then has room to grow.
 const PUSH: f64 = 0.2;
 
 /// A hovering vehicle, and the laws that fly it.
@@ -36,8 +36,8 @@ pub(super) struct Rig<'a, A, P> {
 }
 
 impl<A: AttitudeLaw + Clone, P: PositionLaw + Clone> Rig<'_, A, P> {
-    /// What a loop's law asked for in so many of its steps: torque, or force with two derivatives. The attitude loops are
-    /// flown towards level whatever the position loops ask for, as they are linearised.
+    /// The demands of a loop's law over a number of its steps: torque, or force with two derivatives. The attitude
+    /// loops are flown with a level target whatever the position loops demand, as in the linear model.
     fn asked(&self, which: Which, change: Change, signal: Signal, steps: u32) -> Result<Vec<[f64; 3]>> {
         let ticks = steps * (which.step_s() * 1e3).round() as u32;
         let mut attitude = TappedAttitude::plain(self.laws.0.clone());
@@ -70,7 +70,7 @@ impl<A: AttitudeLaw + Clone, P: PositionLaw + Clone> Rig<'_, A, P> {
         Ok(())
     }
 
-    /// L at a frequency, measured: a sinusoid is added to the demand, and what the law asks for compared with what it gets.
+    /// L at a frequency, measured: a sinusoid is added to the demand, and the law's demand is compared with the sum.
     pub(super) fn measure(
         &self,
         which: Which,
@@ -88,7 +88,7 @@ impl<A: AttitudeLaw + Clone, P: PositionLaw + Clone> Rig<'_, A, P> {
         Ok(-returned / (returned + linear.weights[0] * amplitude))
     }
 
-    /// Whether a loop comes to rest after a push, with a change made to it that would have it oscillate at about ω.
+    /// Whether a loop comes to rest after a push, with a change that would make it oscillate at about ω.
     pub(super) fn is_stable(&self, which: Which, linear: &LoopAt, omega_rad_s: f64, change: Change) -> Result<bool> {
         let per_turn = 1.0 / (omega_rad_s * which.step_s());
         let steps = ((WATCHED * per_turn).ceil() as u32).max(WATCHED_STEPS);
@@ -99,7 +99,7 @@ impl<A: AttitudeLaw + Clone, P: PositionLaw + Clone> Rig<'_, A, P> {
         let (early, rest) = asked.split_at(first.min(asked.len()));
         let part = |from: usize, to: usize| deviation(&rest[rest.len() * from / 4..rest.len() * to / 4]);
         let (early, middle, late) = (deviation(early), part(1, 2), part(3, 4));
-        // Come to rest, or to the rounding; grown, perhaps to a limit cycle; near the margin it does either slowly.
+        // Decayed to rest or to rounding, or grown, perhaps to a limit cycle; near the margin both are slow.
         Ok(late < 0.1 * early || (late < 10.0 * early && late < middle))
     }
 

@@ -1,11 +1,11 @@
-//! The answer to a sinusoid, by least squares.
+//! The response to a sinusoid, by least squares.
 
 use nalgebra::{Complex, Matrix4, Vector4};
 
-/// Steps that are looked at, at least: at the highest frequencies a period is two or three.
+/// Least number of evaluated steps: at the highest frequencies a period is two or three steps.
 const STEPS_AT_LEAST: f64 = 400.0;
 
-/// When a sinusoid is given, and when its answer is looked at.
+/// Timing of a sinusoid and of the evaluation of its response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Schedule {
     omega_step: f64,
@@ -22,7 +22,7 @@ impl Schedule {
         Self { omega_step, settle: (settle_s / step_s) as u32, window: (periods * period).round() as u32 }
     }
 
-    /// Steps in all.
+    /// Total number of steps.
     pub(super) fn steps(&self) -> u32 {
         self.settle + self.window
     }

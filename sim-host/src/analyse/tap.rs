@@ -1,4 +1,4 @@
-//! Control laws with a tap on what they ask for: where a loop is opened, scaled, delayed, and a signal put in.
+//! Control laws with a tap on their demand, where a loop is opened, scaled, delayed, and a signal injected.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -8,10 +8,10 @@ use firmware::signals::AttitudeTarget;
 
 use crate::noise::White;
 
-/// What is added to a demand.
+/// Signal added to a demand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Signal {
-    /// Nothing but a push in the first step.
+    /// A push in the first step.
     Impulse(f64),
     /// `amplitude cos(omega_step k)`.
     Sine { amplitude: f64, omega_step: f64 },
@@ -32,10 +32,11 @@ impl Signal {
     }
 }
 
-/// What a law asked for, a demand of `N` numbers a step, before the tap changed it.
+/// The demands of a law, `N` components per step, before the tap.
 pub(super) type Log<const N: usize> = RefCell<Vec<[f64; N]>>;
 
-/// A tap on a demand of `N` numbers: `sent = rest + gain·(asked − rest)` of `delay` steps ago, and the signal on the first.
+/// A tap on a demand of `N` components: `sent = rest + gain·(asked − rest)` of `delay` steps ago, and the signal on the
+/// first.
 #[derive(Clone, Debug)]
 pub(super) struct Tap<'a, const N: usize> {
     axis: usize,
@@ -65,7 +66,7 @@ impl<'a, const N: usize> Tap<'a, N> {
     }
 }
 
-/// What is done to a loop.
+/// Changes to a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Change {
     pub(super) gain: f64,
@@ -80,15 +81,15 @@ impl Change {
 #[derive(Clone, Debug)]
 pub(super) struct TappedAttitude<'a, A> {
     pub(super) law: A,
-    /// Followed in place of what the outer partition asks for.
+    /// Target that replaces the outer partition's.
     pub(super) target: Option<AttitudeTarget>,
-    /// On the measured rates, rad/s.
+    /// Noise on the measured rates, rad/s.
     pub(super) noise: Option<White>,
     pub(super) tap: Option<Tap<'a, 1>>,
 }
 
 impl<A> TappedAttitude<'_, A> {
-    /// As it is.
+    /// Without changes.
     pub(super) fn plain(law: A) -> Self {
         Self { law, target: None, noise: None, tap: None }
     }

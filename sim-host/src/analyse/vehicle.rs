@@ -1,4 +1,4 @@
-//! The vehicle about hover: what the laws see there, and what their demands do.
+//! The vehicle about hover: the inputs of the laws, and the effect of their demands.
 
 use anyhow::{Context, Result, ensure};
 use firmware::airframe::ROTORS;
@@ -24,7 +24,7 @@ pub(super) fn turned(angle: f64) -> Complex<f64> {
     Complex::new(cos, sin)
 }
 
-/// The scenario's vehicle and controller, hovering at the origin in still air, sound and at sea level.
+/// The scenario's vehicle and controller, hovering at the origin in still air, without faults, at sea level.
 pub(super) fn hovering(scenario: &Scenario) -> Scenario {
     let mut hover = scenario.clone();
     let file = &mut hover.file;
@@ -39,10 +39,10 @@ pub(super) fn hovering(scenario: &Scenario) -> Scenario {
 /// The rotor model of the firmware, linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct BelievedRotor {
-    /// Part of the way to what is wanted that a rotor goes in a tick.
+    /// Fraction of the distance to the wanted speed that a rotor covers per tick.
     part: f64,
     lead: f64,
-    /// Part of the way from the yaw torque that is to the one wanted for which the rotors are told to go.
+    /// Fraction of the difference between present and wanted yaw torque that is commanded per tick.
     yaw: f64,
 }
 
@@ -55,15 +55,15 @@ impl BelievedRotor {
     }
 }
 
-/// What becomes of a demand, by frequency.
+/// Response to a demand at a frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Actuation {
-    /// What the firmware believes that the rotors give, before it has computed this tick's command; about yaw by their
-    /// speeds alone.
+    /// Torque that the firmware estimates before it computes this tick's command; about yaw without the spin-up
+    /// reaction.
     pub(super) believed: Complex<f64>,
-    /// What they are told.
+    /// The command.
     pub(super) command: Complex<f64>,
-    /// What they are told, with the delay.
+    /// The command, delayed.
     pub(super) delayed: Complex<f64>,
 }
 
@@ -71,20 +71,20 @@ pub(super) struct Actuation {
 #[derive(Clone, Debug)]
 pub(super) struct Vehicle {
     rotor: BelievedRotor,
-    /// What the firmware believes its rotors' speeds to do.
+    /// The firmware's estimate of its rotors' effect.
     pub(super) rotor_torque: RotorTorque,
     delay_s: f64,
     /// Rotor speeds, rad/s.
     pub(super) omega: Vector4<f64>,
-    /// Change of the rotors' speeds for each N m about an axis, rad/s.
+    /// Change of the rotor speeds per N m about an axis, rad/s.
     pub(super) omega_per_torque: [Vector4<f64>; 3],
-    /// Thrust over mass as the firmware believes, m/s²: the vertical force that its position law asks for.
+    /// Thrust over mass in the firmware's model, m/s²: the vertical force that its position law demands.
     pub(super) specific_thrust: f64,
-    /// m as the firmware believes, kg.
+    /// Mass in the firmware's model, kg.
     pub(super) mass_kg: f64,
-    /// k over m as the firmware believes, 1/s.
+    /// k over m in the firmware's model, 1/s.
     pub(super) specific_drag: [f64; 3],
-    /// About x, y, z, with what the tilt does to the place.
+    /// About x, y, z, with the horizontal motion due to the tilt.
     pub(super) about: [Sampled; 3],
     /// Along z.
     pub(super) vertical: Sampled,
@@ -94,11 +94,11 @@ impl Vehicle {
     /// Of a scenario.
     ///
     /// # Errors
-    /// A rotor geometry that cannot be inverted; a vehicle that cannot hover, for it has no loops about hover.
+    /// The rotor geometry is singular, or the vehicle cannot hover, so that it has no loops about hover.
     pub(super) fn new(scenario: &Scenario) -> Result<Self> {
         let (truth, believed) = (scenario.constants(), scenario.airframe.constants());
         let inverse = believed.geometry.try_inverse().context("`rotors`: the four cannot be mixed")?;
-        // What comes of U1..U4; off its diagonal it couples the axes, which is left out.
+        // Response of U1..U4; the off-diagonal terms couple the axes, and are neglected.
         let given: Matrix4<f64> = truth.geometry * inverse;
         let thrust = truth.mass * truth.gravity / given[(0, 0)];
         let omega = (inverse.column(0) * thrust).map(|square: f64| square.max(0.0).sqrt());

@@ -1,5 +1,5 @@
-//! Whether a filter is as wrong as it believes to be: its innovations and its errors, each in units of what it says of
-//! them (Bar-Shalom, Li and Kirubarajan 2001, §5.4).
+//! Consistency of a filter: its innovations and estimation errors, normalised by its own covariances (Bar-Shalom, Li
+//! and Kirubarajan 2001, §5.4).
 
 use std::collections::BTreeMap;
 
@@ -8,9 +8,9 @@ use nalgebra::{SMatrix, SVector, Vector3};
 
 use crate::record::Navigation;
 
-/// States of the error that are looked at: attitude, velocity and position.
+/// Number of error states evaluated: attitude, velocity and position.
 pub const STATES: usize = 9;
-/// Between two looks, s: far apart, because one error is much like the one a moment later.
+/// Time between two samples of the error, s: long, because successive errors are correlated.
 const LOOK_EVERY_S: f64 = 2.0;
 
 /// The normalised innovations of one kind of reading.
@@ -32,7 +32,7 @@ pub struct Innovations {
     seen: usize,
 }
 
-/// What a flight has shown.
+/// Consistency of a flight.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Consistency {
     /// By kind of reading.
@@ -83,14 +83,14 @@ pub fn quantile(degrees: u32) -> f64 {
 }
 
 impl Consistency {
-    /// One tick's readings, and now and then the error: `attitude` is that of the attitude in the world, rad.
+    /// Adds a tick's readings, and every two seconds the error; `attitude` is the attitude error in the world, rad.
     pub fn take(&mut self, navigation: &Navigation, attitude: &Vector3<f64>) {
         // The covariance is that of the filter's last job; what it has found is in the motion when it comes into effect.
         let in_effect = navigation.filtered_at == Some((navigation.t * 1e3).round() as u32);
         if navigation.t >= self.next_look_s && in_effect {
             self.next_look_s = navigation.t + LOOK_EVERY_S;
             self.looks += 1;
-            // A covariance that is none is as wrong as can be.
+            // A singular covariance counts as inconsistent.
             self.nees.push(nees(navigation, attitude).unwrap_or([f64::INFINITY; 4]));
         }
         if self.last_tick != navigation.filtered_at {

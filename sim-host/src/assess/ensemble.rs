@@ -1,4 +1,4 @@
-//! Many seeds of a scenario: percentiles of what they measured, and whether these are as expected.
+//! Ensembles: percentiles of the measures over many seeds of a scenario, compared with the expectations.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -13,14 +13,14 @@ use crate::flight;
 use crate::scenario::Scenario;
 use crate::seeds::Seeds;
 
-/// Percentiles of a measure over the seeds. A flight without the number counts as worse than any.
+/// Percentiles of a measure over the seeds. A flight without the measure counts as worse than any.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// What.
     pub measure: Measure,
-    /// Flights that have the number.
+    /// Number of flights that have the measure.
     pub count: usize,
-    /// 5th, 50th, 95th percentile and the greatest; null where too few have the number.
+    /// 5th, 50th, 95th percentile and the greatest; null if too few flights have the measure.
     pub p5: Option<f64>,
     /// The median.
     pub p50: Option<f64>,
@@ -32,55 +32,55 @@ pub struct Row {
     pub rms: Option<f64>,
 }
 
-/// An expectation and what came of it.
+/// An expectation and its result.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Verdict {
-    /// What was expected.
+    /// The expectation.
     #[serde(flatten)]
     pub expected: Expectation,
     /// The percentile found.
     pub found: Option<f64>,
-    /// Whether it is as expected.
+    /// Whether it is within the bounds.
     pub met: bool,
     /// Seeds that it takes to judge it; with fewer flown, `met` says nothing.
     pub seeds_needed: u64,
 }
 
-/// How the innovations of one kind of reading agree with what was expected of them.
+/// Consistency of the innovations of one kind of reading.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nis {
     /// Of what.
     pub reading: String,
     /// How many.
     pub count: u64,
-    /// Mean of the normalised innovation squared over its degrees of freedom: 1 if all is as believed.
+    /// Mean of the normalised innovation squared over its degrees of freedom: 1 if the filter is consistent.
     pub mean: f64,
-    /// Part within the 95 % quantile of χ².
+    /// Fraction within the 95 % quantile of χ².
     pub within_95: f64,
-    /// Part refused.
+    /// Fraction refused by the gate.
     pub refused: f64,
-    /// Part of the looks at which the mean over the flights is within the band that holds it with 95 % probability.
+    /// Fraction of the samples at which the mean over the flights is within its 95 % band.
     pub within_band: f64,
 }
 
-/// How the errors agree with what was believed of them.
+/// Consistency of the estimation errors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nees {
-    /// Times at which all flights were looked at.
+    /// Number of times at which all flights were sampled.
     pub looks: usize,
-    /// Mean over flights and times of eᵀP⁻¹e over its degrees of freedom: 1 if all is as believed.
+    /// Mean over flights and times of eᵀP⁻¹e over its degrees of freedom: 1 if the filter is consistent.
     pub mean: f64,
-    /// Band that holds such a mean of as many flights at one time with 95 % probability.
+    /// 95 % band of such a mean over the flights at one time.
     pub band: (f64, f64),
-    /// Part of the times at which the mean over the flights is within it.
+    /// Fraction of the times at which the mean over the flights is within it.
     pub within_band: f64,
-    /// Part of all errors below the 95 % quantile of χ².
+    /// Fraction of all errors below the 95 % quantile of χ².
     pub within_95: f64,
     /// Mean over the degrees of freedom of attitude, velocity and position alone.
     pub parts: [f64; 3],
 }
 
-/// What many seeds of a scenario have shown.
+/// Result of an ensemble.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// Name of the scenario.
@@ -93,7 +93,7 @@ pub struct Report {
     pub nis: Vec<Nis>,
     /// Of attitude, velocity and position.
     pub nees: Option<Nees>,
-    /// What was expected.
+    /// The expectation.
     pub verdicts: Vec<Verdict>,
     /// Whether the errors and innovations are within their bands as often as expected; none if nothing is, or by too few
     /// seeds.
@@ -118,7 +118,7 @@ fn root_mean_square(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| (sum / values.len() as f64).sqrt())
 }
 
-/// Flies a scenario under every seed and judges what came of it.
+/// Flies a scenario under every seed and assesses the flights.
 ///
 /// # Errors
 /// The scenario's name, if it is not one that is judged, or what of it the firmware refuses.
@@ -161,7 +161,7 @@ fn report(scenario: &str, seeds: Seeds, assess: &Assess, flights: &[Measures]) -
     let bands_need = assess.consistent.filter(|_| !is_judged).map(|_| SEEDS_FOR_BANDS);
     let consistent = assess.consistent.filter(|_| is_judged).map(|least| {
         let errors = nees.as_ref().is_some_and(|nees| nees.within_band >= least);
-        // Standing and drag are no readings of a sensor: how still the ground is and how the wind turns nobody says.
+        // Zero-velocity updates and drag are not readings of a sensor: their noise is assumed, so they are not assessed.
         let sensors = || nis.iter().filter(|nis| !matches!(nis.reading.as_str(), "rest" | "drag"));
         errors && sensors().all(|nis| nis.within_band >= least)
     });
@@ -264,7 +264,7 @@ fn nees(flights: &[Measures]) -> Option<Nees> {
 }
 
 impl Report {
-    /// Whether everything is as expected.
+    /// Whether all expectations are met.
     pub fn is_met(&self) -> bool {
         let is_met = |verdict: &Verdict| verdict.met || self.lacks_seeds(verdict);
         self.verdicts.iter().all(is_met) && self.consistent != Some(false)

@@ -1,4 +1,4 @@
-//! What one flight has measured.
+//! Measures of a flight.
 
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
@@ -11,20 +11,19 @@ use crate::report::Touchdown;
 use crate::report::touchdown::{HARDEST_M_S, UPRIGHT};
 use crate::statistics::MeanSquare;
 
-/// A number that a flight has measured; over the time that is judged, unless it says otherwise. Errors are true minus
-/// wanted, wherever nothing else is said.
+/// A measure of a flight, over the judged time unless stated otherwise. Errors are true minus wanted values unless stated otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Measure {
-    /// From leaving the ground until the height is within 0.35 m of the one that is held, s.
+    /// Time from lift-off until the height is within 0.35 m of the wanted one, s.
     ClimbS,
     /// Greatest error of the height, m.
     HeightErrorMaxM,
-    /// Greatest departure of the height from its mean, m.
+    /// Greatest deviation of the height from its mean, m.
     HeightWanderMaxM,
-    /// 95th percentile of the distance across the ground, m.
+    /// 95th percentile of the horizontal distance, m.
     HorizontalErrorP95M,
-    /// Greatest of it, m.
+    /// Greatest horizontal distance, m.
     HorizontalErrorMaxM,
     /// Root mean square of the error along x, m.
     XErrorRmsM,
@@ -34,32 +33,30 @@ pub enum Measure {
     ZErrorRmsM,
     /// Greatest roll, °.
     RollMaxDeg,
-    /// Root mean square of what the vehicle's idea of its roll and pitch is off by, °.
+    /// Root mean square error of the tilt estimate, °.
     TiltKnownRmsDeg,
-    /// The same of its heading, °.
+    /// Root mean square error of the heading estimate, °.
     HeadingKnownRmsDeg,
-    /// The same of its attitude as a whole: one angle.
+    /// Root mean square error of the attitude estimate, as one rotation angle, °.
     AttitudeKnownRmsDeg,
-    /// Root mean square of what its idea of its position is off by, m.
+    /// Root mean square error of the position estimate, m.
     PositionKnownRmsM,
-    /// The whole flight: vertical speed of the first touchdown, downwards, m/s.
+    /// Whole flight: downward speed at the first touchdown, m/s.
     TouchdownMS,
-    /// The whole flight: time of it, s.
+    /// Whole flight: time of the first touchdown, s.
     TouchdownS,
-    /// The whole flight: when the rotors stopped after it, s.
+    /// Whole flight: time at which the rotors stopped after it, s.
     DisarmedS,
-    /// The whole flight: greatest of the least distances to the places that the pilot sent it to, each counted once the
-    /// one before was reached within 2 m, m.
+    /// Whole flight: greatest of the smallest distances to the pilot's waypoints, each counted once the previous one was reached within 2 m, m.
     MissMaxM,
-    /// Part of the time in which it was in the air.
+    /// Fraction of the time in the air.
     FlownPart,
-    /// 1 if the vehicle was not lost, never got a motor command that is no number, met the ground no faster than 4 m/s and
-    /// ended within 60° of upright; else 0.
+    /// 1 if the vehicle was not lost, no motor command was NaN, every touchdown was slower than 4 m/s, and it ended within 60° of upright; otherwise 0.
     Survived,
 }
 
 impl Measure {
-    /// All of them.
+    /// All measures.
     pub const ALL: [Self; 19] = [
         Self::ClimbS,
         Self::HeightErrorMaxM,
@@ -82,28 +79,28 @@ impl Measure {
         Self::Survived,
     ];
 
-    /// As files write it.
+    /// Its name in files.
     pub fn name(self) -> String {
         serde_json::to_value(self).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
     }
 }
 
-/// What a flight has measured: of each measure a number, if it has one.
+/// The measures of a flight, each with its value if it has one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measures {
     values: [Option<f64>; Measure::ALL.len()],
-    /// How far what the vehicle believed of its errors was true.
+    /// Consistency of the estimator.
     pub consistency: Consistency,
 }
 
 impl Measures {
-    /// A measure's number.
+    /// The value of a measure.
     pub fn get(&self, measure: Measure) -> Option<f64> {
         self.values[measure as usize]
     }
 }
 
-/// The least and the greatest of what is taken.
+/// Minimum and maximum of a series.
 #[derive(Clone, Copy, Debug)]
 struct Range {
     least: f64,
@@ -123,18 +120,18 @@ impl Range {
     }
 }
 
-/// In the air, over the start, m.
+/// Height over the start that counts as in the air, m.
 const AIRBORNE_M: f64 = 0.5;
-/// Off the ground.
+/// Height that counts as off the ground, m.
 const LIFTED_M: f64 = 0.05;
-/// A place that the next one is counted after, m.
+/// Acceptance radius of a waypoint, m.
 const PASSED_M: f64 = 2.0;
-/// Ticks between two distances that are kept: a day has millions.
+/// Ticks between two stored distances: a flight of a day has millions of ticks.
 const KEPT_EVERY: u64 = 20;
-/// Height that counts as reached, m.
+/// Tolerance of a reached height, m.
 const REACHED_M: f64 = 0.35;
 
-/// What happens once in a flight, s.
+/// Times of single events in a flight, s.
 #[derive(Clone, Copy, Debug, Default)]
 struct Events {
     lifted: Option<f64>,
@@ -142,7 +139,7 @@ struct Events {
     disarmed: Option<f64>,
 }
 
-/// Measures a flight as it is flown.
+/// Takes the measures during a flight.
 #[derive(Clone, Debug)]
 pub struct Assessor {
     from_s: f64,
@@ -163,7 +160,7 @@ pub struct Assessor {
     axes: [MeanSquare; 3],
     roll: Range,
     known: [MeanSquare; 4],
-    /// Where the pilot sent it, and the least distance so far.
+    /// The pilot's waypoints, and the smallest distance to each so far.
     places: Vec<(Vector3<f64>, f64)>,
     sound: bool,
     consistency: Consistency,

@@ -1,6 +1,7 @@
-//! Judging flights on sensors: what each flight measured, and the percentiles over many seeds against what is expected.
+//! Assessment of flights on sensors: the measures of each flight, and their percentiles over many seeds against
+//! expectations.
 //!
-//! A scenario says over which time it is judged, where the vehicle ought to be, and what is expected of which percentile:
+//! A scenario gives the judged time, the wanted position, and bounds on percentiles of measures:
 //!
 //! ```toml
 //! [assess]
@@ -13,7 +14,7 @@
 //! at_most = 0.15
 //! ```
 //!
-//! Everything is measured against the truth; what the vehicle believes is measured too, but never judged by itself.
+//! Everything is measured against the truth. The error of the vehicle's own estimate is one of the measures.
 
 pub mod consistency;
 pub mod ensemble;
@@ -27,20 +28,20 @@ use crate::refusal::{after, within};
 pub use ensemble::Report;
 pub use measures::{Assessor, Measure, Measures};
 
-/// How a scenario's flights are judged.
+/// How a scenario's flights are assessed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Assess {
-    /// Begin of what is judged, s.
+    /// Start of the judged time, s.
     pub from_s: f64,
-    /// End of it, s; that of the flight without it.
+    /// End of the judged time, s; by default the end of the flight.
     pub to_s: Option<f64>,
-    /// Where the vehicle ought to be, m; what guidance asks for at the time without it.
+    /// Wanted position, m; by default the reference of guidance at each time.
     pub hold_m: Option<[f64; 3]>,
-    /// Least part of the looks, one every two seconds, at which errors, and innovations of each kind of reading, are to be
-    /// within the band that holds their mean over the seeds with 95 % probability.
+    /// Least fraction of the samples, one every two seconds, in which the mean over the seeds of the normalised errors,
+    /// and of the normalised innovations of each kind of reading, must be within its 95 % band.
     pub consistent: Option<f64>,
-    /// What is expected.
+    /// The expectations.
     #[serde(default)]
     pub expect: Vec<Expectation>,
 }
@@ -49,14 +50,14 @@ pub struct Assess {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
-    /// Of what.
+    /// The measure.
     pub measure: Measure,
-    /// Which percentile, 0 to 100: of 100 seeds, the 95th is the one that five are worse than. Without it, the root mean
+    /// Percentile, 0 to 100: of 100 seeds, the 95th is the one that five are worse than. By default the root mean
     /// square.
     pub percentile: Option<f64>,
-    /// Greatest value that is as expected.
+    /// Upper bound.
     pub at_most: Option<f64>,
-    /// Least value that is as expected.
+    /// Lower bound.
     pub at_least: Option<f64>,
 }
 
@@ -85,10 +86,10 @@ impl Expectation {
 }
 
 impl Assess {
-    /// Refuses what cannot be judged.
+    /// Checks the settings.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         within("assess.from_s", self.from_s, 0.0, LONGEST_S)?;
         if let Some(to_s) = self.to_s {
@@ -102,10 +103,11 @@ impl Assess {
         self.expect.iter().enumerate().try_for_each(|(i, one)| one.validate(&format!("assess.expect.{i}")))
     }
 
-    /// Refuses a flight of `duration_s` that ends before what is judged of it; it may be flown all the same.
+    /// Checks that a flight of `duration_s` does not end before the judged time. Such a flight may be flown, but not
+    /// assessed.
     ///
     /// # Errors
-    /// The key to look at.
+    /// The key that is out of range.
     pub fn require_part_of(&self, duration_s: f64) -> Result<()> {
         let to_s = self.to_s.unwrap_or(duration_s);
         ensure!(

@@ -1,4 +1,4 @@
-//! Low-passes of three axes, and the derivatives that are taken behind them.
+//! Low-pass filters of three axes, and derivatives taken after them.
 
 use firmware::math;
 use nalgebra::Vector3;
@@ -11,12 +11,12 @@ pub(super) struct LowPass {
 }
 
 impl LowPass {
-    /// With the cutoff f in Hz, stepped every `step_s` seconds.
+    /// With the cutoff f in Hz, evaluated every `step_s` seconds.
     pub(super) fn new(cutoff_hz: f32, step_s: f32) -> Self {
         Self { part: 1.0 - math::exp(-core::f32::consts::TAU * cutoff_hz * step_s), value: None }
     }
 
-    /// The next output. The first input is taken as if it had been there for ever.
+    /// The next output. Starts in steady state with the first input.
     pub(super) fn step(&mut self, input: &Vector3<f32>) -> Vector3<f32> {
         let before = self.value.unwrap_or(*input);
         let value = before + (input - before) * self.part;
@@ -29,18 +29,18 @@ impl LowPass {
     }
 }
 
-/// Second order, Butterworth, by the bilinear transformation with the cutoff where it belongs: two integrators in the
-/// form whose gain at rest is 1 exactly, whatever is rounded.
+/// Second-order Butterworth, by the bilinear transform with prewarping: two integrators in a form whose DC gain is
+/// exactly 1 in spite of rounding.
 #[derive(Clone, Debug)]
 pub(super) struct Butterworth {
-    /// 1/(1 + √2 g + g²), that times g, and that times g², for g = tan(πfh); each axis its own.
+    /// 1/(1 + √2 g + g²), that times g, and that times g², for g = tan(πfh), per axis.
     a: [Vector3<f32>; 3],
-    /// The integrators; none before the first input.
+    /// The integrators; `None` before the first input.
     state: Option<[Vector3<f32>; 2]>,
 }
 
 impl Butterworth {
-    /// With the cutoffs of the axes in Hz, stepped every `step_s` seconds.
+    /// With the cutoffs of the axes in Hz, evaluated every `step_s` seconds.
     pub(super) fn new(cutoff_hz: &Vector3<f32>, step_s: f32) -> Self {
         let g = cutoff_hz.map(|cutoff_hz| {
             let (sin, cos) = math::sin_cos(core::f32::consts::PI * cutoff_hz * step_s);
@@ -51,7 +51,7 @@ impl Butterworth {
         Self { a: [a, times_g, times_g.component_mul(&g)], state: None }
     }
 
-    /// The next output. The first input is taken as if it had been there for ever.
+    /// The next output. Starts in steady state with the first input.
     pub(super) fn step(&mut self, input: &Vector3<f32>) -> Vector3<f32> {
         let [slope, value] = self.state.unwrap_or([Vector3::zeros(), *input]);
         let (error, [a1, a2, a3]) = (input - value, &self.a);
@@ -66,7 +66,7 @@ impl Butterworth {
     }
 }
 
-/// The change of a signal from step to step, a second; zero at the first.
+/// The rate of change of a signal from step to step; zero at the first.
 #[derive(Clone, Debug)]
 pub(super) struct Difference {
     per_step_s: f32,
@@ -74,7 +74,7 @@ pub(super) struct Difference {
 }
 
 impl Difference {
-    /// Stepped every `step_s` seconds.
+    /// Evaluated every `step_s` seconds.
     pub(super) fn new(step_s: f32) -> Self {
         Self { per_step_s: 1.0 / step_s, before: None }
     }

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! The derivatives of Rd follow from those of f: the reference's jerk and snap, and the errors' derivatives with the
-//! acceleration that the model gives and its difference from job to job. There is no drag in these papers, and none
-//! here: the integral takes of it what it can. The thrust is f along the body's axis, which the partition sees to.
+//! acceleration that the model gives and its difference from job to job. Like these papers, the law has no drag model:
+//! the integral compensates what it can. The thrust is f along the body's axis, which the partition computes.
 
 use anyhow::Result;
 use firmware::airframe::Airframe;
@@ -23,11 +23,11 @@ use serde::{Deserialize, Serialize};
 use super::filter::Difference;
 use super::{AxisPair, OUTER_STEP_S, clamp_each, require_tilt};
 
-/// Gains of both laws, as they stand in a file.
+/// Gains of both laws, as written in a tuning file.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Geometric {
-    /// Greatest tilt that position control asks for, rad.
+    /// Greatest tilt that position control demands, rad.
     pub tilt_max_rad: f32,
     /// kx over the mass, 1/s².
     pub position_1_s2: AxisPair,
@@ -52,10 +52,10 @@ pub struct Geometric {
 }
 
 impl Geometric {
-    /// Refuses gains with which the laws are not defined.
+    /// Checks that the laws are defined for these gains.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         require_tilt("geometric.tilt_max_rad", self.tilt_max_rad)?;
         let c1 = AxisPair { xy: self.position_integral_c1_1_s, z: 0.0 };
@@ -78,7 +78,7 @@ impl Geometric {
     }
 }
 
-/// An integral whose contribution is bounded, kept in the units of what it is added to.
+/// An integral with a bounded contribution, in the units of the sum it is added to.
 #[derive(Clone, Debug)]
 struct BoundedIntegral {
     gain: Vector3<f32>,
@@ -93,8 +93,8 @@ impl BoundedIntegral {
         Self { gain, per_step: gain * step_s, most, value: Vector3::zeros() }
     }
 
-    /// The contribution after another step, unless it is to hold; and the gain with which each axis integrates there,
-    /// none where it holds or is at its bound.
+    /// The contribution after another step, unless `hold`; and the gain with which each axis integrates, zero while it
+    /// holds or is at its bound.
     fn step(&mut self, integrand: &Vector3<f32>, hold: bool) -> (Vector3<f32>, Vector3<f32>) {
         if hold {
             return (self.value, Vector3::zeros());
@@ -118,7 +118,7 @@ pub struct GeometricPosition {
 }
 
 impl GeometricPosition {
-    /// Stepped once a job of the outer partition, with valid gains.
+    /// With valid gains; evaluated once per job of the outer partition.
     pub fn new(airframe: &Airframe, gains: &Geometric) -> Self {
         let (ki, most) = (gains.position_integral_1_s2, gains.position_integral_max_m_s2);
         Self {
@@ -175,7 +175,7 @@ pub struct GeometricAttitude {
     integral: BoundedIntegral,
 }
 
-/// eR, eΩ, and the derivative of the rate desired; all in the body's frame.
+/// eR, eΩ, and the derivative of the rate desired; all in the body frame.
 struct Errors {
     rotation: Vector3<f32>,
     rate: Vector3<f32>,
@@ -194,7 +194,7 @@ fn errors(attitude: &UnitQuaternion<f32>, rates: &Vector3<f32>, target: &Attitud
 }
 
 impl GeometricAttitude {
-    /// Stepped once a tick, with valid gains.
+    /// With valid gains; evaluated once per tick.
     pub fn new(airframe: &Airframe, gains: &Geometric) -> Self {
         let (ki, most) = (gains.attitude_integral_1_s2, gains.attitude_integral_max_rad_s2);
         Self {

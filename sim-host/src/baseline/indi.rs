@@ -1,19 +1,19 @@
 //! Incremental nonlinear dynamic inversion: Smeur, Chu and de Croon (JGCD 39(3), 2016) for the rotation, Tal and
 //! Karaman (IEEE TCST 29(3), 2021, arXiv:1809.04048) for both loops.
 //!
-//! What the vehicle does is compared with what the rotors are believed to do, both behind the same low-pass H, and only
-//! the increment is inverted:
+//! The vehicle's measured motion is compared with the estimated effect of the rotors, both after the same low-pass H,
+//! and only the increment is inverted:
 //!
 //! ```text
 //! τ = H τ_rotors + J (Ω̇_wanted − H Ω̇)        Ω̇_wanted = kR e + kΩ (R(qe) Ωd − Ω) + d/dt R(qe) Ωd
 //! f = H f_rotors + (a_wanted − H a)            a_wanted = kx e + kv ė + ka (r̈d − H a) + r̈d
 //! ```
 //!
-//! So neither drag nor gyroscopic torques nor gravity need a model: they are in the measured accelerations. The error e
-//! of the attitude is the tilt-prioritised one of [`PointingError`]. Tal and Karaman's linear acceleration comes from an
-//! accelerometer; as long as the sensors are ideal, differences of the velocity stand for it. They read their rotors'
-//! speeds; here they come from the model of the lag, as in Smeur's flights. What the model leaves out of the delay must
-//! be made up for, or the two sides of the increment are not of the same time (their section on synchronisation).
+//! So drag, gyroscopic torques and gravity need no model: they are contained in the measured accelerations. The error e
+//! of the attitude is the tilt-prioritised one of [`PointingError`]. Tal and Karaman's linear acceleration comes from
+//! an accelerometer; with ideal state, differences of the velocity replace it. They measure the rotor speeds; here
+//! these come from the model of the lag, as in Smeur's flights. Delays that the model lacks must be compensated, or the
+//! two sides of the increment belong to different times (see their section on synchronisation).
 
 use anyhow::Result;
 use firmware::airframe::{Airframe, ROTORS};
@@ -29,14 +29,14 @@ use super::filter::{Butterworth, Difference};
 use super::{AxisPair, OUTER_STEP_S, require_cutoff, require_tilt};
 use crate::refusal::within;
 
-/// Longest delay that can be made up for, ticks.
+/// Longest delay that can be compensated, ticks.
 const DELAY_TICKS_MAX: usize = 16;
 
-/// Gains of both laws, as they stand in a file.
+/// Gains of both laws, as written in a tuning file.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Indi {
-    /// Greatest tilt that position control asks for, rad.
+    /// Greatest tilt that position control demands, rad.
     pub tilt_max_rad: f32,
     /// kx, 1/s².
     pub position_1_s2: AxisPair,
@@ -44,7 +44,7 @@ pub struct Indi {
     pub velocity_1_s: AxisPair,
     /// ka, no unit.
     pub acceleration: AxisPair,
-    /// Part of the feedback's derivative that goes into ḟ, 0 to 1: 0 as published, where ḟ holds the reference's jerk.
+    /// Fraction of the feedback's derivative in ḟ, 0 to 1: 0 as published, where ḟ holds the reference's jerk.
     pub feedback_rate: f32,
     /// Cutoff of H in the position loop, Hz.
     pub acceleration_cutoff_hz: f32,
@@ -54,17 +54,17 @@ pub struct Indi {
     pub rate_1_s: AxisPair,
     /// Cutoff of H in the attitude loop, Hz; yaw often needs a lower one.
     pub rate_cutoff_hz: AxisPair,
-    /// How much later than the model's the rotors answer, ticks.
+    /// Delay of the rotors beyond the model's lag, ticks.
     pub rotor_delay_ticks: u8,
-    /// Whether the torque that turns a rotor faster is in the model: Smeur's G2.
+    /// Whether the model includes the spin-up reaction: Smeur's G2.
     pub rotor_spin_up: bool,
 }
 
 impl Indi {
-    /// Refuses gains with which the laws are not defined.
+    /// Checks that the laws are defined for these gains.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         require_tilt("indi.tilt_max_rad", self.tilt_max_rad)?;
         for (key, gain) in [
@@ -96,7 +96,7 @@ pub struct IndiPosition {
 }
 
 impl IndiPosition {
-    /// Stepped once a job of the outer partition, with valid gains.
+    /// With valid gains; evaluated once per job of the outer partition.
     pub fn new(airframe: &Airframe, gains: &Indi) -> Self {
         let low_pass = || Butterworth::new(&Vector3::repeat(gains.acceleration_cutoff_hz), OUTER_STEP_S);
         Self {
@@ -115,7 +115,7 @@ impl PositionLaw for IndiPosition {
         let [kx, kv, ka] =
             [self.gains.position_1_s2, self.gains.velocity_1_s, self.gains.acceleration].map(AxisPair::vector);
         let measured = self.difference.step(&self.velocity.step(input.velocity));
-        // The rotors' force: what the model's acceleration has beside drag and gravity.
+        // The rotors' force: the model's acceleration without drag and gravity.
         let mut rotors = input.acceleration + self.model.drag(input.velocity);
         rotors.z += self.model.gravity;
         let rotors = self.force.step(&rotors);
@@ -145,7 +145,7 @@ impl PositionLaw for IndiPosition {
     }
 }
 
-/// The torque of the rotors by their model, as late as theirs.
+/// The modelled torque of the rotors, with their delay.
 #[derive(Clone, Debug)]
 struct RotorTorque {
     airframe: Airframe,
@@ -168,7 +168,7 @@ impl RotorTorque {
         }
     }
 
-    /// The torque of these speeds (rad/s), with what spins the rotors up, −Jr Ω̇r; from a delay before.
+    /// The delayed torque of these speeds (rad/s), with the spin-up reaction −Jr Ω̇r.
     fn step(&mut self, speeds: &[f32; ROTORS]) -> Vector3<f32> {
         let mut torque = self.airframe.geometry.torque(speeds);
         let spin = self.airframe.rotor_spin_rad_s(speeds);
@@ -202,7 +202,7 @@ pub struct IndiAttitude {
 }
 
 impl IndiAttitude {
-    /// Stepped once a tick, with valid gains.
+    /// With valid gains; evaluated once per tick.
     pub fn new(airframe: &Airframe, gains: &Indi) -> Self {
         let low_pass = || Butterworth::new(&gains.rate_cutoff_hz.vector(), TICK_S);
         Self {
@@ -216,7 +216,7 @@ impl IndiAttitude {
         }
     }
 
-    /// Ω̇ wanted, rad/s².
+    /// The demanded Ω̇, rad/s².
     fn wanted(&self, input: &AttitudeInput) -> Vector3<f32> {
         let pointing = PointingError::between(input.attitude, &input.target.attitude);
         let desired = pointing.to_body(&input.target.rates);

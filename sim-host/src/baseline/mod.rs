@@ -1,14 +1,13 @@
-//! Controllers that sliding mode control is compared with, each written as its users write it.
+//! The controllers that sliding mode control is compared with, each in the form in which it is commonly used.
 //!
-//! They fly behind the firmware's own traits: in the same partitions, at the same rates, in the same f32 arithmetic,
-//! with the same mixer and the same limits on the force. What they share stands here; nothing of it is flight code.
+//! They implement the firmware's own traits: they run in the same partitions, at the same rates, in the same f32 arithmetic, with the same mixer and the same force limits. This module contains what they share; none of it is flight code.
 //!
-//! - [`pid`]: the cascade of PX4, which is what most multicopters fly.
+//! - [`pid`]: the cascade of PX4, which most multicopters fly.
 //! - [`geometric`]: tracking on SE(3), Lee, Leok and McClamroch, with the integrals of Goodarzi, Lee and Lee.
 //! - [`indi`]: incremental nonlinear dynamic inversion, Smeur, Chu and de Croon, and Tal and Karaman.
 //!
 //! Gains are in units of acceleration: those of a force are divided by the mass, those of a torque by the moment of
-//! inertia. The literature of none of them leads the rotors' lag away, so none of them is given that lead.
+//! inertia. None of them has lead compensation of the rotor lag in the literature, so none has it here.
 
 mod filter;
 pub mod geometric;
@@ -30,7 +29,7 @@ const OUTER_STEP_S: f32 = OUTER.period as f32 * TICK_S;
 /// Largest gain: products of three still fit an f32.
 const GAIN_MAX: f64 = 1e6;
 
-/// A gain that x and y share, and z's: along the axes of the world, or about those of the body.
+/// One gain for x and y, and one for z: along the world axes, or about the body axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AxisPair {
@@ -46,19 +45,19 @@ impl AxisPair {
         Vector3::new(self.xy, self.xy, self.z)
     }
 
-    /// Refuses what is not a finite number, or below zero.
+    /// Checks that both are finite and not negative.
     fn require_not_negative(self, key: &str) -> Result<()> {
         within(&format!("{key}.xy"), self.xy, 0.0, GAIN_MAX)?;
         within(&format!("{key}.z"), self.z, 0.0, GAIN_MAX)
     }
 }
 
-/// Refuses a tilt (rad) that position control cannot be limited to.
+/// Checks the greatest tilt of position control (rad).
 fn require_tilt(key: &str, tilt_max_rad: f32) -> Result<()> {
     within(key, tilt_max_rad, 0.01, 1.49)
 }
 
-/// Refuses a low-pass that loops of this step (s) cannot have: half the rate of the loop is too fast.
+/// Checks the cutoff of a low-pass: below half the rate of a loop with this step (s).
 fn require_cutoff(key: &str, cutoff_hz: f32, step_s: f32) -> Result<()> {
     within(key, cutoff_hz, 0.1, (45.0 / f64::from(step_s)).round() / 100.0)
 }

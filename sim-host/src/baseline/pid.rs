@@ -6,12 +6,12 @@
 //!      + velocity feedforward    + acceleration feedforward       + yaw rate feedforward
 //! ```
 //!
-//! As there: the derivatives are taken of what is measured, behind a low-pass of first order; the vertical integral
-//! stops at a limit, the horizontal one is driven back by what the limits take (Rundqwist 1990); the rates' integral is
-//! slowed by large errors. Neither drag nor the reference's jerk and snap are known to it. Unlike there: gains act on
-//! accelerations and not on normalised thrust and torque, with PX4's factor K multiplied in; the thrust vector is the
-//! wanted acceleration plus gravity (`MPC_ACC_DECOUPLE` off, for tracking); and since the mixer has one flag for all
-//! axes, the rates' integral holds on all.
+//! As in PX4: derivatives are taken of the measurement, after a first-order low-pass; the vertical integral stops at a
+//! limit, and the horizontal one has anti-windup by back-calculation (Rundqwist 1990); the rate integral is reduced for
+//! large errors. The law uses neither drag nor the reference's jerk and snap. Unlike PX4: gains are in units of
+//! acceleration, not of normalised thrust and torque, with PX4's factor K included; the thrust vector is the demanded
+//! acceleration plus gravity (`MPC_ACC_DECOUPLE` off, for tracking); and because the mixer has one saturation flag for
+//! all axes, the rate integral holds on all of them.
 
 use anyhow::Result;
 use firmware::airframe::Airframe;
@@ -27,15 +27,15 @@ use super::filter::{Difference, LowPass};
 use super::{AxisPair, OUTER_STEP_S, clamp_each, require_cutoff, require_tilt};
 use crate::refusal::within;
 
-/// Gains of the cascade, as they stand in a file; PX4's parameters in brackets.
+/// Gains of the cascade, as written in a tuning file; PX4's parameters in brackets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pid {
-    /// Greatest tilt that position control asks for, rad (`MPC_TILTMAX_AIR`).
+    /// Greatest tilt that position control demands, rad (`MPC_TILTMAX_AIR`).
     pub tilt_max_rad: f32,
-    /// Velocity wanted for an error of the position, 1/s (`MPC_XY_P`, `MPC_Z_P`).
+    /// P of the position: velocity setpoint per position error, 1/s (`MPC_XY_P`, `MPC_Z_P`).
     pub position_p_1_s: AxisPair,
-    /// Greatest velocity wanted, m/s (`MPC_XY_VEL_MAX`, `MPC_Z_VEL_MAX_UP`).
+    /// Greatest velocity setpoint, m/s (`MPC_XY_VEL_MAX`, `MPC_Z_VEL_MAX_UP`).
     pub velocity_max_m_s: AxisPair,
     /// P of the velocity, 1/s (`MPC_XY_VEL_P_ACC`, `MPC_Z_VEL_P_ACC`).
     pub velocity_p_1_s: AxisPair,
@@ -45,13 +45,13 @@ pub struct Pid {
     pub velocity_d: AxisPair,
     /// Low-pass of the acceleration for D, Hz (`MPC_VELD_LP`).
     pub velocity_d_cutoff_hz: f32,
-    /// Part of the greatest thrust that is kept for horizontal control (`MPC_THR_XY_MARG`).
+    /// Fraction of the greatest thrust reserved for horizontal control (`MPC_THR_XY_MARG`).
     pub horizontal_thrust_margin: f32,
-    /// Rate wanted for an error of the attitude, 1/s (`MC_ROLL_P`, `MC_PITCH_P`, `MC_YAW_P`).
+    /// P of the attitude: rate setpoint per attitude error, 1/s (`MC_ROLL_P`, `MC_PITCH_P`, `MC_YAW_P`).
     pub attitude_p_1_s: AxisPair,
-    /// How much yaw matters beside tilt, 0 to 1 (`MC_YAW_WEIGHT`).
+    /// Weight of yaw relative to tilt, 0 to 1 (`MC_YAW_WEIGHT`).
     pub yaw_weight: f32,
-    /// Greatest rate wanted, rad/s (`MC_ROLLRATE_MAX`, `MC_YAWRATE_MAX`).
+    /// Greatest rate setpoint, rad/s (`MC_ROLLRATE_MAX`, `MC_YAWRATE_MAX`).
     pub rate_max_rad_s: AxisPair,
     /// P of the rate, 1/s: times the inertia (`MC_ROLLRATE_P`, there of the normalised torque).
     pub rate_p_1_s: AxisPair,
@@ -61,17 +61,17 @@ pub struct Pid {
     pub rate_d: AxisPair,
     /// Low-pass of the angular acceleration for D, Hz (`IMU_DGYRO_CUTOFF`).
     pub rate_d_cutoff_hz: f32,
-    /// Feedforward of the rate wanted, 1/s (`MC_ROLLRATE_FF`).
+    /// Feedforward of the rate setpoint, 1/s (`MC_ROLLRATE_FF`).
     pub rate_feedforward_1_s: AxisPair,
     /// Bound on the rates' integral, rad/s² (`MC_RR_INT_LIM`).
     pub rate_integral_max_rad_s2: AxisPair,
 }
 
 impl Pid {
-    /// Refuses gains with which the laws are not defined.
+    /// Checks that the laws are defined for these gains.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         require_tilt("pid.tilt_max_rad", self.tilt_max_rad)?;
         for (key, gain) in [
@@ -111,7 +111,7 @@ pub struct PidPosition {
 }
 
 impl PidPosition {
-    /// Stepped once a job of the outer partition, with valid gains.
+    /// With valid gains; evaluated once per job of the outer partition.
     pub fn new(airframe: &Airframe, gains: &Pid) -> Self {
         Self {
             gains: *gains,
@@ -124,7 +124,7 @@ impl PidPosition {
         }
     }
 
-    /// The velocity wanted: what the error asks for goes before the reference's own where both exceed the limit.
+    /// The velocity setpoint: the feedback has priority over the feedforward where their sum exceeds the limit.
     fn velocity_wanted(&self, error: &Vector3<f32>, feedforward: &Vector3<f32>) -> Vector3<f32> {
         let most = self.gains.velocity_max_m_s;
         let by_error = self.gains.position_p_1_s.vector().component_mul(error);
@@ -133,7 +133,8 @@ impl PidPosition {
         Vector3::new(horizontal.x, horizontal.y, vertical)
     }
 
-    /// What the rotors can give of a force: height first, but for the margin that is kept for horizontal control.
+    /// Limits a force to the rotors' range: the vertical component has priority, except for the margin reserved for
+    /// horizontal control.
     fn limited(&self, force: &Vector3<f32>) -> Vector3<f32> {
         let margin = math::min(force.xy().norm(), self.gains.horizontal_thrust_margin * self.force_max);
         let vertical_max = math::sqrt(self.force_max * self.force_max - margin * margin);
@@ -144,7 +145,7 @@ impl PidPosition {
         profile.force
     }
 
-    /// Integrates the velocity's error, less what the limits have taken.
+    /// Integrates the velocity error, with back-calculation at the limits.
     fn integrate(&mut self, error: &Vector3<f32>, wanted: &Vector3<f32>, given: &Vector3<f32>) {
         let mut error = *error;
         let taken = wanted - given;
@@ -184,7 +185,7 @@ impl PositionLaw for PidPosition {
     }
 }
 
-/// `first + second`, of which as much of `second` is left out as brings the sum within a circle.
+/// `first + second`, with `second` shortened so that the sum is within a circle.
 fn within_circle(first: Vector2<f32>, second: Vector2<f32>, radius: f32) -> Vector2<f32> {
     let sum = first + second;
     let size = math::sqrt(first.norm_squared());
@@ -210,11 +211,11 @@ pub struct PidAttitude {
     integral: Vector3<f32>,
 }
 
-/// An error of the rate at which the integral stops, rad/s: 400 °/s.
+/// Rate error at which the integral stops, rad/s: 400 °/s.
 const INTEGRAL_STOPS_AT_RAD_S: f32 = 6.981_317;
 
 impl PidAttitude {
-    /// Stepped once a tick, with valid gains.
+    /// With valid gains; evaluated once per tick.
     pub fn new(airframe: &Airframe, gains: &Pid) -> Self {
         Self {
             gains: *gains,
@@ -225,8 +226,7 @@ impl PidAttitude {
         }
     }
 
-    /// The rate wanted. A position law that gives no derivatives of its force leaves in the target's rates the
-    /// heading's alone.
+    /// The rate setpoint. With a position law without force derivatives, the target's rates contain only the yaw rate.
     fn rate_wanted(&self, input: &AttitudeInput) -> Vector3<f32> {
         let relative = input.attitude.inverse() * input.target.attitude;
         let error = tilt_before_yaw(&relative, self.gains.yaw_weight);
@@ -270,13 +270,13 @@ impl AttitudeLaw for PidAttitude {
     }
 }
 
-/// Twice the vector part of the rotation that is left to do, `relative` = q⁻¹ ⊗ qd, with its turn about the thrust axis
-/// scaled by `yaw_weight` (Brescianini, Hehn and D'Andrea 2013).
+/// Twice the vector part of the remaining rotation, `relative` = q⁻¹ ⊗ qd, with its turn about the thrust axis scaled
+/// by `yaw_weight` (Brescianini, Hehn and D'Andrea 2013).
 ///
 /// `relative` = (w, x, y, z) is the shortest rotation of the axis, (N, wx − yz, wy + xz, 0)/√N with N = w² + z², and
 /// then a turn by 2 atan2(z, w).
 fn tilt_before_yaw(relative: &UnitQuaternion<f32>, yaw_weight: f32) -> Vector3<f32> {
-    /// Below this N the axis points the wrong way exactly, and no tilt comes before any other.
+    /// Below this N the axis is inverted, and all tilts back are equally short.
     const INVERTED: f32 = 1e-8;
     let q = relative.quaternion();
     let (w, x, y, z) = (q.w, q.i, q.j, q.k);

@@ -1,4 +1,4 @@
-//! What the tests of the three controllers share, and their flights.
+//! Helpers of the three controllers' tests, and their flights.
 
 use firmware::airframe::{Airframe, ROTORS};
 use firmware::control::law::{AttitudeInput, RotorEffect};
@@ -48,7 +48,7 @@ pub(super) fn input<'a>(
     AttitudeInput { attitude, rates, target, rotor_speeds, rotors: &UNUSED, saturated: false }
 }
 
-/// Attitudes all over the rotation group.
+/// Attitudes spread over the rotation group.
 pub(super) fn attitudes() -> impl Iterator<Item = UnitQuaternion<f32>> {
     (0..300).map(|i| {
         let t = f64::from(i);
@@ -97,7 +97,7 @@ fn each_survives_a_step_without_a_path() {
 
 #[test]
 fn each_upholds_a_push_that_it_does_not_know() {
-    // 10 % of the mass more than believed, a steady wind of 3 m/s, from the first tick. Uncompensated, the mass alone
+    // 10 % more mass than modelled, and a steady wind of 3 m/s, from the first tick. Uncompensated, the mass alone
     // makes 1 m/s² of it: 0.08 m at a position gain of 12 1/s².
     for tuning in TUNINGS {
         let rows = fly(&scenario(tuning, &["truth.mass_factor=1.1", "wind.mean_m_s=[3.0,0.0,0.0]"]).expect("valid"));

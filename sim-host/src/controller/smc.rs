@@ -1,5 +1,5 @@
-//! Gains of the sliding mode laws, by axis, as they stand in a file: each axis by its gains, or by what is known of it
-//! ([`AxisBounds`], told apart by `answer_s`), from which the gains follow.
+//! Gains of the sliding mode laws, by axis, as written in a tuning file: each axis by its gains, or by its bounds
+//! ([`AxisBounds`], recognised by `answer_s`), from which the gains are designed.
 
 use firmware::control::attitude::{AttitudeForm, AttitudeGains};
 use firmware::control::design::AxisBounds;
@@ -15,21 +15,21 @@ use crate::refusal::{Refusal, typed};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Control {
-    /// Greatest tilt that position control asks for, rad.
+    /// Greatest tilt that position control demands, rad.
     pub tilt_max_rad: f32,
-    /// Time constant to which the rotors' lag is brought down, s; 0 for none.
+    /// Time constant to which lead compensation shortens the rotor lag, s; 0 for none.
     #[serde(default)]
     pub rotor_time_constant_s: f32,
-    /// Coordinates of the attitude's surfaces.
+    /// Coordinates of the attitude surfaces.
     #[serde(default)]
     pub attitude_form: AttitudeForm,
-    /// Observer of what turns the vehicle beyond its model, rad/s².
+    /// Observer of the angular acceleration disturbance, rad/s².
     #[serde(default)]
     pub attitude_observer: ObserverGains,
-    /// Observer of what accelerates it beyond its model, m/s².
+    /// Observer of the acceleration disturbance, m/s².
     #[serde(default)]
     pub position_observer: ObserverGains,
-    /// Rate at which what is observed along the thrust is taken for wrong thrust, 1/s; 0 for never.
+    /// Rate of adaptation of the thrust effectiveness, 1/s; 0 to disable.
     #[serde(default)]
     pub effectiveness_rate: f32,
     /// Roll φ.

@@ -1,4 +1,4 @@
-//! Wind: a steady part, Dryden turbulence in the low-altitude form of MIL-F-8785C, and discrete gusts.
+//! Wind: a steady component, Dryden turbulence in the low-altitude form of MIL-F-8785C, and discrete gusts.
 //!
 //! ```text
 //! along    Hu(s) = σu √(2T) / (1 + T s)                  R(τ) = σu² e^(−τ/T)                  T = Lu/V
@@ -30,7 +30,7 @@ pub struct Intensity {
     pub length_m: f64,
 }
 
-/// Intensities of the components along the wind (across it they are the same) and upwards, at `altitude_m` for a wind
+/// Intensities of the components along the wind (equal to those perpendicular to it) and upwards, at `altitude_m` for a wind
 /// of `w20_m_s` at 20 ft. Heights beyond 10 ft … 1000 ft count as these.
 pub fn low_altitude(altitude_m: f64, w20_m_s: f64) -> [Intensity; 2] {
     let height_ft = (altitude_m / FOOT_M).clamp(ALTITUDE_FT.0, ALTITUDE_FT.1);
@@ -98,7 +98,7 @@ impl Filter {
         Self::new(stream, intensity, [root_3, 1.0 - root_3], airspeed_m_s, step_s)
     }
 
-    /// The component now, m/s; then a step on.
+    /// Returns the present component, m/s, and advances by a step.
     fn sample(&mut self) -> f64 {
         let [z1, z2] = self.state;
         let [l11, l21, l22] = self.spread;
@@ -116,13 +116,13 @@ pub struct Wind {
     axes: Matrix3<f64>,
     filters: Option<[Filter; 3]>,
     gusts: Vec<scenario::Gust>,
-    /// How often it was asked for, and the time between, s.
+    /// Number of calls, and the time between two, s.
     asked: u32,
     step_s: f64,
 }
 
 impl Wind {
-    /// A scenario's wind under a seed, asked for every `step_s`.
+    /// A scenario's wind under a seed, sampled every `step_s`.
     pub fn new(wind: &scenario::Wind, seed: u64, step_s: f64) -> Self {
         let w20 = wind.turbulence_20ft_m_s;
         let filters = (w20 > 0.0).then(|| {
@@ -161,14 +161,14 @@ impl Wind {
         wind + gust::at(&self.gusts, time)
     }
 
-    /// The steady part and the turbulence.
+    /// The steady wind and the turbulence.
     fn blowing(&mut self) -> Vector3<f64> {
         let Some([along, across, up]) = &mut self.filters else { return self.mean };
         self.mean + self.axes * Vector3::new(along.sample(), across.sample(), up.sample())
     }
 }
 
-/// Along the horizontal part of the mean wind (x where there is none), across it to the left, and up.
+/// Axes: along the horizontal component of the mean wind (x if there is none), horizontally to its left, and up.
 fn axes(mean: &Vector3<f64>) -> Matrix3<f64> {
     let along = Vector3::new(mean.x, mean.y, 0.0).try_normalize(0.0).unwrap_or_else(Vector3::x);
     Matrix3::from_columns(&[along, Vector3::z().cross(&along), Vector3::z()])
@@ -201,7 +201,7 @@ mod tests {
         assert_eq!(low_altitude(0.0, 10.0), low_altitude(3.048, 10.0));
     }
 
-    /// Autocorrelation of a component at a lag of `time` time constants, as a part of its variance.
+    /// Autocorrelation of a component at a lag of `time` time constants, as a fraction of its variance.
     fn closed_form(component: usize, time: f64) -> f64 {
         libm::exp(-time) * if component == 0 { 1.0 } else { 1.0 - 0.5 * time }
     }
@@ -341,7 +341,7 @@ mod tests {
 
     #[test]
     fn a_seed_means_the_same_wind_on_every_platform() {
-        // Made once, on x86-64 Linux; what changes them changes every flight in wind.
+        // Recorded once, on x86-64 Linux; a change here changes every flight in wind.
         let mut wind = wind(1, [0.0; 3]);
         let sum = (0..100_000)
             .fold(0_u64, |sum, _| wind.sample().iter().fold(sum, |sum, v| sum.rotate_left(5) ^ v.to_bits()));

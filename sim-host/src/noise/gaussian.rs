@@ -1,10 +1,10 @@
-//! Random numbers: one counter-based stream a source, so that adding a source changes no other.
+//! Random numbers: one counter-based stream per source, so that adding a source changes no other.
 
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng as _, SeedableRng as _};
 
-/// Where a stream of random numbers is used. The numbers are part of what a seed means: do not reuse one.
+/// Source of a stream of random numbers. The discriminants determine the streams of a seed: do not reuse one.
 #[derive(Clone, Copy, Debug)]
 #[repr(u64)]
 pub(crate) enum Source {
@@ -16,7 +16,7 @@ pub(crate) enum Source {
     WindAlong = 6,
     WindAcross = 7,
     WindVertical = 8,
-    /// What is wrong with a part for good: biases, scales, axes.
+    /// Constant errors of a sensor: biases, scales, misalignments.
     GyroErrors = 16,
     GyroNoise = 17,
     GyroBias = 18,
@@ -37,11 +37,11 @@ pub(crate) enum Source {
     BatteryNoise = 33,
     /// Test signal of an analysis.
     Test = 64,
-    /// The first fault; the others have the numbers that follow.
+    /// The first fault; the others follow it.
     Fault = 1 << 32,
 }
 
-/// The random numbers of one source.
+/// The random stream of one source.
 #[derive(Clone, Debug)]
 pub(crate) struct Stream {
     rng: ChaCha8Rng,
@@ -52,7 +52,7 @@ impl Stream {
         Self::numbered(seed, source as u64)
     }
 
-    /// That of a fault, counted from 0.
+    /// The stream of a fault, counted from 0.
     pub(crate) fn of_fault(seed: u64, number: u32) -> Self {
         Self::numbered(seed, Source::Fault as u64 + u64::from(number))
     }
@@ -69,8 +69,8 @@ impl Stream {
         Vector3::new(x, y, z)
     }
 
-    /// Two independent standard normal numbers (Box and Muller 1958), from `libm` alone: the same on every platform,
-    /// which a library that may take its logarithms from the system does not promise.
+    /// Two independent standard normal numbers (Box and Muller 1958), with `libm` only: the same on every platform,
+    /// which a library that uses the system's logarithm does not guarantee.
     pub(crate) fn normal_pair(&mut self) -> (f64, f64) {
         let radius = (-2.0 * libm::log(self.unit())).sqrt();
         let (sin, cos) = libm::sincos(core::f64::consts::TAU * self.unit());
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn a_seed_means_the_same_numbers_on_every_platform() {
-        // Made once, on x86-64 Linux; what changes them changes every disturbed flight.
+        // Recorded once, on x86-64 Linux; a change here changes every disturbed flight.
         let mut stream = Stream::new(1, Source::Acceleration);
         let bits: Vec<u64> = stream.normal_vector().iter().map(|v| v.to_bits()).collect();
         assert_eq!(bits, [4_603_016_073_665_546_400, 4_595_582_661_899_543_185, 4_606_018_111_832_256_684]);

@@ -1,20 +1,20 @@
-//! Discrete gusts after MIL-F-8785C, 3.7.1.3, which are not random: they stand beside the turbulence.
+//! Discrete gusts after MIL-F-8785C, 3.7.1.3. They are deterministic, in addition to the turbulence.
 //!
 //! ```text
 //! rising   v = vm/2 (1 − cos π t/T)          holding   v = vm          falling   as it rose
 //! ```
 //!
-//! The specification's own gust never falls: one that holds to the end of the flight.
+//! The gust of the specification never falls: set a hold that lasts to the end of the flight.
 
 use nalgebra::Vector3;
 
 use crate::scenario::Gust;
 
-/// How much of a gust's peak blows at a time, s.
+/// Fraction of a gust's peak at a time, s.
 fn part(gust: &Gust, time: f64) -> f64 {
     let into = time - gust.from_s;
     let left = 2.0 * gust.rise_s + gust.hold_s - into;
-    // Both flanks are the same, seen from their ends.
+    // Both flanks have the same shape, measured from their ends.
     let flank = into.min(left) / gust.rise_s;
     if flank <= 0.0 { 0.0 } else { 0.5 * (1.0 - libm::cos(core::f64::consts::PI * flank.min(1.0))) }
 }

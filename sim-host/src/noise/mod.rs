@@ -11,7 +11,7 @@ use crate::plant::Push;
 use crate::scenario::Disturbance;
 use gaussian::{Source, Stream};
 
-/// Three Gaussian numbers at a time, of mean 0.
+/// Vectors of three Gaussian numbers of mean 0.
 #[derive(Clone, Debug)]
 struct Samples {
     stream: Stream,
@@ -28,12 +28,12 @@ impl Samples {
     }
 }
 
-/// A test signal, white from tick to tick: three Gaussian numbers of mean 0 at a time.
+/// A test signal, white from tick to tick: vectors of three Gaussian numbers of mean 0.
 #[derive(Clone, Debug)]
 pub struct White(Samples);
 
 impl White {
-    /// Of a standard deviation a component.
+    /// With a standard deviation per component.
     pub fn new(seed: u64, sigma: f64) -> Self {
         Self(Samples::new(seed, Source::Test, sigma))
     }
@@ -44,7 +44,7 @@ impl White {
     }
 }
 
-/// What disturbs the flight at a tick.
+/// Disturbances at a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Disturbed {
     /// On the plant.
@@ -56,7 +56,7 @@ pub struct Disturbed {
 }
 
 impl Disturbed {
-    /// Whether it falsifies what is measured.
+    /// Whether it disturbs measurements.
     #[inline]
     pub fn is_on_outputs(&self) -> bool {
         self.position != Vector3::zeros() || self.angles != Vector3::zeros()
@@ -76,7 +76,7 @@ pub struct Noise {
 }
 
 impl Noise {
-    /// The disturbances of a scenario under a seed; `ticks_per_s` is how often [`at`](Self::at) is asked.
+    /// The disturbances of a scenario under a seed; `ticks_per_s` is the rate at which [`at`](Self::at) is called.
     pub fn new(disturbance: Option<&Disturbance>, seed: u64, ticks_per_s: f64) -> Self {
         let d = disturbance.copied().unwrap_or_default();
         let ticks = |seconds: f64| (seconds * ticks_per_s).round() as u32;
@@ -91,7 +91,7 @@ impl Noise {
         }
     }
 
-    /// What acts at `tick`. To be asked for each tick in turn, once; [`now`](Self::now) says it again.
+    /// The disturbances at `tick`. Call once per tick, in order; [`now`](Self::now) returns them again.
     #[inline]
     pub fn at(&mut self, tick: u32) -> &Disturbed {
         if self.ticks.contains(&tick) {
@@ -104,7 +104,7 @@ impl Noise {
         &self.now
     }
 
-    /// What acts at the tick last asked for.
+    /// The disturbances of the last call.
     #[inline]
     pub fn now(&self) -> &Disturbed {
         &self.now

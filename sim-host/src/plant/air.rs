@@ -1,14 +1,14 @@
-//! The air around the vehicle: its density by the International Standard Atmosphere, and the cushion over the ground.
+//! Air density by the International Standard Atmosphere, and ground effect.
 
-/// Temperature of the standard atmosphere at sea level, K, and how much it falls with height, K/m (ISO 2533).
+/// Temperature of the standard atmosphere at sea level, K, and its lapse rate, K/m (ISO 2533).
 const SEA_LEVEL_K: f64 = 288.15;
 const LAPSE_K_M: f64 = 0.0065;
 /// g0/(R L) − 1 with g0 = 9.80665 m/s² and R = 287.05287 J/(kg K): the density's exponent in the temperature.
 const DENSITY_EXPONENT: f64 = 9.806_65 / (287.052_87 * LAPSE_K_M) - 1.0;
-/// Up to where temperature falls at that rate, and down to where the scenario may go, m.
+/// Range of altitudes, m: from the lowest that a scenario may use to the top of the troposphere.
 pub const ALTITUDE_M: (f64, f64) = (-1_000.0, 11_000.0);
 
-/// Air whose density falls with height, in units of that at sea level, for which an airframe's figures hold.
+/// Atmosphere whose density decreases with height, relative to sea level, for which an airframe's coefficients hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Atmosphere {
     /// Height of the world's origin above sea level, m.
@@ -23,8 +23,8 @@ impl Atmosphere {
     }
 }
 
-/// Ground effect after Cheeseman and Bennett (1955, ARC R&M 3021): a rotor z above the ground lifts 1/(1 − (R/4z)²)
-/// times what it lifts far from it, at the same speed and torque.
+/// Ground effect after Cheeseman and Bennett (1955, ARC R&M 3021): a rotor at a height z above the ground gives 1/(1 −
+/// (R/4z)²) times the thrust far from it, at the same speed and torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundEffect {
     /// R, m.
@@ -34,12 +34,11 @@ pub struct GroundEffect {
     pub plane: f64,
 }
 
-/// The lowest height for which the formula counts, in radii: it has a pole at a quarter of one, and was measured down
-/// to half of one.
+/// The lowest height at which the formula is used, in radii: it has a pole at 1/4, and was measured down to 1/2.
 const LOWEST_IN_RADII: f64 = 0.5;
 
 impl GroundEffect {
-    /// Thrust at a height of the rotor above the ground (m) in units of that far from it: 1 to 4/3.
+    /// Thrust at a height of the rotor above the ground (m) relative to that far from it: 1 to 4/3.
     pub fn factor(&self, height: f64) -> f64 {
         let radii = (height / self.radius).max(LOWEST_IN_RADII);
         1.0 / (1.0 - 1.0 / (16.0 * radii * radii))

@@ -1,32 +1,32 @@
-//! A battery: a voltage that falls with its charge and sags under load, and the rotor speed that it leaves.
+//! A battery: its voltage falls with the charge and sags under load, and limits the rotor speed.
 //!
 //! ```text
 //! V = E(s) − R I     V I = P     so  V = (E + √(E² − 4 R P))/2     ṡ = −I/C     ω ≤ ωmax V/Vnominal
 //! P = Σ |τi| ωi/η + Pavionics
 //! ```
 //!
-//! P is what the rotors and the electronics take, whatever the voltage: motor controllers hold a speed. A battery that
-//! cannot give it gives the most it can, at V = E/2; an empty one gives nothing.
+//! P is the power of rotors and electronics, independent of the voltage: motor controllers hold a speed. A battery that
+//! cannot supply it gives its maximum, at V = E/2; an empty one gives nothing.
 
 use crate::airframe::Pack;
 
-/// What a perfect gauge shows.
+/// Reading of a perfect gauge.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BatteryState {
     /// At the terminals, V.
     pub voltage_v: f64,
     /// A.
     pub current_a: f64,
-    /// Charge left, as a part of the capacity.
+    /// Remaining charge, as a fraction of the capacity.
     pub soc: f64,
 }
 
 /// A collapse of the voltage for a while, as when a cell fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Collapse {
-    /// From when to when, s.
+    /// Start and end, s.
     pub from_to: (f64, f64),
-    /// What is left of the open-circuit voltage.
+    /// Remaining fraction of the open-circuit voltage.
     pub factor: f64,
 }
 
@@ -34,30 +34,30 @@ pub struct Collapse {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Battery {
     pack: Pack,
-    /// What is left of the open-circuit voltage.
+    /// Remaining fraction of the open-circuit voltage.
     factor: f64,
     state: BatteryState,
 }
 
 impl Battery {
-    /// With a part `soc` of its charge, at rest.
+    /// At a state of charge `soc`, without load.
     pub fn new(pack: Pack, soc: f64) -> Self {
         let mut battery = Self { pack, factor: 1.0, state: BatteryState { soc, ..BatteryState::default() } };
         battery.state.voltage_v = battery.open_circuit_v();
         battery
     }
 
-    /// What a perfect gauge shows now.
+    /// The reading of a perfect gauge now.
     pub fn state(&self) -> BatteryState {
         self.state
     }
 
-    /// Lets the open-circuit voltage collapse to a part of itself; 1 heals it. Acts from the next load on.
+    /// Scales the open-circuit voltage by a factor, 1 for none. Acts from the next load on.
     pub fn set_factor(&mut self, factor: f64) {
         self.factor = factor;
     }
 
-    /// E, V: between the points of the pack's curve in straight lines.
+    /// E, V: interpolated linearly on the pack's curve.
     pub fn open_circuit_v(&self) -> f64 {
         let curve = &self.pack.open_circuit_v;
         if self.state.soc <= 0.0 {
@@ -69,23 +69,23 @@ impl Battery {
         self.factor * (curve[below] + (curve[below + 1] - curve[below]) * fraction)
     }
 
-    /// Puts a load on it: the mechanical power of the rotors, W.
+    /// Applies a load: the mechanical power of the rotors, W.
     pub fn load(&mut self, mechanical_w: f64) {
         let power = mechanical_w / self.pack.efficiency + self.pack.avionics_w;
         let open = self.open_circuit_v();
         let root = (open * open - 4.0 * self.pack.resistance_ohm * power).max(0.0).sqrt();
         let voltage = 0.5 * (open + root);
-        // Beyond its greatest power V = E/2 and I = E/2R, which is V/R.
+        // Above the greatest power: V = E/2 and I = E/2R, which is V/R.
         let current = if root > 0.0 { power / voltage } else { voltage / self.pack.resistance_ohm.max(f64::EPSILON) };
         (self.state.voltage_v, self.state.current_a) = (voltage, current);
     }
 
-    /// The load goes on for `step` s.
+    /// Discharges by the load for `step` s.
     pub fn discharge(&mut self, step: f64) {
         self.state.soc = (self.state.soc - self.state.current_a * step / (3600.0 * self.pack.capacity_ah)).max(0.0);
     }
 
-    /// Greatest rotor speed under the load now, in units of ωmax.
+    /// Greatest rotor speed under the present load, in units of ωmax.
     pub fn speed_limit(&self) -> f64 {
         self.state.voltage_v / self.pack.nominal_v
     }

@@ -1,6 +1,5 @@
-//! What a flight may ask for beyond the plant's constants: rotors that slow down at another rate than they speed up,
-//! rotors that fail, thin air, a cushion over the ground, a battery. Each is evaluated between steps and held over the
-//! next.
+//! Optional effects of a flight: a separate lag for rotors that slow down, rotor failures, air density, ground effect,
+//! and a battery. Each is evaluated between steps and held over the next.
 
 use nalgebra::{Matrix4, Vector3, Vector4};
 
@@ -15,11 +14,11 @@ use firmware::airframe::ROTORS;
 pub struct RotorFailure {
     /// When, s.
     pub at: f64,
-    /// What is left of each rotor's column of B from then on.
+    /// Remaining fraction of each rotor's column of B from then on.
     pub effectiveness: [f64; ROTORS],
 }
 
-/// A battery with what it drives and what befalls it.
+/// A battery with its load and its collapses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Supply {
     /// The battery.
@@ -47,7 +46,7 @@ pub struct Effects {
     pub failures: Vec<RotorFailure>,
     /// Air of another density than at sea level.
     pub atmosphere: Option<Atmosphere>,
-    /// The cushion over the ground, where there is ground.
+    /// Ground effect, where there is ground.
     pub ground_effect: Option<GroundEffect>,
     /// The battery.
     pub supply: Option<Supply>,
@@ -80,7 +79,7 @@ impl Active {
         Vector4::from(command.map(|omega| omega.min(most)))
     }
 
-    /// What becomes of the rotors in the step of `step` s that begins now, if anything does.
+    /// Rotor effectiveness from the step of `step` s that begins now, if a failure is due.
     pub(super) fn failure(&mut self, step: f64) -> Option<[f64; ROTORS]> {
         let failure = self.effects.failures.get(self.next)?;
         // The sum of the steps is off by rounding; half a step decides which tick was meant.
@@ -90,7 +89,7 @@ impl Active {
         })
     }
 
-    /// Nothing that was scheduled comes any more; the battery's voltage stays at a part of what it would be.
+    /// Cancels the schedule; the battery's voltage stays at a fraction of its undisturbed value.
     pub(super) fn forget_schedule(&mut self, battery_factor: f64) {
         self.next = self.effects.failures.len();
         if let Some(supply) = &mut self.effects.supply {
@@ -100,7 +99,7 @@ impl Active {
         }
     }
 
-    /// A step of `step` s has been made.
+    /// Advances the time by a step of `step` s.
     pub(super) fn elapse(&mut self, step: f64) {
         self.time += step;
         if let Some(supply) = &mut self.effects.supply {
@@ -114,7 +113,7 @@ impl Active {
         self.density = self.effects.atmosphere.map_or(1.0, |air| air.density(z));
     }
 
-    /// What the cushion makes of each rotor's thrust.
+    /// Factor of the ground effect on each rotor's thrust.
     pub(super) fn cushion(
         &self,
         ground: Option<&Ground>,
@@ -133,7 +132,7 @@ impl Active {
         arms.map(|arm| effect.factor(height + vertical.dot(&(arm + Vector3::new(0.0, 0.0, effect.plane)))))
     }
 
-    /// Puts the rotors' load on the battery; B and the rotors' speeds (rad/s) as they are now.
+    /// Applies the rotors' load to the battery, from the present B and rotor speeds (rad/s).
     pub(super) fn load(&mut self, geometry: &Matrix4<f64>, omega: &Vector4<f64>) {
         if let Some(supply) = &mut self.effects.supply {
             let power = |i: usize| geometry[(3, i)].abs() * (omega[i] * omega[i] * omega[i]).abs();
@@ -142,15 +141,15 @@ impl Active {
     }
 }
 
-/// The rotors and the drag as they were built, by which what is left of them is reckoned.
+/// Rotors and drag without faults and effects.
 #[derive(Clone, Debug)]
 pub(super) struct Sound {
     geometry: Matrix4<f64>,
     pub(super) drag: Vector3<f64>,
     pub(super) rotational_drag: Vector3<f64>,
-    /// Where the rotors are in the body, m; the height in their plane's own.
+    /// Positions of the rotors in the body, m, in the plane of the rotors.
     pub(super) arms: [Vector3<f64>; ROTORS],
-    /// What is left of each column of B.
+    /// Remaining fraction of each column of B.
     pub(super) effectiveness: [f64; ROTORS],
 }
 
@@ -171,7 +170,7 @@ impl Sound {
         }
     }
 
-    /// B with what is left of each rotor, in air of a density, on a cushion that lifts and does not turn.
+    /// B with the effectiveness of each rotor, at an air density, and with a ground effect that acts on lift only.
     pub(super) fn geometry(&self, density: f64, cushion: &[f64; ROTORS]) -> Matrix4<f64> {
         let column = |rotor: usize| {
             let torque = self.effectiveness[rotor] * density;

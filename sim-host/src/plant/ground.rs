@@ -9,18 +9,18 @@ use super::Motion;
 pub struct Ground {
     /// Height of the ground, m.
     pub height: f64,
-    /// Distance of the feet from the body's z axis, m; they lie in the body's xy plane, between the arms.
+    /// Distance of the feet from the body's z axis, m; they are in the body's xy plane, between the arms.
     pub foot_radius: f64,
-    /// Spring rate a foot, N/m.
+    /// Stiffness per foot, N/m.
     pub stiffness: f64,
-    /// Damping a foot, N s/m.
+    /// Damping per foot, N s/m.
     pub damping: f64,
     /// Coefficient of friction.
     pub friction: f64,
     /// Below this sliding speed of the feet (m/s) friction against turning is proportional to it, as long as they carry
-    /// the weight; a harder blow softens it in proportion.
+    /// the weight; a harder impact softens it in proportion.
     pub turn_stick_speed: f64,
-    /// What a foot carries at rest, N.
+    /// Load on a foot at rest, N.
     pub rest_load: f64,
 }
 
@@ -42,9 +42,9 @@ impl Ground {
     /// Ground at `height` for a vehicle of the given mass (kg), gravity (m/s²) and yaw inertia Iz (kg m²): it sinks in by 1 mm, damped
     /// near critically.
     ///
-    /// Friction on light feet far out would stop a turn within less than a step, and an explicit integrator would
-    /// shake: friction against turning is softened so far that it takes a step. A landing at 3 m/s presses the feet down
-    /// with 30 times the weight for a moment, so the softening goes with the load.
+    /// Friction on feet with a long lever would stop a rotation within less than a step, and an explicit integrator
+    /// would oscillate: friction against turning is softened until that takes a whole step. A landing at 3 m/s loads
+    /// the feet with 30 times the weight for a moment, so the softening is proportional to the load.
     pub fn for_vehicle(height: f64, mass: f64, gravity: f64, yaw_inertia: f64) -> Self {
         let (foot_radius, friction) = (0.15, 0.7);
         let weight = mass * gravity;
@@ -67,7 +67,7 @@ impl Ground {
         position.z - self.height
     }
 
-    /// What the ground does to a body in this motion.
+    /// Force and torque of the ground on a body in this motion.
     pub fn wrench(&self, motion: &Motion) -> Wrench {
         let mut total = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
         if self.height_above(&motion.position) > self.foot_radius {
@@ -85,18 +85,18 @@ impl Ground {
         total
     }
 
-    /// Where the feet are in the body, m.
+    /// Positions of the feet in the body, m.
     fn feet(&self) -> [Vector3<f64>; 4] {
         let side = self.foot_radius * core::f64::consts::FRAC_1_SQRT_2;
         [(side, side), (side, -side), (-side, -side), (-side, side)].map(|(x, y)| Vector3::new(x, y, 0.0))
     }
 
-    /// Heights of the feet above the ground, m: below zero for one that stands on it.
+    /// Heights of the feet above the ground, m; negative in contact.
     pub fn clearances(&self, position: &Vector3<f64>, attitude: &UnitQuaternion<f64>) -> [f64; 4] {
         self.feet().map(|arm| self.height_above(&(position + attitude * arm)))
     }
 
-    /// Force on a foot at a height, with a velocity and, besides, one from the body's turning about its z axis.
+    /// Force on a foot at a height, from its velocity without and due to the rotation about the body's z axis.
     fn foot_force(&self, height: f64, moving: &Vector3<f64>, turning: &Vector3<f64>) -> Vector3<f64> {
         let depth = self.height - height;
         if depth <= 0.0 {

@@ -1,4 +1,4 @@
-//! Plant models: the truth that the firmware flies in. Double precision, fixed step, no randomness of their own.
+//! Plant models: the simulated truth. Double precision, fixed step, deterministic.
 //!
 //! [`rigid_body`] is the truth for everything that flies; [`paper`] is the paper's small-angle model, kept to
 //! reproduce its figures. World frame NWU, body frame FLU.
@@ -35,10 +35,10 @@ pub struct Constants {
     pub geometry: Matrix4<f64>,
     /// Sign of each rotor's spin in Ωr.
     pub spin: Vector4<f64>,
-    /// Rotor time constant, s; 0 for rotors that follow at once.
+    /// Rotor time constant, s; 0 for rotors without lag.
     pub rotor_lag: f64,
-    /// Whether spinning a rotor up turns the body (−Jr Ω̇r). Left out for the paper's airframe, whose printed
-    /// Jr is so large that the term would make it lose yaw.
+    /// Whether the spin-up reaction (−Jr Ω̇r) is modelled. Not for the paper's airframe, whose printed Jr is so large
+    /// that yaw control would be lost.
     pub spin_up_reaction: bool,
 }
 
@@ -48,11 +48,11 @@ impl Constants {
     pub fn inputs(&self, omega: &Vector4<f64>) -> Vector4<f64> {
         let square = omega.component_mul(omega);
         let share = |rotor: usize| self.geometry.column(rotor) * square[rotor];
-        // Added in pairs: a sum of four in a row would be the longest wait in a step.
+        // Added in pairs: a serial sum of four would be the longest dependency chain in a step.
         (share(0) + share(1)) + (share(2) + share(3))
     }
 
-    /// The speed at which four rotors alike carry the weight, rad/s.
+    /// The rotor speed at which four equal rotors carry the weight, rad/s.
     pub fn hover_omega(&self) -> f64 {
         (self.mass * self.gravity / self.geometry.row(0).sum()).sqrt()
     }
@@ -83,7 +83,7 @@ impl Motion {
         Self { position, velocity: Vector3::zeros(), attitude: Quaternion::identity(), rates: Vector3::zeros() }
     }
 
-    /// As an ideal sensor gives it to the firmware.
+    /// As ideal state for the firmware.
     #[inline]
     pub fn as_nav(&self) -> NavState {
         NavState {
@@ -106,8 +106,8 @@ pub struct Push {
 
 /// A model that can be flown in lockstep.
 ///
-/// Between steps it tells what sensors could measure, and takes what befalls it; a model without an effect says so by
-/// its constant answer.
+/// Between steps it provides the quantities that sensors measure, and accepts faults; a model without an effect returns
+/// a constant.
 pub trait Plant {
     /// The motion now.
     fn motion(&self) -> Motion;
@@ -122,16 +122,16 @@ pub trait Plant {
     /// Advances by `step` seconds with commanded rotor speeds (rad/s) and a push, both held.
     fn step(&mut self, command: &[f64; ROTORS], push: &Push, step: f64);
 
-    /// What an ideal accelerometer at the centre of mass reads now, about the body's axes, m/s²: R(q)ᵀ (v̇ + g e3), with
-    /// the thrust of the rotors' speeds now and a push that goes on.
+    /// Specific force at the centre of mass in the body frame, m/s²: R(q)ᵀ (v̇ + g e3), at the present rotor speeds and
+    /// with the given push.
     fn specific_force(&self, push: &Push) -> Vector3<f64>;
 
-    /// Density of the air around it in units of that for which its drag holds.
+    /// Air density, relative to that for which the drag coefficients hold.
     fn air_density(&self) -> f64 {
         1.0
     }
 
-    /// What is left of its rotors' thrust and of its battery's voltage from now on, whatever was scheduled.
+    /// Sets the faults of rotors and battery from now on, in place of the schedule.
     fn apply_faults(&mut self, _faults: &PlantFaults) {}
 
     /// Drag over mass (k1..k3 over m, 1/s), by which a wind acts on it; none for a model without wind.

@@ -1,8 +1,8 @@
-//! The paper plant: Eq. 2 with its errata, where Euler rates stand for body rates.
+//! The paper's plant: Eq. 2 with its errata, where Euler rates are used for body rates.
 //!
-//! Two readings. [`PaperPlant`] is the coupled one, driven by rotor speeds. The decoupled one
-//! ([`crate::decoupled`]) takes the specific force and the torques as direct inputs, of any size and sign: the model
-//! to which the paper's figures belong.
+//! Two readings. [`PaperPlant`] is the coupled one, driven by rotor speeds. The decoupled one ([`crate::decoupled`])
+//! takes the specific force and the torques as direct inputs, of any size and sign: the model that the paper's figures
+//! show.
 
 use nalgebra::{UnitQuaternion, Vector3, Vector4};
 
@@ -40,7 +40,7 @@ impl PaperState {
     }
 }
 
-/// What drives Eq. 2.
+/// The input of Eq. 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperInput {
     /// (Ux U1/m, Uy U1/m, cφcθ U1/m): specific force in the world, m/s².
@@ -88,7 +88,7 @@ impl Constants {
     }
 }
 
-/// Eq. 2 coupled: the force follows from the angles and U1.
+/// The coupled Eq. 2: the force follows from the angles and U1.
 #[derive(Clone, Debug)]
 pub struct PaperPlant {
     constants: Constants,
@@ -97,7 +97,7 @@ pub struct PaperPlant {
 }
 
 impl PaperPlant {
-    /// At rest at `position`, rotors turning so as to hover.
+    /// At rest at `position`, with the rotors at hover speed.
     pub fn new(constants: Constants, position: Vector3<f64>) -> Self {
         let omega = Vector4::repeat(constants.hover_omega());
         Self { constants, state: PaperState::at_rest(position), omega }

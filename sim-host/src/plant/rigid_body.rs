@@ -6,9 +6,9 @@
 //! ω̇i = (ωi,cmd − ωi)/τrotor
 //! ```
 //!
-//! The rotors' first-order lag has a closed form between commands, so it is evaluated exactly at the stages. The
-//! second equation is divided by I once, when the plant is built. [`Effects`] change B, the drag and the commands
-//! between steps; a flight without them pays a comparison.
+//! The rotors' first-order lag has a closed form between commands, so it is evaluated exactly at the stages. The second
+//! equation is divided by I once, when the plant is built. [`Effects`] change B, the drag and the commands between
+//! steps; a flight without them costs one comparison more.
 
 use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3, Vector4};
 
@@ -31,7 +31,7 @@ pub struct RigidBody {
     ground: Option<Ground>,
     state: State,
     omega: Vector4<f64>,
-    /// Large and rarely used: elsewhere, so that the rest stays together.
+    /// Boxed, because it is large and rarely used.
     sound: Box<Sound>,
     effects: Option<Box<Active>>,
 }
@@ -51,12 +51,12 @@ struct Divided {
     coupling: Vector3<f64>,
 }
 
-/// What the rotors do to the body at a stage.
+/// Effect of the rotors on the body at a stage.
 #[derive(Clone, Copy)]
 struct RotorState {
     /// U1/m, m/s².
     specific_thrust: f64,
-    /// I⁻¹ τ, less the reaction to spin-up, rad/s².
+    /// I⁻¹ τ minus the spin-up reaction, rad/s².
     angular_acceleration: Vector3<f64>,
     /// Jr Ωr over Ix and over Iy, 1/s.
     gyroscopic: (f64, f64),
@@ -76,7 +76,7 @@ impl Divided {
 }
 
 impl RigidBody {
-    /// At rest at `position`, rotors turning so as to hover (in the air) or standing (on the ground).
+    /// At rest at `position`, with the rotors at hover speed (in the air) or stopped (on the ground).
     pub fn new(constants: Constants, ground: Option<Ground>, position: Vector3<f64>) -> Self {
         let stands = ground.as_ref().is_some_and(|ground| ground.height_above(&position) <= 0.0);
         let omega = Vector4::repeat(if stands { 0.0 } else { constants.hover_omega() });
@@ -85,7 +85,7 @@ impl RigidBody {
         Self { divided, ground, state: pack(&Motion::at_rest(position)), omega, sound, effects: None, constants }
     }
 
-    /// With effects, at the motion and the rotor speeds that it has.
+    /// With effects, at the present motion and rotor speeds.
     #[must_use]
     pub fn with_effects(mut self, effects: Effects) -> Self {
         let mut active = Box::new(Active::new(effects));
@@ -109,24 +109,24 @@ impl RigidBody {
         self
     }
 
-    /// The constants it was built with, but for B, which is what effects have made of it.
+    /// The constants, with B as changed by the effects.
     pub fn constants(&self) -> &Constants {
         &self.constants
     }
 
-    /// The ground, if there is any.
+    /// The ground, if any.
     pub fn ground(&self) -> Option<&Ground> {
         self.ground.as_ref()
     }
 
-    /// Height of the centre of mass above the ground, m; above the world's origin where there is none.
+    /// Height of the centre of mass above the ground, or above the world's origin without ground, m.
     pub fn height_above_ground(&self) -> f64 {
         let position = self.motion().position;
         self.ground.as_ref().map_or(position.z, |ground| ground.height_above(&position))
     }
 
-    /// What is left of each rotor's thrust and torques from now on: 1 for a sound rotor, 0 for one that is gone. Its
-    /// spin goes on.
+    /// Remaining fraction of each rotor's thrust and torque from now on: 1 for a healthy rotor, 0 for a failed one. Its
+    /// spin continues.
     pub fn set_rotor_effectiveness(&mut self, effectiveness: [f64; ROTORS]) {
         self.sound.effectiveness = effectiveness;
         match self.effects.take() {
@@ -138,7 +138,7 @@ impl RigidBody {
         }
     }
 
-    /// B, the drag and the battery's load where the vehicle is now.
+    /// Updates B, the drag and the battery's load at the present state.
     fn evaluate(&mut self, active: &mut Active) {
         let motion = self.motion();
         active.set_height(motion.position.z);
@@ -161,7 +161,7 @@ impl RigidBody {
         self.rotors_reacting(omega, reaction)
     }
 
-    /// The rotors' share at their speeds (rad/s), with a torque Jr Ω̇r of their speeding up (N m).
+    /// The rotors' effect at their speeds (rad/s), with a reaction torque Jr Ω̇r (N m).
     #[expect(clippy::inline_always, reason = "measured: as for the derivative")]
     #[inline(always)]
     fn rotors_reacting(&self, omega: &Vector4<f64>, reaction: f64) -> RotorState {
@@ -175,7 +175,7 @@ impl RigidBody {
         }
     }
 
-    /// ẋ at a stage. `CONTACT` says whether there is ground, so that a flight without pays nothing for it.
+    /// ẋ at a stage. `CONTACT` says whether there is ground, so that a flight without it has no cost.
     #[expect(
         clippy::inline_always,
         reason = "measured: called, its result goes through memory and stalls the next stage"
@@ -192,7 +192,7 @@ impl RigidBody {
             (steady.z - d.drag.z * vz) + (1.0 - 2.0 * (x * x + y * y)) * thrust,
         );
         let (own, (gx, gy), k) = (&rotors.angular_acceleration, rotors.gyroscopic, &d.rotational_drag);
-        // Grouped so that what is known before the stage comes first: the stages wait for each other.
+        // Grouped so that terms known before the stage come first: the stages depend on each other.
         let base = own + push.angular_acceleration;
         let mut turn = Vector3::new(
             (base.x - k.x * (p * p.abs())) + q * (d.coupling.x * r - gx),
@@ -222,7 +222,7 @@ impl RigidBody {
         ])
     }
 
-    /// [`rk4`](Self::rk4) with ground, kept out of the way of the flights without.
+    /// [`rk4`](Self::rk4) with ground, a separate function so that flights without it are not slowed down.
     #[inline(never)]
     fn rk4_in_contact(&self, stages: &[RotorState; 3], push: &Push, h: f64) -> State {
         self.rk4::<true>(stages, push, h)
@@ -241,7 +241,7 @@ impl RigidBody {
         next
     }
 
-    /// Rotor speeds after `time` on the way from `from` to `command`.
+    /// Rotor speeds `time` after `from`, approaching `command`.
     #[inline]
     fn omega_after(&self, from: &Vector4<f64>, command: &Vector4<f64>, time: f64) -> Vector4<f64> {
         command + (from - command) * libm::exp(-time / self.constants.rotor_lag)
@@ -274,7 +274,7 @@ impl RigidBody {
         ([&self.omega, &half, &end].map(|omega| self.rotors_reacting(omega, reaction(omega))), end)
     }
 
-    /// A step with effects, out of the way of the flights without.
+    /// A step with effects, a separate function so that flights without them are not slowed down.
     #[cold]
     #[inline(never)]
     fn step_with_effects(&mut self, command: &[f64; ROTORS], push: &Push, h: f64) {
@@ -312,8 +312,8 @@ fn unpack(state: &State) -> Motion {
     }
 }
 
-/// The attitude brought back to unit size, which RK4 keeps to fifth order only: by one Newton step of 1/√n², exact
-/// to (n² − 1)², which is below an f64's resolution at any rate that 1 ms can follow.
+/// Normalises the attitude, whose norm RK4 keeps to fifth order only: one Newton step of 1/√n², exact to (n² − 1)²,
+/// which is below the resolution of f64 at any rate that a step of 1 ms can follow.
 #[inline]
 fn normalise(state: &mut State) {
     let [_, _, _, _, _, _, w, x, y, z, ..] = &mut state.data.0[0];

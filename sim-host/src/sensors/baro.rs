@@ -11,15 +11,15 @@ use super::process::{GaussMarkov, Period, WarmUp, quantise, ticks};
 use super::{Model, Truth};
 use crate::noise::gaussian::{Source, Stream};
 
-/// What a barometer is like. Near the ground 1 Pa is 8.5 cm.
+/// Data sheet of a barometer. Near the ground 1 Pa is 8.5 cm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Baro {
-    /// Name of the part, or path of its file.
+    /// Name of the built-in part, or path of a file.
     pub part: String,
-    /// Samples a second.
+    /// Sampling rate, Hz.
     pub rate_hz: f64,
-    /// From the measurement to its delivery, s.
+    /// Latency: from the measurement to its delivery, s.
     pub delay_s: f64,
     /// White noise of a sample, Pa.
     pub noise_pa: f64,
@@ -27,19 +27,19 @@ pub struct Baro {
     pub resolution_pa: f64,
     /// Deviation of the offset over the seeds, Pa.
     pub offset_pa: f64,
-    /// Deviation of the slow drift, of the weather and of the part, Pa.
+    /// Deviation of the slow drift, from weather and sensor, Pa.
     pub drift_pa: f64,
     /// Its correlation time, s.
     pub drift_time_s: f64,
     /// Deviation of the offset's temperature coefficient over the seeds, Pa/K.
     pub offset_pa_k: f64,
-    /// How it warms up.
+    /// Its warm-up.
     pub warm_up: WarmUp,
 }
 
 impl Baro {
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("baro");
         check.rate(self.rate_hz)?;
@@ -60,7 +60,7 @@ impl Baro {
     }
 }
 
-/// A barometer of a seed.
+/// A barometer with errors drawn from a seed.
 #[derive(Clone, Debug)]
 pub(super) struct Barometer {
     period: Period,

@@ -1,4 +1,4 @@
-//! Battery monitor: voltage and current as a power module tells them.
+//! Battery monitor: voltage and current as a power module reports them.
 
 use anyhow::Result;
 use firmware::sensors::BatterySample;
@@ -9,15 +9,15 @@ use super::process::{Period, quantise, ticks};
 use super::{Model, Truth};
 use crate::noise::gaussian::{Source, Stream};
 
-/// What a battery monitor is like.
+/// Data sheet of a battery monitor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Battery {
-    /// Name of the part, or path of its file.
+    /// Name of the built-in part, or path of a file.
     pub part: String,
-    /// Samples a second.
+    /// Sampling rate, Hz.
     pub rate_hz: f64,
-    /// From the measurement to its delivery, s.
+    /// Latency: from the measurement to its delivery, s.
     pub delay_s: f64,
     /// White noise of the voltage, V.
     pub voltage_v: f64,
@@ -31,7 +31,7 @@ pub struct Battery {
 
 impl Battery {
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("battery");
         check.rate(self.rate_hz)?;
@@ -49,7 +49,7 @@ impl Battery {
     }
 }
 
-/// A battery monitor of a seed.
+/// A battery monitor with errors drawn from a seed.
 #[derive(Clone, Debug)]
 pub(super) struct Monitor {
     period: Period,

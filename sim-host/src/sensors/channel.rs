@@ -1,4 +1,4 @@
-//! The way of a sensor's samples to the firmware: faults first, then the latency.
+//! Delivery of a sensor's samples to the firmware: first faults, then latency.
 
 use std::collections::VecDeque;
 
@@ -8,22 +8,22 @@ use super::check::LATENCY_MAX_S;
 use super::faults::{EXTRA_MAX_S, Faults, Memory, Sample};
 use super::process::{Period, ticks};
 
-/// Samples under way, in the order in which they will arrive, at most one a tick.
+/// Samples in transit, in the order of arrival, at most one per tick.
 #[derive(Clone, Debug)]
 pub(super) struct Channel<T> {
-    /// With the tick of arrival. Its capacity is for the longest latency: it never grows.
+    /// With the tick of arrival. The capacity suffices for the longest latency, so it never grows.
     under_way: VecDeque<(Tick, T)>,
     memory: Memory<T>,
 }
 
 impl<T: Sample> Channel<T> {
     pub(super) fn new(period: Period) -> Self {
-        // The jitter is part of a latency, and at most as long as what it varies.
+        // The jitter is at most as long as the latency that it varies.
         let longest = ticks(2.0 * LATENCY_MAX_S + EXTRA_MAX_S) / period.ticks();
         Self { under_way: VecDeque::with_capacity(longest as usize + 2), memory: Memory::new() }
     }
 
-    /// Sends a sample measured at `tick`, to arrive `latency` ticks later. What it overtakes is lost.
+    /// Sends a sample measured at `tick`, to arrive `latency` ticks later. Samples that it overtakes are lost.
     pub(super) fn send(&mut self, tick: Tick, latency: u32, sample: T, faults: &mut Faults) {
         let Some((sample, extra)) = faults.pass(tick, &mut self.memory, sample) else { return };
         let arrival = tick.saturating_add(latency).saturating_add(extra);
@@ -33,7 +33,7 @@ impl<T: Sample> Channel<T> {
         self.under_way.push_back((arrival, sample));
     }
 
-    /// What arrives at `tick`. To be asked for each tick in turn.
+    /// The sample that arrives at `tick`. Call once per tick, in order.
     pub(super) fn arrival(&mut self, tick: Tick) -> Option<T> {
         let (arrival, sample) = *self.under_way.front()?;
         (arrival <= tick).then(|| {

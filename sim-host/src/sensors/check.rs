@@ -1,14 +1,14 @@
-//! What every part's numbers are held against.
+//! Range checks of the sensors' data sheets.
 
 use anyhow::Result;
 
 use super::process::TICKS_PER_S;
 use crate::refusal::{Refusal, within};
 
-/// Longest latency of a sound sensor, s.
+/// Longest latency of a fault-free sensor, s.
 pub(super) const LATENCY_MAX_S: f64 = 1.0;
 
-/// The numbers of a sensor, each by its key below `sensors.<sensor>`.
+/// Checks of a sensor's values, named by their keys below `sensors.<sensor>`.
 pub(super) struct Check(pub(super) &'static str);
 
 impl Check {
@@ -16,12 +16,12 @@ impl Check {
         format!("sensors.{}.{key}", self.0)
     }
 
-    /// Numbers within `low ..= high`.
+    /// Checks that values are within `low ..= high`.
     pub(super) fn within(&self, low: f64, high: f64, values: &[(&str, f64)]) -> Result<()> {
         values.iter().try_for_each(|(key, value)| within(&self.key(key), *value, low, high))
     }
 
-    /// A rate whose period is whole ticks.
+    /// Checks that a rate has a period of whole ticks.
     pub(super) fn rate(&self, rate_hz: f64) -> Result<()> {
         let (key, period) = (self.key("rate_hz"), TICKS_PER_S / rate_hz);
         within(&key, rate_hz, 0.1, TICKS_PER_S)?;
@@ -32,7 +32,7 @@ impl Check {
         Err(Refusal::new(key, "must make a period of whole milliseconds").given(rate_hz).remedy(remedy).into())
     }
 
-    /// A latency, s.
+    /// Checks a latency, s.
     pub(super) fn latency(&self, key: &str, seconds: f64) -> Result<()> {
         within(&self.key(key), seconds, 0.0, LATENCY_MAX_S)
     }

@@ -1,4 +1,4 @@
-//! What the firmware is told of its sensors: what stands in their data sheets, with what their models leave to noise.
+//! The estimator's noise parameters, from the data sheets of the sensors and the errors that its model treats as noise.
 
 use firmware::estimator::EstimatorSettings;
 
@@ -7,11 +7,12 @@ use super::{Home, SuiteFile};
 
 /// Current of a vehicle of 2 kg in hover, A.
 const HOVER_A: f64 = 20.0;
-/// What rotors' vibration leaves in the accelerometer's integral, m/s²/√Hz.
+/// Noise density of the accelerometer that is equivalent to rotor vibration, m/s²/√Hz.
 const VIBRATION: f64 = 2.4e-3;
 
 impl SuiteFile {
-    /// The filter's settings for this suite at home. What a suite does not have keeps its default, and is not asked for.
+    /// The estimator's settings for this suite at a home. Sensors that the suite does not have keep their defaults,
+    /// which are not used.
     pub fn estimator_settings(&self, home: &Home) -> EstimatorSettings {
         let mut settings = EstimatorSettings {
             magnetic_field_ut: home.field_nwu().map(|v| v as f32).into(),
@@ -60,19 +61,19 @@ impl SuiteFile {
     }
 }
 
-/// What an axis' scale, and its two neighbours in it, are off by.
+/// Scale error of an axis, together with the misalignment towards the other two.
 fn scale(triad: &Triad) -> f64 {
     libm::hypot(triad.scale_error, core::f64::consts::SQRT_2 * triad.misalignment)
 }
 
-/// Density of the worst axis' noise with that of rounding at 1 kHz and of what else there is, unit/√Hz.
+/// Noise density of the worst axis, with quantisation at 1 kHz and `more` noise, unit/√Hz.
 fn noise(triad: &Triad, more: f64) -> f64 {
     let worst = triad.noise_density.iter().fold(0.0_f64, |worst, density| worst.max(*density));
     let rounding = triad.resolution / 12.0_f64.sqrt() / 500.0_f64.sqrt();
     libm::hypot(libm::hypot(worst, rounding), more)
 }
 
-/// Noise with that of rounding.
+/// Noise with that of quantisation.
 fn rounded(noise: f64, resolution: f64) -> f32 {
     libm::hypot(noise, resolution / 12.0_f64.sqrt()).max(1e-4) as f32
 }

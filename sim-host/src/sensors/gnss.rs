@@ -1,4 +1,4 @@
-//! Satellite receiver: place on the ellipsoid and velocity, late, with errors that wander for half an hour.
+//! GNSS receiver: position on the ellipsoid and velocity, late, with errors that are correlated over half an hour.
 
 use anyhow::Result;
 use firmware::sensors::GnssSample;
@@ -13,21 +13,21 @@ use crate::geodesy::LocalFrame;
 use crate::noise::gaussian::{Source, Stream};
 use crate::refusal::within;
 
-/// What a receiver is like. Deviations are those of a component.
+/// Data sheet of a receiver. Deviations are per component.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gnss {
-    /// Name of the part, or path of its file.
+    /// Name of the built-in part, or path of a file.
     pub part: String,
-    /// Solutions a second.
+    /// Solution rate, Hz.
     pub rate_hz: f64,
-    /// From the time at which a solution is true to its delivery, s.
+    /// Latency: from the time of a solution to its delivery, s.
     pub delay_s: f64,
-    /// How far that varies, ± s, uniformly; less than half a period, so that solutions arrive in order.
+    /// Jitter of the latency, ± s, uniform; less than half a period, so that solutions arrive in order.
     pub jitter_s: f64,
-    /// Deviation of the wandering error of each horizontal axis, m.
+    /// Deviation of the drifting error per horizontal axis, m.
     pub horizontal_m: f64,
-    /// The same of the height, m.
+    /// The same for the height, m.
     pub vertical_m: f64,
     /// Correlation time of these, s.
     pub wander_time_s: f64,
@@ -45,7 +45,7 @@ pub struct Gnss {
 
 impl Gnss {
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("gnss");
         check.rate(self.rate_hz)?;
@@ -69,7 +69,7 @@ impl Gnss {
     }
 }
 
-/// A receiver of a seed.
+/// A receiver with errors drawn from a seed.
 #[derive(Clone, Debug)]
 pub(super) struct Receiver {
     period: Period,
@@ -109,12 +109,12 @@ impl Model for Receiver {
         self.period
     }
 
-    /// The latency of the next solution, ticks: drawn anew for each.
+    /// The latency of the next solution, ticks: drawn for each one.
     fn delay(&mut self) -> u32 {
         ticks(self.spec.delay_s + self.spec.jitter_s * (2.0 * self.jitter.unit() - 1.0))
     }
 
-    /// The velocity is taken in the axes at home: at 1 km from there those of the place differ by 0.16 mrad.
+    /// The velocity is in the axes at home; 1 km away the local axes differ by 0.16 mrad.
     fn measure(&mut self, truth: &Truth) -> GnssSample {
         let spec = &self.spec;
         let white = Vector3::new(spec.horizontal_noise_m, spec.horizontal_noise_m, spec.vertical_noise_m);

@@ -1,4 +1,4 @@
-//! Where on earth a flight takes place: its place, its magnetic field and its air.
+//! Home: the place of a flight on Earth, with its magnetic field and atmosphere.
 
 use anyhow::Result;
 use nalgebra::Vector3;
@@ -26,7 +26,8 @@ pub struct Home {
     pub latitude_deg: f64,
     /// Longitude, ° east.
     pub longitude_deg: f64,
-    /// Height above the ellipsoid, m. The air takes it for the height above the sea: a geoid is not modelled.
+    /// Height above the ellipsoid, m. The atmosphere uses it as the height above mean sea level: the geoid is not
+    /// modelled.
     pub height_m: f64,
     /// Magnetic declination, ° east of north.
     pub declination_deg: f64,
@@ -74,10 +75,10 @@ impl Home {
         pressure(self.height_m + up_m, self.sea_level_pa, self.sea_level_k)
     }
 
-    /// Refuses a home that is not on earth.
+    /// Checks that home is on Earth.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         within("home.latitude_deg", self.latitude_deg, -90.0, 90.0)?;
         within("home.longitude_deg", self.longitude_deg, -180.0, 180.0)?;

@@ -25,12 +25,12 @@ const BIAS_TICKS: u32 = 10;
 /// The same, s.
 const BIAS_STEP_S: f64 = 0.01;
 
-/// What three axes of a kind are like, in the unit of the table: °/s for the gyro, m/s² for the accelerometer.
-/// Deviations are those over the seeds, an axis.
+/// Data sheet of three axes, in the unit of the table: °/s for the gyro, m/s² for the accelerometer. Deviations are
+/// over the seeds, per axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Triad {
-    /// One-sided density of the white noise, unit/√Hz, an axis.
+    /// One-sided density of the white noise, unit/√Hz, per axis.
     pub noise_density: [f64; 3],
     /// Deviation of the Gauss–Markov bias; its Allan deviation is 0.62 of it at most, after 1.9 correlation times.
     pub bias_instability: f64,
@@ -38,11 +38,11 @@ pub struct Triad {
     pub bias_time_s: f64,
     /// Random walk of the bias, unit/√s.
     pub bias_walk: f64,
-    /// Deviation of the bias at power-on that calibration does not take away.
+    /// Deviation of the turn-on bias that calibration does not remove.
     pub turn_on_bias: f64,
-    /// Deviation of an axis' scale.
+    /// Deviation of the scale error.
     pub scale_error: f64,
-    /// Deviation of what an axis sees of another.
+    /// Deviation of the misalignment towards another axis.
     pub misalignment: f64,
     /// Deviation of the bias' temperature coefficient, unit/K.
     pub bias_per_k: f64,
@@ -52,19 +52,19 @@ pub struct Triad {
     pub range: f64,
 }
 
-/// What an IMU is like; it measures at every tick and delivers at once.
+/// Data sheet of an IMU; it measures every tick and delivers without latency.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Imu {
-    /// Name of the part, or path of its file.
+    /// Name of the built-in part, or path of a file.
     pub part: String,
     /// In °/s.
     pub gyro: Triad,
     /// In m/s².
     pub accel: Triad,
-    /// How the board warms up.
+    /// Warm-up of the board.
     pub warm_up: WarmUp,
-    /// How the rotors shake it.
+    /// Vibration from the rotors.
     pub vibration: Vibration,
 }
 
@@ -90,7 +90,7 @@ impl Triad {
 
 impl Imu {
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub(super) fn validate(&self) -> Result<()> {
         self.gyro.validate(&Check("imu.gyro"))?;
         self.accel.validate(&Check("imu.accel"))?;
@@ -99,14 +99,14 @@ impl Imu {
     }
 }
 
-/// The streams of three axes of a kind.
+/// The random streams of three axes.
 struct Sources {
     errors: Source,
     noise: Source,
     bias: Source,
 }
 
-/// Three axes of a seed, in the unit of their table.
+/// Three axes with errors drawn from a seed, in the unit of their table.
 #[derive(Clone, Debug)]
 struct Axes {
     /// I + scale + misalignment.
@@ -120,7 +120,7 @@ struct Axes {
     walk: Vector3<f64>,
     /// Deviation of what a step adds to the walk.
     walk_kick: f64,
-    /// All of the bias, as of the last step.
+    /// The total bias, as of the last step.
     bias: Vector3<f64>,
     resolution: f64,
     range: f64,
@@ -155,19 +155,19 @@ impl Axes {
         }
     }
 
-    /// The bias, a step on, at a board that is warmer than at the calibration by `warmer_k`.
+    /// Advances the bias by a step; the board is warmer than at calibration by `warmer_k`.
     fn step_bias(&mut self, warmer_k: f64) {
         let wandering = self.instability.sample(&mut self.biases) + self.walk;
         self.bias = self.turn_on + wandering + self.warmth * warmer_k;
         self.walk += self.biases.normal_vector() * self.walk_kick;
     }
 
-    /// What is read beyond a true value, but for noise and rounding.
+    /// The error of a reading without noise and quantisation.
     fn error(&self, value: &Vector3<f64>) -> Vector3<f64> {
         self.gain * value + self.bias - value
     }
 
-    /// What is read of a true value.
+    /// The reading of a true value.
     fn read(&mut self, value: &Vector3<f64>) -> Vector3<f64> {
         let noise = self.sigma.component_mul(&self.noise.normal_vector());
         let sensed = self.gain * value + self.bias + noise;
@@ -175,7 +175,7 @@ impl Axes {
     }
 }
 
-/// An IMU of a seed.
+/// An IMU with errors drawn from a seed.
 #[derive(Clone, Debug)]
 pub(super) struct InertialUnit {
     gyro: Axes,
@@ -196,7 +196,7 @@ impl InertialUnit {
         }
     }
 
-    /// What is read beyond rates (rad/s) and a specific force (m/s²), but for noise, rounding and shaking.
+    /// Errors at rates (rad/s) and a specific force (m/s²), without noise, quantisation and vibration.
     pub(super) fn error(&self, rates: &Vector3<f64>, force: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         let gyro_deg_s = self.gyro.error(&rates.map(f64::to_degrees));
         (gyro_deg_s.map(f64::to_radians), self.accel.error(force))

@@ -1,4 +1,4 @@
-//! Magnetometer: the world's field in the body's frame, through what is left of iron and currents after calibration.
+//! Magnetometer: the Earth's field in the body frame, with the iron and current errors that calibration leaves.
 
 use anyhow::Result;
 use firmware::sensors::MagSample;
@@ -11,15 +11,15 @@ use super::process::{Period, quantise, ticks};
 use super::{Model, Truth};
 use crate::noise::gaussian::{Source, Stream};
 
-/// What a magnetometer is like. Deviations are those over the seeds, a component.
+/// Data sheet of a magnetometer. Deviations are over the seeds, per component.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mag {
-    /// Name of the part, or path of its file.
+    /// Name of the built-in part, or path of a file.
     pub part: String,
-    /// Samples a second.
+    /// Sampling rate, Hz.
     pub rate_hz: f64,
-    /// From the measurement to its delivery, s.
+    /// Latency: from the measurement to its delivery, s.
     pub delay_s: f64,
     /// White noise of a sample, µT.
     pub noise_ut: f64,
@@ -27,9 +27,9 @@ pub struct Mag {
     pub resolution_ut: f64,
     /// Range, ±µT.
     pub range_ut: f64,
-    /// Deviation of what calibration left of the hard iron, µT.
+    /// Deviation of the residual hard iron, µT.
     pub hard_iron_ut: f64,
-    /// Deviation of what it left of the soft iron and of scales and axes: each entry of the matrix.
+    /// Deviation of each entry of the residual matrix of soft iron, scale errors and misalignment.
     pub soft_iron: f64,
     /// Deviation of the field of the battery's current, µT/A.
     pub current_ut_a: f64,
@@ -37,7 +37,7 @@ pub struct Mag {
 
 impl Mag {
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("mag");
         check.rate(self.rate_hz)?;
@@ -57,7 +57,7 @@ impl Mag {
     }
 }
 
-/// A magnetometer of a seed.
+/// A magnetometer with errors drawn from a seed.
 #[derive(Clone, Debug)]
 pub(super) struct Magnetometer {
     period: Period,

@@ -1,12 +1,12 @@
-//! The sensors of the vehicle: from the truth to what the firmware is given.
+//! The sensors of the vehicle: from the truth to the measurements that the firmware gets.
 //!
 //! ```text
-//! truth ──► sound model of a part ──► faults ──► latency ──► Measurements     each tick, 1 kHz
+//! truth ──► sensor model ──► faults ──► latency ──► Measurements     each tick, 1 kHz
 //!           (imu, mag, baro, gnss, pose, battery)
 //! ```
 //!
-//! World frame NWU, body frame FLU, SI units. Each source of randomness has a stream of its own: a sensor that is
-//! added, changed or made to fail changes no other sensor's numbers. A tick allocates nothing.
+//! World frame NWU, body frame FLU, SI units. Each source of randomness has its own stream: adding, changing or failing
+//! a sensor changes no other sensor's samples. A tick does not allocate.
 
 pub mod baro;
 pub mod battery;
@@ -54,7 +54,7 @@ pub struct BatteryTruth {
     pub current_a: f64,
 }
 
-/// What is true at a tick.
+/// The truth at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth<'a> {
     /// When.
@@ -76,22 +76,22 @@ impl Truth<'_> {
     }
 }
 
-/// The sound model of a sensor.
+/// Model of a fault-free sensor.
 trait Model {
-    /// What it measures.
+    /// Its sample.
     type Sample: Sample;
 
-    /// When it measures.
+    /// Its sampling period.
     fn period(&self) -> Period;
 
-    /// From the next measurement to its delivery, ticks. Asked for once a measurement.
+    /// Latency of the next measurement, ticks. Called once per measurement.
     fn delay(&mut self) -> u32;
 
     /// Measures. Called when the period is due.
     fn measure(&mut self, truth: &Truth) -> Self::Sample;
 }
 
-/// A sensor with the way that its samples take.
+/// A sensor model with the channel that delivers its samples.
 #[derive(Clone, Debug)]
 struct Fitted<M: Model> {
     model: M,
@@ -103,7 +103,7 @@ impl<M: Model> Fitted<M> {
         Self { channel: Channel::new(model.period()), model }
     }
 
-    /// What arrives at a tick.
+    /// The sample that arrives at a tick.
     fn deliver(&mut self, truth: &Truth, faults: &mut Faults) -> Option<M::Sample> {
         if self.model.period().is_due(truth.tick) {
             let (delay, sample) = (self.model.delay(), self.model.measure(truth));
@@ -123,14 +123,14 @@ pub struct Suite {
     pose: Option<Fitted<MotionCapture>>,
     battery: Option<Fitted<Monitor>>,
     faults: Faults,
-    /// Whether faults were started or ended while flying: then rotors and battery go by them, and by no schedule.
+    /// Whether faults were started or ended in flight: then these determine rotors and battery, not the schedule.
     commanded: bool,
-    /// What the plant was told last.
+    /// The faults last applied to the plant.
     applied: Option<PlantFaults>,
 }
 
 impl Suite {
-    /// Valid parts at home, under a schedule of faults and a seed.
+    /// A valid suite at a home, under a schedule of faults and a seed.
     pub fn new(suite: &SuiteFile, home: &Home, faults: &[Fault], seed: u64) -> Self {
         Self {
             imu: Fitted::new(InertialUnit::new(&suite.imu, seed)),
@@ -145,7 +145,7 @@ impl Suite {
         }
     }
 
-    /// What arrives at a tick. To be asked for each tick in turn, once.
+    /// The samples that arrive at a tick. Call once per tick, in order.
     pub fn measure(&mut self, truth: &Truth) -> Measurements {
         let faults = &mut self.faults;
         Measurements {
@@ -158,21 +158,21 @@ impl Suite {
         }
     }
 
-    /// What gyro (rad/s) and accelerometer (m/s²) read beyond what they are to measure, all but noise and rotors' shaking,
-    /// with the biases of the last sample: for tests of what is believed of them.
+    /// Errors of gyro (rad/s) and accelerometer (m/s²) without noise and vibration, with the biases of the last sample:
+    /// to test the estimated biases.
     pub fn imu_error(&self, rates: &Vector3<f64>, force: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         self.imu.model.error(rates, force)
     }
 
-    /// The faults, those of rotors and battery too.
+    /// The faults, including those of rotors and battery.
     pub fn faults(&self) -> &Faults {
         &self.faults
     }
 
-    /// Adds a fault while flying.
+    /// Adds a fault in flight.
     ///
     /// # Errors
-    /// A fault that cannot be, of a sensor that is not on board, or one too many.
+    /// The fault is invalid, its sensor is not in the suite, or there are too many.
     pub fn inject(&mut self, fault: &Fault) -> Result<FaultId> {
         if let Some(sensor) = fault.sensor {
             ensure!(self.has(sensor), "there is no `{}` on board", sensor.name());
@@ -182,7 +182,7 @@ impl Suite {
         Ok(id)
     }
 
-    /// Puts a valid fault, or none, in place of the one in a slot.
+    /// Replaces the fault in a slot by a valid one, or by none.
     pub fn hold(&mut self, slot: usize, fault: Option<&Fault>) {
         self.commanded = true;
         self.faults.hold(slot, fault);
@@ -194,13 +194,13 @@ impl Suite {
         self.faults.clear(id);
     }
 
-    /// Ends all faults, those to come too.
+    /// Ends all faults, including future ones.
     pub fn clear_all(&mut self) {
         self.commanded = true;
         self.faults.clear_all();
     }
 
-    /// Whether a sensor is on board.
+    /// Whether the suite has a sensor.
     pub fn has(&self, sensor: Sensor) -> bool {
         match sensor {
             Sensor::Imu | Sensor::Gyro | Sensor::Accel => true,
@@ -212,8 +212,8 @@ impl Suite {
         }
     }
 
-    /// What rotors and battery are to be told at a tick, if it is something new. Nothing until faults have been started or
-    /// ended while flying: the plant has the schedule.
+    /// The faults to apply to rotors and battery at a tick, if they have changed. `None` until faults have been started
+    /// or ended in flight: before, the plant follows the schedule.
     pub fn tell_plant(&mut self, tick: Tick) -> Option<PlantFaults> {
         if !self.commanded {
             return None;

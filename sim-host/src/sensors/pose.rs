@@ -10,13 +10,13 @@ use super::process::{Period, ticks};
 use super::{Model, Truth};
 use crate::noise::gaussian::{Source, Stream};
 
-/// What a motion capture system is like.
+/// Data sheet of a motion capture system.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pose {
     /// Name of the system, or path of its file.
     pub part: String,
-    /// Samples a second.
+    /// Sampling rate, Hz.
     pub rate_hz: f64,
     /// From the exposure to the delivery, s.
     pub delay_s: f64,
@@ -28,7 +28,7 @@ pub struct Pose {
 
 impl Pose {
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("pose");
         check.rate(self.rate_hz)?;
@@ -37,7 +37,7 @@ impl Pose {
     }
 }
 
-/// A motion capture system of a seed.
+/// A motion capture system with noise drawn from a seed.
 #[derive(Clone, Debug)]
 pub(super) struct MotionCapture {
     period: Period,

@@ -1,4 +1,4 @@
-//! What the models of the sensors are made of: random processes, warming up, quantisation, sampling times.
+//! Building blocks of the sensor models: random processes, warm-up, quantisation, sampling times.
 
 use anyhow::Result;
 use firmware::signals::Tick;
@@ -25,15 +25,15 @@ pub(super) fn seconds(ticks: Tick) -> f64 {
 /// stationary from the first sample.
 #[derive(Clone, Debug)]
 pub(super) struct GaussMarkov {
-    /// What is left of the state after a step.
+    /// Factor on the state per step.
     keep: f64,
-    /// Deviation of what a step adds.
+    /// Deviation of the noise added per step.
     kick: Vector3<f64>,
     state: Vector3<f64>,
 }
 
 impl GaussMarkov {
-    /// Of deviation `sigma` a component and correlation time `time_s`, sampled every `step_s`.
+    /// With deviation `sigma` per component and correlation time `time_s`, sampled every `step_s`.
     pub(super) fn new(stream: &mut Stream, sigma: Vector3<f64>, time_s: f64, step_s: f64) -> Self {
         let keep = libm::exp(-step_s / time_s);
         // 1 − keep² without cancellation.
@@ -41,7 +41,7 @@ impl GaussMarkov {
         Self { keep, kick: sigma * added.sqrt(), state: sigma.component_mul(&stream.normal_vector()) }
     }
 
-    /// The sample now; then a step on.
+    /// Returns the present sample and advances by a step.
     pub(super) fn sample(&mut self, stream: &mut Stream) -> Vector3<f64> {
         let now = self.state;
         self.state = now * self.keep + self.kick.component_mul(&stream.normal_vector());
@@ -49,7 +49,7 @@ impl GaussMarkov {
     }
 }
 
-/// How a board warms up from the temperature at which its sensors were calibrated: ΔT (1 − e^(−t/τ)).
+/// Warm-up of a board from the temperature at which its sensors were calibrated: ΔT (1 − e^(−t/τ)).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WarmUp {
@@ -60,26 +60,26 @@ pub struct WarmUp {
 }
 
 impl WarmUp {
-    /// How much warmer it is at a tick than at the calibration, K.
+    /// Temperature rise at a tick since calibration, K.
     pub(super) fn at(&self, tick: Tick) -> f64 {
         -self.rise_k * libm::expm1(-seconds(tick) / self.time_s)
     }
 
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub(super) fn validate(&self, check: &Check) -> Result<()> {
         check.within(-100.0, 100.0, &[("warm_up.rise_k", self.rise_k)])?;
         check.within(0.1, 1e6, &[("warm_up.time_s", self.time_s)])
     }
 }
 
-/// The nearest multiple of a resolution; any number for a resolution of 0.
+/// The nearest multiple of a resolution; unchanged for a resolution of 0.
 #[inline]
 pub(super) fn quantise(value: f64, resolution: f64) -> f64 {
     if resolution > 0.0 { (value / resolution).round() * resolution } else { value }
 }
 
-/// When a sensor measures: at every tick that its period divides.
+/// Sampling period of a sensor: it measures at every multiple of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Period(u32);
 

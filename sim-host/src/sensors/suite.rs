@@ -1,4 +1,4 @@
-//! Suites: which sensors a vehicle has, and what each is like. A suite names parts, and may say where one differs:
+//! Sensor suites: the sensors of a vehicle and their data sheets. A suite names parts, and may override their values:
 //!
 //! ```toml
 //! summary = "what it is"
@@ -10,8 +10,7 @@
 //! delay_s = 0.2
 //! ```
 //!
-//! Wherever a suite is asked for, `"gnss"` names one, and a table may build on one: `suite = "gnss"`, and what differs;
-//! `mag = false` leaves a sensor out.
+//! A suite is given by name, such as `"gnss"`, or by a table that builds on one: `suite = "gnss"` with overrides; `mag = false` omits a sensor.
 
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
@@ -27,10 +26,10 @@ use super::pose::Pose;
 use crate::files::{Source, built_in};
 use crate::refusal::{Refusal, typed};
 
-/// Suites that come with the binary.
+/// Suites built into the binary.
 pub(crate) const SUITES: [(&str, &str); 3] = built_in!("../sensors": "gnss", "rtk", "mocap");
 
-/// Parts that come with the binary.
+/// Parts built into the binary.
 const PARTS: [(&str, &str); 8] = built_in!("../sensors/parts":
     "icm-42688-p", "bmi088", "ist8310", "bmp388", "neo-m9n", "zed-f9p", "mocap", "power-module",
 );
@@ -39,7 +38,7 @@ const PARTS: [(&str, &str); 8] = built_in!("../sensors/parts":
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Value")]
 pub struct SuiteFile {
-    /// What it is, in a line.
+    /// Description, in one line.
     pub summary: String,
     /// Gyro and accelerometer.
     pub imu: Imu,
@@ -55,7 +54,7 @@ pub struct SuiteFile {
     pub battery: Option<Battery>,
 }
 
-/// A suite whose parts have been looked up.
+/// A suite with its parts resolved.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Complete {
@@ -85,7 +84,7 @@ impl SuiteFile {
     /// Loads a built-in suite by name or a file by path.
     ///
     /// # Errors
-    /// One line that names the suite or file, the key, and what is wrong with it.
+    /// One line with the suite or file, the key and the error.
     pub fn load(name: &str) -> Result<Self> {
         let source = Source::read(name, "suite", &SUITES)?;
         Self::from_table(source.table()?).map_err(|error| source.about(error))
@@ -128,10 +127,10 @@ impl SuiteFile {
         }
     }
 
-    /// Refuses parts that cannot be.
+    /// Checks every value against its range.
     ///
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub fn validate(&self) -> Result<()> {
         self.imu.validate()?;
         self.mag.as_ref().map_or(Ok(()), Mag::validate)?;
@@ -145,7 +144,7 @@ impl SuiteFile {
 /// Names and summaries of the built-in suites.
 ///
 /// # Errors
-/// None for a binary whose tests pass: they load each.
+/// None in practice: tests load each built-in suite.
 pub fn list() -> Result<Vec<(&'static str, String)>> {
     SUITES.iter().map(|(name, _)| Ok((*name, SuiteFile::load(name)?.summary))).collect()
 }
@@ -154,7 +153,7 @@ fn named(name: &str) -> Result<Table> {
     Source::read(name, "suite", &SUITES)?.table()
 }
 
-/// A sensor's table on top of its part's.
+/// A sensor's table merged over its part's.
 fn with_part(sensor: &str, table: Table) -> Result<Table> {
     let name = table.get("part").and_then(Value::as_str);
     let name = name.with_context(|| format!("`sensors.{sensor}.part` must be a part's name"))?;
@@ -162,7 +161,7 @@ fn with_part(sensor: &str, table: Table) -> Result<Table> {
     Ok(merged(base, table))
 }
 
-/// `over` on top of `base`, table by table.
+/// `over` merged over `base`, recursively.
 fn merged(mut base: Table, over: Table) -> Table {
     for (key, value) in over {
         let value = match (base.remove(&key), value) {

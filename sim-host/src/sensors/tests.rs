@@ -1,4 +1,4 @@
-//! The slow sensors against what their parts say, and all of them together.
+//! The slow sensors against their data sheets, and all sensors together.
 
 use super::*;
 use crate::geodesy::{LocalFrame, Place};
@@ -8,7 +8,7 @@ pub(super) fn at_rest() -> Motion {
     Motion::at_rest(Vector3::zeros())
 }
 
-/// What is true of a motion without acceleration, rotors at rest.
+/// The truth of a motion without acceleration, rotors at rest.
 pub(super) fn truth(tick: Tick, motion: &Motion) -> Truth<'_> {
     let specific_force = UnitQuaternion::new_unchecked(motion.attitude).inverse() * Vector3::new(0.0, 0.0, 9.81);
     let battery = BatteryTruth { voltage_v: 15.2, current_a: 18.0 };
@@ -20,14 +20,14 @@ pub(super) fn parts(text: &str) -> SuiteFile {
     SuiteFile::from_table(text.parse().expect("TOML")).expect("loads")
 }
 
-/// All that arrives in a time at rest.
+/// All samples that arrive in a time at rest.
 pub(super) fn record(parts: &SuiteFile, faults: &[Fault], seed: u64, ticks: Tick) -> Vec<Measurements> {
     let motion = at_rest();
     let mut suite = Suite::new(parts, &Home::default(), faults, seed);
     (0..ticks).map(|tick| suite.measure(&truth(tick, &motion))).collect()
 }
 
-/// Asserts a deviation over independent numbers of mean 0, within 4.5 standard errors.
+/// Asserts the deviation of independent values of mean 0, within 4.5 standard errors.
 fn assert_deviation(numbers: &[f64], sigma: f64) {
     let count = numbers.len() as f64;
     let variance = numbers.iter().map(|number| number * number).sum::<f64>() / count;
@@ -40,7 +40,7 @@ fn the_imu_delivers_at_every_tick_and_the_others_at_their_rates() {
     let record = record(&parts("suite = \"gnss\"\npose.part = \"mocap\""), &[], 1, 10_000);
     assert!(record.iter().enumerate().all(|(tick, m)| m.imu.is_some_and(|imu| imu.at as usize == tick)));
     let count = |is_there: fn(&Measurements) -> bool| record.iter().filter(|m| is_there(m)).count();
-    // In 10 s; the last pose is then still under way.
+    // In 10 s; the last pose is then still in transit.
     assert_eq!(count(|m| m.mag.is_some()), 500);
     assert_eq!(count(|m| m.baro.is_some()), 500);
     assert_eq!(count(|m| m.pose.is_some()), 999);
@@ -196,7 +196,7 @@ fn a_battery_monitor_reads_voltage_and_current() {
     let samples: Vec<_> = record.iter().filter_map(|m| m.battery).collect();
     let volts: Vec<f64> = samples.iter().map(|sample| f64::from(sample.voltage_v) - 15.2).collect();
     let amperes: Vec<f64> = samples.iter().map(|sample| f64::from(sample.current_a) - 18.0).collect();
-    // With what rounding adds, the resolution's square by 12.
+    // With the variance of quantisation, the resolution squared over 12.
     assert_deviation(&volts, (0.02_f64.powi(2) + 0.01 * 0.01 / 12.0).sqrt());
     assert_deviation(&amperes, (0.1_f64.powi(2) + 0.05 * 0.05 / 12.0).sqrt());
 }
@@ -213,7 +213,7 @@ fn one_sensor_does_not_change_another() {
     assert_ne!(base, record(&parts("suite = \"gnss\""), &[], 8, 3000));
 }
 
-/// A number of all bits of what has arrived.
+/// A hash over all bits of the samples.
 fn fingerprint(sum: u64, m: &Measurements) -> u64 {
     let add = |sum: u64, value: f32| sum.rotate_left(5) ^ u64::from(value.to_bits());
     let mut sum = m.imu.iter().flat_map(|imu| imu.gyro.iter().chain(&imu.accel)).copied().fold(sum, add);
@@ -230,7 +230,7 @@ fn fingerprint(sum: u64, m: &Measurements) -> u64 {
 
 #[test]
 fn a_seed_means_the_same_measurements_on_every_platform() {
-    // Made once, on x86-64 Linux; what changes it changes every flight by sensors.
+    // Recorded once, on x86-64 Linux; a change here changes every flight on sensors.
     let parts = parts("suite = \"gnss\"\npose.part = \"mocap\"");
     let attitude = UnitQuaternion::from_euler_angles(0.3, -0.2, 1.9).into_inner();
     let motion = Motion { attitude, rates: Vector3::new(0.1, -0.2, 0.3), ..at_rest() };

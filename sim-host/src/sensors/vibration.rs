@@ -1,7 +1,7 @@
-//! What the rotors shake: each, out of balance, at its own speed and at twice that.
+//! Vibration from unbalanced rotors, at each rotor's frequency and twice that.
 //!
-//! The force of an unbalance grows with ω². How large it is at the IMU, no data sheet tells: the amplitudes are stated
-//! for one speed, and are an assumption about the vehicle and not about the part.
+//! The force of an unbalance grows with ω². Its size at the IMU is in no data sheet: the amplitudes are given for one
+//! speed, and are an assumption about the vehicle, not about the sensor.
 
 use anyhow::Result;
 use firmware::airframe::ROTORS;
@@ -12,23 +12,23 @@ use serde::{Deserialize, Serialize};
 use super::check::Check;
 use crate::noise::gaussian::{Source, Stream};
 
-/// How the rotors shake the IMU. Amplitudes are peaks, of each rotor, along a direction drawn from the seed.
+/// Vibration of the IMU. Amplitudes are peak values per rotor, along a direction drawn from the seed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vibration {
-    /// Speed for which the amplitudes are stated, rad/s.
+    /// Rotor speed for which the amplitudes are given, rad/s.
     pub at_rad_s: f64,
-    /// Of the rates, rad/s.
+    /// Amplitude of the rates, rad/s.
     pub gyro_rad_s: f64,
-    /// Of the specific force, m/s².
+    /// Amplitude of the specific force, m/s².
     pub accel_m_s2: f64,
-    /// The second harmonic's, in units of the fundamental's.
+    /// Amplitude of the second harmonic over that of the fundamental.
     pub second_harmonic: f64,
 }
 
 impl Vibration {
     /// # Errors
-    /// The first key that is out of its range.
+    /// The first key that is out of range.
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("imu.vibration");
         check.within(1.0, 1e4, &[("at_rad_s", self.at_rad_s)])?;
@@ -44,23 +44,23 @@ impl Vibration {
     }
 }
 
-/// What a rotor shakes at full phase, at the stated speed.
+/// Vibration from a rotor at its peak, at the given speed.
 #[derive(Clone, Copy, Debug)]
 struct Shake {
     rates: Vector3<f64>,
     force: Vector3<f64>,
-    /// Phase that is ahead of the rotor's own, rad.
+    /// Phase lead over the rotor's angle, rad.
     lead: f64,
 }
 
-/// The shaking of all rotors, tick by tick.
+/// The vibration from all rotors, tick by tick.
 #[derive(Clone, Debug)]
 pub(super) struct Shaking {
     at_rad_s: f64,
     shakes: [[Shake; 2]; ROTORS],
     /// Angle of each rotor, rad, 0 ≤ θ < 2π.
     angle: [f64; ROTORS],
-    /// Speeds a tick ago, rad/s.
+    /// Rotor speeds of the previous tick, rad/s.
     before: Option<[f64; ROTORS]>,
 }
 
@@ -76,8 +76,8 @@ impl Shaking {
         Self { at_rad_s: vibration.at_rad_s, shakes, angle: [0.0; ROTORS], before: None }
     }
 
-    /// What is added to the rates (rad/s) and to the specific force (m/s²) at rotor speeds (rad/s). To be asked for
-    /// once a tick: the angles are the integral of the speeds, taken as linear from tick to tick.
+    /// Vibration of the rates (rad/s) and of the specific force (m/s²) at rotor speeds (rad/s). Call once per
+    /// tick: the angles are the integral of the speeds, interpolated linearly between ticks.
     pub(super) fn sample(&mut self, omega: &[f64; ROTORS]) -> (Vector3<f64>, Vector3<f64>) {
         let before = self.before.replace(*omega);
         let (mut rates, mut force) = (Vector3::zeros(), Vector3::zeros());

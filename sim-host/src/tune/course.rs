@@ -1,4 +1,4 @@
-//! A course: the flights that a controller is judged by while it is tuned, and what counts in them.
+//! A course: the flights and weights by which a controller is judged while it is tuned.
 
 use anyhow::{Context, Result, bail, ensure};
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
@@ -21,29 +21,29 @@ use crate::seeds::Seeds;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CourseFile {
-    /// What it trains for, in a line.
+    /// Description, in one line.
     summary: String,
     /// Name or path of the matrix whose flights are flown.
     matrix: String,
-    /// Which of its scenarios; all without it.
+    /// Selected scenarios; by default all.
     scenarios: Option<Vec<String>>,
-    /// Which of its disturbances; all without it.
+    /// Selected disturbances; by default all.
     disturbances: Option<Vec<String>>,
-    /// Seeds to fly with; the matrix' training seeds without it.
+    /// Seeds; by default the matrix' training seeds.
     seeds: Option<Seeds>,
     /// What counts.
     cost: Weights,
 }
 
-/// What counts in a flight. The cost of a controller is the mean over its flights, so that with logarithms of the
-/// errors a controller that halves one flight's error gains as much as one that halves another's, whatever their sizes.
+/// The weights of a flight's cost. The cost of a controller is the mean over its flights, so that with logarithms of
+/// the errors a controller that halves one flight's error gains as much as one that halves another's, whatever their
+/// sizes.
 ///
-/// A flight that is survived costs
-/// `rms ln(RMS + floor) + yaw ln(yaw RMS + floor) + settling S/T + chattering ln(1 + v) + saturation σ`
-/// with the distance from the trajectory in m and the heading's error in rad, S the time until the distance stays within
-/// 5 cm, T the time that counts, v the total variation of the commanded ω² a second in units of Σω² in hover, σ the
-/// saturated part of the flight. A flight that is lost costs `lost (2 − t/D)`, t the time flown of the whole D:
-/// the later, the better.
+/// A flight that is survived costs `rms ln(RMS + floor) + yaw ln(yaw RMS + floor) + settling S/T + chattering ln(1 + v)
+/// + saturation σ` with the distance from the trajectory in m and the heading's error in rad, S the time until the
+/// distance stays within 5 cm, T the time that counts, v the total variation of the commanded ω² per second in units of
+/// Σω² in hover, σ the saturated part of the flight. A flight that is lost costs `lost (2 − t/D)`, t the time flown of
+/// the whole D: the later, the better.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weights {
@@ -64,7 +64,7 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Refuses what is no weight, and a lost flight that is cheaper than one that survives may be.
+    /// Checks the weights, and that a lost flight costs more than any survived one.
     fn validate(&self) -> Result<()> {
         for (key, weight) in [
             ("rms", self.rms),
@@ -113,17 +113,17 @@ impl Weights {
             + self.settling * score.settle_s.map_or(1.0, |settle_s| settle_s / counted_s)
             + self.chattering * libm::log1p(variation)
             + self.saturation * score.saturated_fraction;
-        // A search cannot rank what is not a number.
+        // A search cannot rank NaN.
         if cost.is_finite() { cost.min(self.lost) } else { self.lost }
     }
 }
 
-/// What a flight's figures are measured against.
+/// Normalisation of a flight's figures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Timing {
     /// Longest flight, s.
     duration_s: f64,
-    /// From when on it counts, s.
+    /// Start of the judged time, s.
     from_s: f64,
     /// Σω² in hover, (rad/s)².
     hover_rad2_s2: f64,
@@ -178,7 +178,7 @@ impl Sortie {
 /// Flights and weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
-    /// Its name, or the path that it was read from.
+    /// Its name, or the path of its file.
     pub name: String,
     /// What counts.
     pub weights: Weights,
@@ -189,8 +189,8 @@ impl Course {
     /// Loads a built-in course by name or a file by path.
     ///
     /// # Errors
-    /// One line that names the file, the key, and what is wrong with it: a scenario or a disturbance that the matrix does
-    /// not have, or a seed that it judges with.
+    /// One line with the file, the key and the error: a scenario or a disturbance that the matrix does not have, or a
+    /// seed that it judges with.
     pub fn load(name: &str) -> Result<Self> {
         let file: CourseFile = files::read(name, "course", &COURSES)?;
         let context = || format!("course `{name}`");
@@ -212,7 +212,7 @@ impl Course {
         costs.iter().sum::<f64>() / costs.len() as f64
     }
 
-    /// Refuses a controller that cannot fly the course.
+    /// Checks that a controller can fly the course.
     ///
     /// # Errors
     /// The scenario, and what of the controller the firmware refuses.
@@ -251,7 +251,7 @@ impl CourseFile {
     }
 }
 
-/// Refuses a filter that names what is not there.
+/// Checks the names in a selection.
 fn known(key: &str, filter: Option<&[String]>, names: &[&str], matrix: &str) -> Result<()> {
     for name in filter.unwrap_or_default() {
         ensure!(

@@ -1,7 +1,7 @@
-//! The journal of a run: every point that was asked for and its cost, in order, one a line.
+//! The journal of a run: every evaluated point and its cost, in order, one per line.
 //!
-//! A search asks for the same points when it is given the same costs. So a run is resumed by searching from the start
-//! with the costs that are known: it takes no time, goes on to the bit, and holds for every optimiser.
+//! A search evaluates the same points when it gets the same costs. So a run is resumed by repeating the search with the
+//! recorded costs: that takes no time, is bit-exact, and works with every optimiser.
 
 use std::fs::{File, OpenOptions};
 use std::io::Write as _;
@@ -19,10 +19,10 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// A new journal. `identity` tells the run from every other, `names` are the coordinates'.
+    /// A new journal. `identity` distinguishes the run from others, `names` are those of the coordinates.
     ///
     /// # Errors
-    /// A file that is there already, or cannot be written.
+    /// The file exists already, or cannot be written.
     pub fn create(path: &Path, identity: &str, names: &[&str]) -> Result<Self> {
         ensure!(
             !path.exists(),
@@ -34,10 +34,10 @@ impl Journal {
         Ok(Self { path: path.to_owned(), file, known: Vec::new(), replayed: 0 })
     }
 
-    /// The journal of a run that is to be gone on with. A last line that was not finished is taken off.
+    /// The journal of a run to be resumed. An incomplete last line is removed.
     ///
     /// # Errors
-    /// A file that cannot be read, or that is another run's.
+    /// The file cannot be read, or belongs to another run.
     pub fn resume(path: &Path, identity: &str, names: &[&str]) -> Result<Self> {
         let text = std::fs::read_to_string(path).with_context(|| cannot("resume from", path))?;
         let rows = text.strip_prefix(&header(identity, names)).ok_or_else(|| {
@@ -57,7 +57,7 @@ impl Journal {
     /// The cost of the next point, if it is known.
     ///
     /// # Errors
-    /// If the journal holds another point in its place: the program is not the one that wrote it.
+    /// The journal has another point in its place: it was written by a different program.
     pub(super) fn recall(&mut self, point: &[f64]) -> Result<Option<f64>> {
         let Some((known, cost)) = self.known.get(self.replayed) else { return Ok(None) };
         ensure!(
@@ -69,7 +69,7 @@ impl Journal {
         Ok(Some(*cost))
     }
 
-    /// Writes down what was not known.
+    /// Records a new cost.
     ///
     /// # Errors
     /// When the file cannot be written; the message names it.

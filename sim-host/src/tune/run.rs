@@ -1,4 +1,4 @@
-//! A run: a search, its journal, and what it has found so far.
+//! A run: a search, its journal and its progress.
 
 use anyhow::Result;
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
@@ -15,21 +15,21 @@ pub struct Iteration {
     pub mean: f64,
 }
 
-/// How far a run is.
+/// Progress of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Iterations so far.
     pub iterations: Vec<Iteration>,
     /// The best point so far.
     pub best_point: Vec<f64>,
-    /// Costs of the iteration that is under way.
+    /// Costs of the current iteration.
     under_way: Vec<f64>,
     /// The best cost so far.
     best: Option<f64>,
 }
 
 impl State {
-    /// Takes a point with its cost; true if that completes an iteration.
+    /// Adds a point with its cost; true if that completes an iteration.
     fn take(&mut self, point: &[f64], cost: f64, particles: usize) -> bool {
         if self.best.is_none_or(|best| cost < best) {
             self.best = Some(cost);
@@ -51,7 +51,7 @@ impl State {
     }
 }
 
-/// A search over costs that cost something.
+/// A search with expensive costs.
 pub struct Run<C> {
     /// How to search.
     pub settings: Settings,
@@ -59,16 +59,16 @@ pub struct Run<C> {
     pub dimensions: usize,
     /// Cost of a point of the unit cube; finite. Called from several threads.
     pub cost: C,
-    /// Where the costs are written down.
+    /// The journal of the costs.
     pub journal: Journal,
 }
 
 impl<C: Fn(&[f64]) -> f64 + Sync> Run<C> {
-    /// Searches to the end, on the threads of the pool in which it is called; what it finds does not depend on how
-    /// many there are. `observe` is shown each iteration.
+    /// Runs the search on the current thread pool; the result does not depend on the number of threads. Calls `observe`
+    /// after each iteration.
     ///
     /// # Errors
-    /// Settings that are no search; a journal that cannot be written or is not this run's; what `observe` returns.
+    /// Invalid settings, a journal that cannot be written or belongs to another run, or an error of `observe`.
     pub fn go(mut self, mut observe: impl FnMut(&State) -> Result<()>) -> Result<State> {
         self.settings.validate()?;
         let (settings, dimensions) = (self.settings, self.dimensions);
@@ -86,7 +86,7 @@ impl<C: Fn(&[f64]) -> f64 + Sync> Run<C> {
         Ok(state)
     }
 
-    /// Costs of points: from the journal as far as it goes.
+    /// Costs of points, from the journal as long as it has them.
     fn costs(&mut self, points: &[Vec<f64>]) -> Result<Vec<f64>> {
         let mut costs = Vec::with_capacity(points.len());
         for point in points {

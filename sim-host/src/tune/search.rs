@@ -1,4 +1,4 @@
-//! The optimisers, over the unit cube: they ask for the costs of points, in an order that the seed alone decides.
+//! The optimisers, over the unit cube: they evaluate points in an order that only depends on the seed and the costs.
 
 use std::borrow::Borrow;
 use std::cell::RefCell;
@@ -12,12 +12,12 @@ use cmaes::{CMAESOptions, DVector};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
-/// Inertia of the swarm's particles, and their pull to the best point of their own and of the swarm: those of the
-/// Standard Particle Swarm Optimisation (Clerc 2006; Zambrano-Bigiarini and others 2013).
+/// Inertia of the swarm's particles, and their attraction to their own and the swarm's best point, as in the Standard
+/// Particle Swarm Optimisation (Clerc 2006; Zambrano-Bigiarini and others 2013).
 const INERTIA: f64 = 0.5 / LN_2;
 const PULL: f64 = 0.5 + LN_2;
 
-/// Where CMA-ES begins and how far it looks at first: the whole cube.
+/// Initial mean and deviation of CMA-ES: they cover the whole cube.
 const CENTRE: f64 = 0.5;
 const STEP: f64 = 0.3;
 
@@ -26,7 +26,7 @@ const STEP: f64 = 0.3;
 pub enum Method {
     /// Particle swarm.
     Pso,
-    /// Evolution of a normal distribution that learns which gains go together.
+    /// Covariance matrix adaptation evolution strategy: a normal distribution that learns correlations between gains.
     CmaEs,
 }
 
@@ -45,7 +45,7 @@ impl Method {
 pub struct Settings {
     /// With which optimiser.
     pub method: Method,
-    /// Points an iteration.
+    /// Points per iteration.
     pub particles: usize,
     /// Iterations, the first random points among them.
     pub iterations: usize,
@@ -54,12 +54,12 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Refuses what is no search.
+    /// Checks the settings.
     ///
     /// # Errors
     /// The option that is out of its range.
     pub fn validate(&self) -> Result<()> {
-        // CMA-ES learns from the better half: of fewer than four points there is hardly one.
+        // CMA-ES learns from the better half, so it needs four points at least.
         ensure!(
             (4..=10_000).contains(&self.particles),
             "--particles must be between 4 and 10000, not {}",
@@ -74,10 +74,10 @@ impl Settings {
     }
 }
 
-/// Tells the costs of points.
+/// Returns the costs of points.
 pub(super) type Costs<'a> = &'a mut dyn FnMut(&[Vec<f64>]) -> Result<Vec<f64>>;
 
-/// Asks `costs` for points of `dimensions` coordinates in 0 ..= 1 until the budget is spent or the optimiser has
+/// Evaluates `costs` at points of `dimensions` coordinates in 0 ..= 1 until the budget is spent or the optimiser has
 /// converged. Points that come in one call do not depend on each other's costs.
 ///
 /// # Errors
@@ -127,7 +127,7 @@ fn evolution(settings: &Settings, dimensions: usize, costs: Costs) -> Result<()>
     let mut failed = None;
     let objective = |x: &DVector<f64>| {
         let point = x.iter().map(|x| reflected(*x)).collect();
-        // A cost that is not a number ends the search.
+        // A cost of NaN ends the search.
         costs(&[point]).map_or_else(|error| (failed = Some(error), f64::NAN).1, |costs| costs[0])
     };
     CMAESOptions::new(vec![CENTRE; dimensions], STEP)
@@ -140,7 +140,7 @@ fn evolution(settings: &Settings, dimensions: usize, costs: Costs) -> Result<()>
     failed.map_or(Ok(()), Err)
 }
 
-/// Beyond a face of the cube its inside is seen as in a mirror.
+/// Points outside of the cube are reflected back inside.
 fn reflected(x: f64) -> f64 {
     let x = x.rem_euclid(2.0);
     if x > 1.0 { 2.0 - x } else { x }

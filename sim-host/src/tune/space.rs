@@ -1,4 +1,4 @@
-//! The gains that are varied, as points of the unit cube.
+//! The varied gains, as points of the unit cube.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use toml::{Table, Value};
 use crate::controller::{Controller, TuningFile};
 use crate::refusal::typed;
 
-/// How a range is divided.
+/// Scale of a range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scale {
@@ -26,7 +26,7 @@ pub enum Scale {
 pub struct Parameter {
     /// Dotted keys of the tuning file that it sets.
     pub keys: Vec<String>,
-    /// What each of the keys gets of it; all of it without.
+    /// Factor for each of the keys; 1 by default.
     pub factors: Option<Vec<f64>>,
     /// Its least value.
     pub low: f64,
@@ -37,7 +37,7 @@ pub struct Parameter {
     pub scale: Scale,
 }
 
-/// Significant digits of a gain: those that the tuning file gets are those that were flown.
+/// Significant digits of a gain: the tuning file contains exactly what was flown.
 const DIGITS: usize = 4;
 
 impl Parameter {
@@ -55,7 +55,7 @@ impl Parameter {
         self.keys.first().map_or("", String::as_str)
     }
 
-    /// The keys that it sets, each with what it gets.
+    /// The keys that it sets, each with its factor.
     fn settings(&self, x: f64) -> impl Iterator<Item = (&str, f64)> {
         let value = self.value(x);
         let factor = |i: usize| self.factors.as_ref().map_or(1.0, |factors| factors[i]);
@@ -90,7 +90,7 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.0$e}", DIGITS - 1).parse().unwrap_or(value)
 }
 
-/// A tuning file and what of it is varied.
+/// A tuning file and its varied parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Space {
     base: Table,
@@ -119,7 +119,7 @@ impl Space {
         Ok(space)
     }
 
-    /// Refuses a key that is no number, or one that takes whole numbers alone.
+    /// Refuses a key that is not a number, or takes integers only.
     fn require_variable(&self, key: &str) -> Result<()> {
         let mut table = self.base.clone();
         *number(&mut table, key)? = Value::Float(0.5);
@@ -136,7 +136,7 @@ impl Space {
         &self.parameters
     }
 
-    /// The controller that the base stands for.
+    /// The controller of the base.
     ///
     /// # Errors
     /// A key that the controller does not have, or lacks.

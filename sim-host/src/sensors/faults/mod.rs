@@ -1,16 +1,15 @@
-//! Faults of sensors, of rotors and of the battery: what, from when and until when.
+//! Faults of sensors, rotors and battery, with their start and end.
 //!
 //! ```toml
 //! [[fault]]
 //! sensor = "gnss"
 //! kind = "glitch"
 //! from_s = 20.0
-//! to_s = 30.0          # without it, for good
+//! to_s = 30.0          # default: permanent
 //! size_m = 50.0
 //! ```
 //!
-//! A fault acts on what the sound sensor has measured, so that the sound sensor draws the same numbers with it and
-//! without; what a fault draws comes from a stream of its own. `rate`, `sigma` and `size` are in the sensor's unit:
+//! A fault acts on the samples of the fault-free sensor, which draws the same random numbers with and without it. A fault's own random numbers come from a separate stream. `rate`, `sigma` and `size` are in the sensor's unit:
 //! rad/s (gyro), m/s² (accel), µT (mag), Pa (baro), m (gnss, pose), V (battery).
 
 mod running;
@@ -26,16 +25,16 @@ use crate::refusal::{Refusal, after, typed, within};
 use running::Running;
 pub(super) use running::{Memory, Sample};
 
-/// Faults that may be started while flying, in addition to those of the schedule.
+/// Greatest number of faults started in flight, in addition to those of the schedule.
 const SPARE: usize = 32;
-/// Faults that replace each other, for those that a ground station asks for: room for each is always there.
+/// Number of slots for faults that replace each other, for a ground station's requests: there is always room.
 pub(crate) const SLOTS: usize = 10;
 /// Longest time by which a fault delays samples, s.
 pub(super) const EXTRA_MAX_S: f64 = 1.0;
 /// Greatest time, s: 11 days.
 const TIME_MAX_S: f64 = 1e6;
 
-/// What fails.
+/// The sensor that fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sensor {
@@ -76,103 +75,102 @@ pub(crate) const KINDS: [&str; 15] = [
     "collapse",
 ];
 
-/// How a sensor fails, or a rotor, or the battery. Directions are in the frame of what is measured; without one, it is
-/// drawn from the seed.
+/// Kind of a fault of a sensor, a rotor or the battery. Directions are in the frame of the measurement; by default they are drawn from the seed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Kind {
-    /// Nothing is delivered.
+    /// No samples.
     Off {},
-    /// The last value again and again, with fresh stamps.
+    /// The value is stuck, with fresh time stamps.
     Stuck {},
-    /// The error grows.
+    /// The error grows linearly.
     Drift {
-        /// In the sensor's unit a second.
+        /// In the sensor's unit per second.
         rate: f64,
-        /// Along which it grows.
+        /// Direction of the error.
         direction: Option<[f64; 3]>,
     },
-    /// More noise.
+    /// Additional noise.
     Noise {
         /// Deviation, in the sensor's unit.
         sigma: f64,
     },
-    /// Some samples are far off, each in a direction of its own.
+    /// Some samples have a large error, each in its own direction.
     Spikes {
         /// Of a sample.
         probability: f64,
         /// In the sensor's unit.
         size: f64,
     },
-    /// Samples arrive later; what is overtaken when that ends is lost.
+    /// Samples arrive later; those overtaken when the fault ends are lost.
     Delayed {
-        /// By how much, s.
+        /// Additional latency, s.
         extra_s: f64,
     },
-    /// Numbers that are not.
+    /// Values are NaN.
     Nan {},
-    /// A jump of the position for as long as it lasts (gnss and pose).
+    /// A jump of the position while the fault lasts (gnss and pose).
     Glitch {
-        /// How far, m.
+        /// Size of the jump, m.
         size_m: f64,
-        /// Where to; without it, in a horizontal direction drawn from the seed.
+        /// Direction; by default horizontal, drawn from the seed.
         direction: Option<[f64; 3]>,
     },
-    /// The receiver delivers, but claims no fix (gnss).
+    /// Samples without a fix (gnss).
     NoFix {},
     /// Some samples are lost.
     Loss {
         /// Of a sample.
         probability: f64,
     },
-    /// In place of some samples the one before comes again, with its old stamp.
+    /// Some samples are replaced by the previous one, with its old time stamp.
     Duplicate {
         /// Of a sample.
         probability: f64,
     },
-    /// Each two samples arrive in the wrong order.
+    /// Pairs of samples arrive in the wrong order.
     Disorder {},
-    /// Stamps are shifted.
+    /// Time stamps are shifted.
     TimeJump {
-        /// By how much, s; into the past if negative.
+        /// Shift, s; negative for the past.
         shift_s: f64,
     },
-    /// A rotor loses thrust; of no sensor.
+    /// A rotor loses thrust (no sensor).
     Rotor {
-        /// Which, from 0.
+        /// Rotor, from 0.
         index: usize,
-        /// What is left of its thrust, 0..=1.
+        /// Remaining fraction of its thrust, 0..=1.
         effectiveness: f64,
     },
-    /// The battery's voltage collapses; of no sensor.
+    /// The battery's voltage collapses (no sensor).
     Collapse {
-        /// What is left of it, 0..=1.
+        /// Remaining fraction of the voltage, 0..=1.
         factor: f64,
     },
 }
 
-/// A fault: how what fails, from when and until when.
+/// A fault: what fails, how, from when and until when.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "toml::Table")]
 pub struct Fault {
-    /// Which sensor; none for a rotor or the battery.
+    /// The sensor; `None` for a rotor or the battery.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensor: Option<Sensor>,
-    /// How.
+    /// Its kind.
     #[serde(flatten)]
     pub kind: Kind,
     /// Onset, s.
     pub from_s: f64,
-    /// End, s; without it, for good.
+    /// End, s; permanent by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_s: Option<f64>,
 }
 
-/// Number of a fault that has been started.
+/// Identifier of a fault started in flight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FaultId(u32);
 
-/// The keys that every fault has; the others are those of its kind.
+/// The keys common to all faults; the others belong to the kind.
 #[derive(Deserialize)]
 struct Common {
     sensor: Option<Sensor>,
@@ -238,12 +236,12 @@ impl Sensor {
     pub(crate) const ALL: [Self; 8] =
         [Self::Imu, Self::Gyro, Self::Accel, Self::Mag, Self::Baro, Self::Gnss, Self::Pose, Self::Battery];
 
-    /// The sensor whose samples it is part of.
+    /// The sensor that delivers it: the IMU for its two halves.
     fn channel(self) -> Self {
         if matches!(self, Self::Gyro | Self::Accel) { Self::Imu } else { self }
     }
 
-    /// As it is written in files.
+    /// Its name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Imu => "imu",
@@ -259,13 +257,13 @@ impl Sensor {
 }
 
 impl Kind {
-    /// As it is written in files.
+    /// Its name in files.
     fn name(&self) -> String {
         let table = toml::Table::try_from(self).unwrap_or_default();
         table.get("kind").and_then(toml::Value::as_str).unwrap_or_default().to_owned()
     }
 
-    /// Whether a sensor can fail like that.
+    /// Whether this kind applies to a sensor.
     fn fits(&self, sensor: Option<Sensor>) -> bool {
         use Sensor::{Accel, Battery, Gnss, Gyro, Imu, Pose};
         let Some(sensor) = sensor else { return matches!(self, Self::Rotor { .. } | Self::Collapse { .. }) };
@@ -277,7 +275,7 @@ impl Kind {
             Self::Glitch { .. } => matches!(sensor, Gnss | Pose),
             Self::NoFix {} => sensor == Gnss,
             Self::TimeJump { .. } => !matches!(sensor, Gyro | Accel | Battery),
-            // What becomes of a sample becomes of both halves.
+            // Faults of the delivery apply to both halves.
             Self::Off {} | Self::Loss { .. } | Self::Duplicate { .. } | Self::Disorder {} | Self::Delayed { .. } => {
                 !matches!(sensor, Gyro | Accel)
             }
@@ -305,7 +303,7 @@ impl Kind {
     }
 }
 
-/// Refuses what points nowhere.
+/// Checks that a direction is not zero.
 fn pointing(direction: Option<[f64; 3]>) -> Result<()> {
     let Some(direction) = direction else { return Ok(()) };
     direction.iter().try_for_each(|value| within("fault.direction", *value, -1e6, 1e6))?;
@@ -317,15 +315,15 @@ fn pointing(direction: Option<[f64; 3]>) -> Result<()> {
 }
 
 impl Fault {
-    /// A fault from `tick` on, for good.
+    /// A permanent fault from `tick` on.
     pub fn starting(sensor: Option<Sensor>, kind: Kind, tick: Tick) -> Self {
         Self { sensor, kind, from_s: seconds(tick), to_s: None }
     }
 
-    /// Refuses what cannot be.
+    /// Checks the fault.
     ///
     /// # Errors
-    /// The first key that is out of its range, or that does not go with the others.
+    /// The first key that is out of range, or inconsistent with the others.
     pub fn validate(&self) -> Result<()> {
         within("fault.from_s", self.from_s, 0.0, TIME_MAX_S)?;
         if let Some(to_s) = self.to_s {
@@ -364,25 +362,25 @@ impl Fault {
 #[derive(Clone, Debug)]
 pub struct Faults {
     seed: u64,
-    /// Number of the next one, and of its stream.
+    /// Identifier of the next fault, and of its stream.
     next: u32,
     all: Vec<Running>,
-    /// Most of those that are in no slot.
+    /// Greatest number of faults outside of slots.
     most: usize,
     slots: [Option<FaultId>; SLOTS],
 }
 
-/// What faults make of rotors and battery: 1 for what is sound.
+/// Effect of the faults on rotors and battery; 1 without a fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlantFaults {
-    /// What is left of each rotor's thrust.
+    /// Remaining fraction of each rotor's thrust.
     pub rotor_effectiveness: [f64; ROTORS],
-    /// What is left of the battery's voltage.
+    /// Remaining fraction of the battery's voltage.
     pub battery_factor: f64,
 }
 
 impl Faults {
-    /// A schedule under a seed. A fault's stream goes by its place in the schedule.
+    /// A schedule under a seed. A fault's stream is determined by its position in the schedule.
     pub fn new(schedule: &[Fault], seed: u64) -> Self {
         let most = schedule.len() + SPARE;
         let mut faults = Self { seed, next: 0, all: Vec::with_capacity(most + SLOTS), most, slots: [None; SLOTS] };
@@ -402,7 +400,7 @@ impl Faults {
     /// Adds a fault while flying. Does not allocate.
     ///
     /// # Errors
-    /// A fault that cannot be, or one too many.
+    /// The fault is invalid, or there are too many.
     pub fn inject(&mut self, fault: &Fault) -> Result<FaultId> {
         fault.validate()?;
         let in_slots = self.slots.iter().flatten().count();
@@ -411,7 +409,7 @@ impl Faults {
         Ok(self.start(fault))
     }
 
-    /// Ends the fault in a slot, and puts a valid one in its place, if there is one. Does not allocate, and cannot fail.
+    /// Replaces the fault in a slot by a valid one, or by none. Does not allocate, and cannot fail.
     pub fn hold(&mut self, slot: usize, fault: Option<&Fault>) {
         if let Some(id) = self.slots.get_mut(slot).and_then(Option::take) {
             self.clear(id);
@@ -422,17 +420,17 @@ impl Faults {
         }
     }
 
-    /// The faults that act now or will, in the order in which they were started.
+    /// The present and future faults, in the order in which they were started.
     pub fn list(&self, tick: Tick) -> impl Iterator<Item = Fault> + '_ {
         self.all.iter().filter(move |fault| !fault.is_over(tick)).map(Running::fault)
     }
 
-    /// What they make of rotors and battery at a tick.
+    /// Their effect on rotors and battery at a tick.
     pub fn of_plant(&self, tick: Tick) -> PlantFaults {
         PlantFaults { rotor_effectiveness: self.rotor_effectiveness(tick), battery_factor: self.battery_factor(tick) }
     }
 
-    /// Ends a fault, or takes it back before it has begun.
+    /// Ends a fault, or cancels it before it has begun.
     pub fn clear(&mut self, id: FaultId) {
         self.all.retain(|fault| fault.id != id);
     }
@@ -447,7 +445,7 @@ impl Faults {
         self.all.iter_mut().filter(move |fault| fault.channel == Some(channel) && fault.is_active(tick))
     }
 
-    /// What is left of each rotor's thrust at a tick, 1 for a sound one.
+    /// Remaining fraction of each rotor's thrust at a tick; 1 without a fault.
     pub fn rotor_effectiveness(&self, tick: Tick) -> [f64; ROTORS] {
         let mut left = [1.0; ROTORS];
         for fault in self.all.iter().filter(|fault| fault.is_active(tick)) {
@@ -458,13 +456,13 @@ impl Faults {
         left
     }
 
-    /// What is left of the battery's voltage at a tick, 1 for a sound one.
+    /// Remaining fraction of the battery's voltage at a tick, 1 for a sound one.
     pub fn battery_factor(&self, tick: Tick) -> f64 {
         let active = self.all.iter().filter(|fault| fault.is_active(tick));
         active.fold(1.0, |left, fault| if let Kind::Collapse { factor } = fault.kind { left * factor } else { left })
     }
 
-    /// What is delivered of a sample that a sound sensor has measured at `tick`, and how much later than usual, ticks.
+    /// The sample delivered for a fault-free one measured at `tick`, and its additional latency, ticks.
     pub(super) fn pass<T: Sample>(&mut self, tick: Tick, memory: &mut Memory<T>, mut sample: T) -> Option<(T, u32)> {
         for fault in self.active(tick, T::CHANNEL) {
             fault.hold(&mut sample, memory);
@@ -478,7 +476,7 @@ impl Faults {
     }
 }
 
-/// Ticks from and to which a fault acts.
+/// First tick of a fault, and the tick after its last.
 fn span(fault: &Fault) -> core::ops::Range<Tick> {
     ticks(fault.from_s)..fault.to_s.map_or(Tick::MAX, ticks)
 }

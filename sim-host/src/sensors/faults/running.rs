@@ -1,4 +1,4 @@
-//! A fault at work on samples.
+//! Active faults, and their effect on samples.
 
 use core::ops::Range;
 
@@ -11,26 +11,26 @@ use crate::geodesy::{LocalFrame, Place};
 use crate::noise::gaussian::Stream;
 use crate::sensors::process::{TICKS_PER_S, seconds, ticks};
 
-/// A sample that faults can spoil. `sensor` tells the IMU's halves apart; for all others it is theirs.
+/// A sample that faults can change. `sensor` selects a half of the IMU; other samples have one sensor.
 pub(in crate::sensors) trait Sample: Copy {
-    /// Whose samples they are.
+    /// The sensor of these samples.
     const CHANNEL: Sensor;
     /// Whether the value has a direction; without one, errors go along x.
     const IS_VECTOR: bool = true;
 
-    /// The stamp, where it has one.
+    /// The time stamp, if it has one.
     fn stamp(&mut self) -> Option<&mut Tick>;
 
     /// Adds an error to the value, in the sensor's unit.
     fn add(&mut self, sensor: Sensor, error: &Vector3<f64>);
 
-    /// Makes what is a number in it none.
+    /// Sets the values to NaN.
     fn spoil(&mut self, sensor: Sensor);
 
-    /// Takes the value of an earlier sample, and keeps its own stamp.
+    /// Takes the value of an earlier sample, keeping the time stamp.
     fn hold(&mut self, sensor: Sensor, earlier: &Self);
 
-    /// Takes back the claim to a fix.
+    /// Removes the fix.
     fn lose_fix(&mut self) {}
 }
 
@@ -170,17 +170,17 @@ impl Sample for BatterySample {
     }
 }
 
-/// What becomes of a sample on its way.
+/// Delivery of a sample.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Way {
     is_lost: bool,
     is_repeated: bool,
     is_disordered: bool,
-    /// Ticks later than usual.
+    /// Additional latency, ticks.
     pub(super) extra: u32,
 }
 
-/// A sample that is held back, so that the next overtakes it.
+/// A sample that is held back until the next has overtaken it.
 #[derive(Clone, Copy, Debug)]
 enum Waiting<T> {
     No,
@@ -190,12 +190,12 @@ enum Waiting<T> {
     ForItsTurn(T),
 }
 
-/// What a sensor's faults need to know of earlier samples.
+/// State of a sensor's faults.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::sensors) struct Memory<T> {
-    /// The value that would stick.
+    /// The value for a stuck sensor.
     last: Option<T>,
-    /// What was sent on last.
+    /// The last sample delivered.
     sent: Option<T>,
     waiting: Waiting<T>,
 }
@@ -209,7 +209,7 @@ impl<T: Sample> Memory<T> {
         self.last = Some(*sample);
     }
 
-    /// What is sent on in place of a sample.
+    /// The sample delivered in place of another.
     pub(super) fn send(&mut self, sample: T, way: Way) -> Option<T> {
         if way.is_lost {
             return None;
@@ -218,7 +218,7 @@ impl<T: Sample> Memory<T> {
         let sent = if way.is_disordered {
             self.disorder(sample)
         } else {
-            // One that was still held back when the fault ended is lost.
+            // A sample still held back when the fault ends is lost.
             self.waiting = Waiting::No;
             Some(sample)
         };
@@ -226,7 +226,7 @@ impl<T: Sample> Memory<T> {
         sent
     }
 
-    /// Of the samples 0, 1, 2, 3 … sends none, 1, 0, 3, 2 …: one at a time, each two swapped.
+    /// Delivers samples 0, 1, 2, 3 … as none, 1, 0, 3, 2 …: one at a time, in swapped pairs.
     fn disorder(&mut self, sample: T) -> Option<T> {
         let (sent, waiting) = match self.waiting {
             Waiting::No => (None, Waiting::ForTheNext(sample)),
@@ -238,7 +238,7 @@ impl<T: Sample> Memory<T> {
     }
 }
 
-/// A fault with its stream.
+/// A fault with its random stream.
 #[derive(Clone, Debug)]
 pub(super) struct Running {
     pub(super) id: FaultId,
@@ -247,7 +247,7 @@ pub(super) struct Running {
     /// The sensor whose samples it acts on.
     pub(super) channel: Option<Sensor>,
     ticks: Range<Tick>,
-    /// Of the error, where it has one for good.
+    /// Direction of a constant error.
     direction: Vector3<f64>,
     stream: Stream,
 }
@@ -258,7 +258,7 @@ impl Running {
         let given = |direction: Option<[f64; 3]>, or: Vector3<f64>| direction.map_or(or, Vector3::from).normalize();
         let direction = match fault.kind {
             Kind::Drift { direction, .. } => given(direction, drawn),
-            // The poles have no horizontal part, and no probability either.
+            // At the poles there is no horizontal component, but they have probability 0.
             Kind::Glitch { direction, .. } => given(direction, Vector3::new(drawn.x, drawn.y, 0.0)),
             _ => drawn,
         };
@@ -280,14 +280,14 @@ impl Running {
         Fault { sensor: self.sensor, kind: self.kind, from_s: seconds(self.ticks.start), to_s }
     }
 
-    /// Keeps a sample's value at the one before, if that is the fault.
+    /// Replaces a sample's value by the previous one, for a stuck sensor.
     pub(super) fn hold<T: Sample>(&self, sample: &mut T, memory: &Memory<T>) {
         if let (Kind::Stuck {}, Some(sensor), Some(last)) = (self.kind, self.sensor, &memory.last) {
             sample.hold(sensor, last);
         }
     }
 
-    /// Acts on a sample measured at `tick`, and on its way.
+    /// Applies the fault to a sample measured at `tick`, and to its delivery.
     pub(super) fn act<T: Sample>(&mut self, tick: Tick, sample: &mut T, way: &mut Way) {
         let Some(sensor) = self.sensor else { return };
         match self.kind {
@@ -314,7 +314,7 @@ impl Running {
         }
     }
 
-    /// Where a spike goes, if this sample has one; up or down where there are no directions.
+    /// Direction of a spike, if this sample has one; ±1 for a scalar.
     fn spike<T: Sample>(&mut self, probability: f64) -> Option<Vector3<f64>> {
         let (chance, direction) = (self.stream.unit(), self.stream.direction());
         let direction = if T::IS_VECTOR { direction } else { Vector3::x() * direction.x.signum() };

@@ -1,4 +1,4 @@
-//! Each kind of fault against the sound record of the same seed.
+//! Each kind of fault against the fault-free record of the same seed.
 
 use firmware::sensors::{GnssSample, Measurements};
 
@@ -15,7 +15,7 @@ fn all() -> SuiteFile {
     parts("suite = \"gnss\"\npose.part = \"mocap\"")
 }
 
-/// A fault as it is written in a file.
+/// A fault from its TOML form.
 fn fault(text: &str) -> Fault {
     toml::from_str(text).expect(text)
 }
@@ -28,7 +28,7 @@ fn sound() -> Vec<Measurements> {
     record(&all(), &[], SEED, TICKS)
 }
 
-/// Asserts that a record differs from the sound one in the imu at most, and in it during 1 s to 2 s at most.
+/// Asserts that a record differs from the fault-free one only in the IMU, and only from 1 s to 2 s.
 fn assert_sound_but_for_the_imu(faulted: &[Measurements]) {
     for (tick, (ours, sound)) in faulted.iter().zip(&sound()).enumerate() {
         let imu = if (1000..=2000).contains(&tick) { ours.imu } else { sound.imu };
@@ -292,7 +292,7 @@ fn a_fault_that_cannot_be_is_refused_by_its_key() {
     }
 }
 
-/// A kind of fault with random numbers.
+/// A kind of fault with random values.
 fn any_kind(rng: &mut StdRng) -> Kind {
     let probability = rng.random_range(0.0..=1.0);
     let size = rng.random_range(-1e6..1e6);
@@ -316,7 +316,7 @@ fn any_kind(rng: &mut StdRng) -> Kind {
     }
 }
 
-/// A fault that can be, within the first second.
+/// A valid fault within the first second.
 fn any_fault(rng: &mut StdRng) -> Fault {
     use Sensor::{Accel, Baro, Battery, Gnss, Gyro, Imu, Mag, Pose};
     loop {

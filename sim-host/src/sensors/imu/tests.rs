@@ -1,4 +1,4 @@
-//! The noise against Allan deviations in closed form, the rest against what the part says.
+//! The noise against Allan deviations in closed form, the other errors against the data sheet.
 
 use super::super::suite::SuiteFile;
 use super::super::tests::{at_rest, truth};
@@ -67,7 +67,7 @@ fn the_bias_has_the_allan_deviation_of_its_instability() {
         // The process is sampled and not averaged between: 1e-4 of the variance.
         assert!((ours / exact - 1.0).abs() < bound(samples.len() / length) + 1e-3, "{length}: {ours} {exact}");
     }
-    // What the documentation of `bias_instability` says.
+    // As documented for `bias_instability`.
     let top = (1..1000).map(|x| gauss_markov_allan(f64::from(x) * 0.01)).fold(0.0, f64::max);
     assert!((top.sqrt() - 0.617).abs() < 1e-3 && (gauss_markov_allan(1.89) - top).abs() < 1e-6);
 }
