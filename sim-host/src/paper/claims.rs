@@ -41,15 +41,9 @@ pub const ALTITUDE_AT_REST: PaperClaim = PaperClaim {
 };
 
 /// A Gaussian disturbance is removed in less than this.
-pub const DISTURBANCE_REMOVED: PaperClaim = PaperClaim {
-    what: "disturbance removed in under 0.2 s",
-    time_s: 0.2,
-    source: "Section 4.2, Figure 6",
-};
+pub const DISTURBANCE_REMOVED: PaperClaim =
+    PaperClaim { what: "disturbance removed in under 0.2 s", time_s: 0.2, source: "Section 4.2, Figure 6" };
 
 /// The whole system follows, on average, within this.
-pub const AVERAGE_FOLLOWS: PaperClaim = PaperClaim {
-    what: "all follow within 0.5 s on average",
-    time_s: 0.5,
-    source: "Section 5.1",
-};
+pub const AVERAGE_FOLLOWS: PaperClaim =
+    PaperClaim { what: "all follow within 0.5 s on average", time_s: 0.5, source: "Section 5.1" };

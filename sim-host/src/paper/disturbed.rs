@@ -24,11 +24,7 @@ fn removed(flown: &Flown, what: &str, why: String) -> Line {
     let here = times.into_iter().try_fold(0.0_f64, |most, time| Some(most.max(time?)));
     let measure = "from its onset until within 5 cm, 2° for good";
     let claim = format!("{}, {what}", DISTURBANCE_REMOVED.what);
-    Line::new(&claim, DISTURBANCE_REMOVED.source, flown, measure, "s").with(
-        Some(DISTURBANCE_REMOVED.time_s),
-        here,
-        why,
-    )
+    Line::new(&claim, DISTURBANCE_REMOVED.source, flown, measure, "s").with(Some(DISTURBANCE_REMOVED.time_s), here, why)
 }
 
 /// Greatest errors while the disturbance acts, in words.
@@ -98,7 +94,8 @@ fn most_acceleration(flown: &Flown, sweep: &[Strength]) -> Line {
         )
     });
     let here = held.map(|held| held.angular_acceleration_rad_s2);
-    robust(flown, "accelerations", "greatest σ of angular acceleration that is removed so", "rad/s²").with(None, here, why)
+    robust(flown, "accelerations", "greatest σ of angular acceleration that is removed so", "rad/s²")
+        .with(None, here, why)
 }
 
 fn most_output(flown: &Flown, sweep: &[Strength]) -> Line {

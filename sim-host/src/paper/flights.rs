@@ -93,9 +93,7 @@ impl Flights {
     /// # Errors
     /// None with the built-in scenarios.
     pub fn fly(done: impl Fn() + Sync) -> Result<Self> {
-        let fly = |(name, settings, what): &(&str, &[&str], &str)| {
-            Flown::new(name, settings, what).inspect(|_| done())
-        };
+        let fly = |(name, settings, what): &(&str, &[&str], &str)| Flown::new(name, settings, what).inspect(|_| done());
         let flown: Vec<Flown> = FLOWN.par_iter().map(fly).collect::<Result<_>>()?;
         let [ideal, attitude, disturbed, disturbed_output, literal, literal_strong, literal_thin, literal_slow, helix] =
             <[Flown; FLOWN.len()]>::try_from(flown).expect("as many as were to be flown");

@@ -54,11 +54,7 @@ fn altitude(ideal: &Flown, z: &Approach) -> Line {
 }
 
 fn altitude_settles(ideal: &Flown, z: &Approach) -> Line {
-    let why = format!(
-        "from 5 cm to 2 mm exp(−{:.2} t) takes ln 25/λ = {:.3} s",
-        z.lambda,
-        libm::log(25.0) / z.lambda
-    );
+    let why = format!("from 5 cm to 2 mm exp(−{:.2} t) takes ln 25/λ = {:.3} s", z.lambda, libm::log(25.0) / z.lambda);
     let here = ideal.metrics.axes().z.settle_2mm_s;
     line(&ALTITUDE_ERROR, ideal, "within 2 mm from").with(Some(ALTITUDE_ERROR.time_s), here, why)
 }
@@ -107,7 +103,8 @@ fn thrust_demanded(ideal: &Flown, first: f64, z: &Approach) -> Line {
         constants.mass * z.gain,
         weight + constants.mass * z.lambda * z.rate_at(z.reached_s()),
     );
-    Line::new("control input of the altitude, U1", "Section 4.1, Figure 2 d", ideal, "greatest U1", "N").with(None, here, why)
+    Line::new("control input of the altitude, U1", "Section 4.1, Figure 2 d", ideal, "greatest U1", "N")
+        .with(None, here, why)
 }
 
 fn x_follows(ideal: &Flown, x: &Approach) -> Line {
@@ -136,7 +133,8 @@ fn y_follows(ideal: &Flown, y: &Approach) -> Line {
 
 fn attitude(flown: &Flown, uy: f64) -> Line {
     let recovery = flown.metrics.recovery(0.0);
-    let here = [recovery.roll, recovery.pitch, recovery.yaw].into_iter().try_fold(0.0_f64, |t, axis| Some(t.max(axis?)));
+    let here =
+        [recovery.roll, recovery.pitch, recovery.yaw].into_iter().try_fold(0.0_f64, |t, axis| Some(t.max(axis?)));
     let why = format!(
         "its references come from Eq. 11, which has no solution here: at the start Eq. 31 asks for Uy = {uy:.2}, and an arc \
          sine takes 1 at most. Flown are stated angles (0.5 sin t, 0.4 cos t, 0.3 cos t/2 rad)."

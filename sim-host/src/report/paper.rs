@@ -29,7 +29,8 @@ pub fn write(study: &Study, folder: &Path) -> Result<()> {
 
 /// The study for the terminal, with a newline at the end.
 pub fn render(study: &Study) -> String {
-    let mut text = wrapped("The paper: ", study.title) + "\n" + &table(study) + "\nWhat is compared, and why it differs\n\n";
+    let mut text =
+        wrapped("The paper: ", study.title) + "\n" + &table(study) + "\nWhat is compared, and why it differs\n\n";
     for (i, line) in study.claims.iter().enumerate() {
         let measured = format!("{}, {}: {}. Why: {}", line.place, line.flight, line.measure, line.why);
         text.push_str(&wrapped(&format!("{:>2}  ", i + 1), &measured));

@@ -82,7 +82,8 @@ fn the_command_leaves_its_table_and_figures() {
     let output = command(&["paper", "--json", "--out", out]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let study: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    let kept: Value = serde_json::from_str(&fs::read_to_string(folder.join("paper.json")).expect("kept")).expect("JSON");
+    let kept: Value =
+        serde_json::from_str(&fs::read_to_string(folder.join("paper.json")).expect("kept")).expect("JSON");
     assert_eq!(study, kept);
     figures_are_whole(&folder);
     let table = fs::read_to_string(folder.join("paper.md")).expect("kept");
@@ -118,7 +119,10 @@ fn is_whole(claim: &Value) {
 
 fn figures_are_whole(folder: &std::path::Path) {
     for (name, panels) in [
-        ("figure-2-altitude", &["Figure 2", "a) altitude", "b) tracking error", "c) phase plot", "d) control input"][..]),
+        (
+            "figure-2-altitude",
+            &["Figure 2", "a) altitude", "b) tracking error", "c) phase plot", "d) control input"][..],
+        ),
         ("figure-3-position", &["Figure 3", "x: tracking", "y: tracking", "x: phase portrait", "y: phase portrait"]),
         ("figure-4-attitude", &["Figure 4", "roll: tracking", "yaw: control input", "U2, N m"]),
         ("figure-5-disturbance", &["Figure 5", "m/s²", "rad/s²", "yaw"]),

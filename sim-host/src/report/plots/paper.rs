@@ -25,7 +25,6 @@ use crate::decoupled::STEP_S;
 use crate::paper::claims::{ALTITUDE_AT_REST, ALTITUDE_ERROR, Y_FOLLOWS, Z_FOLLOWS};
 use crate::paper::flights::{Flights, Flown, SEED};
 use crate::record::Row;
-use crate::report::timeline::Timeline;
 use crate::report::angles::roll_pitch_yaw;
 use crate::report::metrics::errors;
 
