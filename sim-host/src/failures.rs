@@ -13,9 +13,9 @@ use firmware::failure::{Failure, Injectable, Manner, Unit};
 use firmware::signals::{TICK_S_EXACT, Tick};
 use toml::{Table, Value};
 
+use crate::refusal::did_you_mean as meant;
 use crate::sensors::faults::{KINDS, Kind, SLOTS, Sensor};
 use crate::sensors::{Fault, Suite};
-use crate::refusal::did_you_mean as meant;
 
 /// Reads a fault from its words: `KEY=VALUE`, or the name of a sensor or of a kind alone. Without `from_s` it begins at
 /// `now`.

@@ -8,9 +8,9 @@ use firmware::commander::{FARTHEST_M, FASTEST_M_S, Request, TAKE_OFF_HEIGHT_M, T
 use firmware::signals::Tick;
 
 use crate::failures;
+use crate::refusal::did_you_mean;
 use crate::sensors::Fault;
 use crate::serve::SPEEDS;
-use crate::refusal::did_you_mean;
 
 /// A command of the console. World frame NWU: x north, y west, z up.
 #[derive(Clone, Debug, PartialEq)]
