@@ -33,7 +33,13 @@ fn of_loop(folder: &Path, scenario: &str, one: &Loop) -> Result<PathBuf> {
     };
     let panels = [
         bode("gain", "|L|, dB", decibels(&one.response), decibels(&simulated), vec![0.0]),
-        bode("phase", Quantity::new("phase of L", Unit::Degree), phases(&one.response), phases(&simulated), vec![-180.0]),
+        bode(
+            "phase",
+            Quantity::new("phase of L", Unit::Degree),
+            phases(&one.response),
+            phases(&simulated),
+            vec![-180.0],
+        ),
         nyquist(&one.response, &simulated),
         bode("sensitivity", "|1/(1 + L)|, dB", sensitivity(&one.response), sensitivity(&simulated), vec![0.0]),
     ];

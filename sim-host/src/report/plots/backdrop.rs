@@ -79,6 +79,11 @@ impl Backdrop {
         time_of(&self.events, DISARMED).filter(|t| *t >= flown).unwrap_or(f64::INFINITY)
     }
 
+    /// False if it stood on the ground from beginning to end.
+    pub(super) fn has_flown(&self) -> bool {
+        self.landed != Some(f64::NEG_INFINITY)
+    }
+
     /// Whether the vehicle flies at `t`, s: always, where nothing is known of phases. What it is to do before and after
     /// is no reference to compare with.
     pub(super) fn flies(&self, t: f64) -> bool {

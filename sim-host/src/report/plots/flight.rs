@@ -103,7 +103,7 @@ impl<'a> Figures<'a> {
         if self.kind == Kind::Tracking && tracking::errs(self.rows).next().is_some() {
             files.push(tracking::portraits(folder, self)?);
         }
-        if path::moves(self.rows) {
+        if path::moves(self.rows) && self.backdrop.has_flown() {
             files.push(path::path(folder, self)?);
         }
         if let Some(applied) = &self.disturbance {
