@@ -27,6 +27,7 @@ use crate::paper::flights::{Flights, Flown, SEED};
 use crate::record::Row;
 use crate::report::angles::roll_pitch_yaw;
 use crate::report::metrics::errors;
+use crate::report::timeline::Timeline;
 
 /// What is shown of the approach, s.
 const APPROACH_S: f64 = 1.0;
