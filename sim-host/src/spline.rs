@@ -160,10 +160,10 @@ impl System {
         }
         let mut solution = vec![[0.0; 4]; self.size];
         for i in (0..self.size).rev() {
-            for k in 0..4 {
+            solution[i] = std::array::from_fn(|k| {
                 let known: f64 = (i + 1..self.size).map(|j| self.rows[i][j] * solution[j][k]).sum();
-                solution[i][k] = (self.rows[i][self.size + k] - known) / self.rows[i][i];
-            }
+                (self.rows[i][self.size + k] - known) / self.rows[i][i]
+            });
         }
         solution.truncate(count);
         Ok(solution)

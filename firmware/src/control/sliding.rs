@@ -78,8 +78,8 @@ pub enum ReachingLaw {
         /// T, s.
         horizon_s: f32,
     },
-    /// `K √|s| sgn(s) + v, v̇ = k2 sgn(s)` (super-twisting, Levant 1993), explicit Euler. With k2 > L and K² ≥ 4 L (k2
-    /// + L)/(k2 − L) both s and ṡ reach 0 in finite time (strict Lyapunov function: Moreno and Osorio 2012), whatever
+    /// `K √|s| sgn(s) + v, v̇ = k2 sgn(s)` (super-twisting, Levant 1993), explicit Euler. With k2 > L and
+    /// K² ≥ 4 L (k2 + L)/(k2 − L) both s and ṡ reach 0 in finite time (strict Lyapunov function: Moreno and Osorio 2012), whatever
     /// the size of d. Sampled, its residual is |s| of order h², and it chatters by k2 h.
     SuperTwisting {
         /// k2, in units of s per second squared.

@@ -231,8 +231,8 @@ mod tests {
             assert!((last.acceleration - next.acceleration).norm() < 5e-5);
             assert!((last.jerk - next.jerk).norm() < 2e-4);
             assert!((last.snap - next.snap).norm() < 1e-3);
-            assert!(math::wrap_angle(last.yaw - next.yaw).abs() < 2e-6);
-            assert!((last.yaw_rate - next.yaw_rate).abs() < 1e-5);
+            assert!(math::abs(math::wrap_angle(last.yaw - next.yaw)) < 2e-6);
+            assert!(math::abs(last.yaw_rate - next.yaw_rate) < 1e-5);
         }
     }
 
@@ -257,16 +257,12 @@ mod tests {
     fn a_bad_path_is_refused_by_name() {
         assert_eq!(wave(256, false).validate(), Ok(()));
         let out_of = |name: &'static str, low, high| ConfigError::OutOfRange { field: name.into(), low, high };
-        for (bad, error) in [
-            (wave(5, true), out_of("trajectory.spline.control_points", 6.0, 256.0)),
-            (Spline { duration_ms: 0, ..wave(20, true) }, out_of("trajectory.spline.duration_ms", 200.0, 16e6)),
-            (Spline { begin_ms: u32::MAX, ..wave(20, true) }, out_of("trajectory.spline.begin_ms", 0.0, 16e6)),
-            (
-                Spline { turn_rad: f32::NAN, ..wave(20, true) },
-                ConfigError::NonFinite("trajectory.spline.control_points".into()),
-            ),
-        ] {
-            assert_eq!(bad.validate(), Err(error));
-        }
+        let refused = |bad: Spline, error| assert_eq!(bad.validate(), Err(error));
+        refused(wave(5, true), out_of("trajectory.spline.control_points", 6.0, 256.0));
+        let duration = out_of("trajectory.spline.duration_ms", 200.0, 16e6);
+        refused(Spline { duration_ms: 0, ..wave(20, true) }, duration);
+        refused(Spline { begin_ms: u32::MAX, ..wave(20, true) }, out_of("trajectory.spline.begin_ms", 0.0, 16e6));
+        let not_finite = ConfigError::NonFinite("trajectory.spline.control_points".into());
+        refused(Spline { turn_rad: f32::NAN, ..wave(20, true) }, not_finite);
     }
 }

@@ -33,15 +33,11 @@ pub(super) fn run() -> Result<()> {
 
 /// Where the pictures are, and which to look at first.
 fn pictures(folder: &Path, contents: &str) -> String {
-    let first = path_in_space(folder).map_or_else(String::new, |path| format!("; look first at {}", path.display()));
+    let first = telling(folder).map_or_else(String::new, |path| format!("; look first at {}", path.display()));
     format!("wrote {}: {contents}{first}", folder.display())
 }
 
-/// The figure of the whole path.
-fn path_in_space(folder: &Path) -> Option<PathBuf> {
-    let is_path = |path: &PathBuf| {
-        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        name.ends_with(".svg") && (name.contains("path") || name.contains("helix"))
-    };
-    std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path())).find(is_path)
+/// The figure that tells most: of a pilot's flight, of a disturbed one, of any other.
+fn telling(folder: &Path) -> Option<PathBuf> {
+    ["flight.svg", "disturbed.svg", "path.svg"].iter().map(|name| folder.join(name)).find(|path| path.is_file())
 }

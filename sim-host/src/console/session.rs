@@ -190,7 +190,7 @@ impl Session {
     /// nothing but be answered.
     pub fn enter(&mut self, line: &str) -> Option<Control> {
         let done = parse::parse(line, self.flight.next_tick());
-        match done.and_then(|command| command.map_or(Ok(None), |command| self.carry_out(command))) {
+        match done.and_then(|command| command.map_or(Ok(None), |command| self.carry_out(&command))) {
             Ok(control) => control,
             Err(error) => {
                 self.say(Tone::Refused, format!("{error:#}").replace('\n', " "));
@@ -199,24 +199,24 @@ impl Session {
         }
     }
 
-    fn carry_out(&mut self, command: Command) -> Result<Option<Control>> {
+    fn carry_out(&mut self, command: &Command) -> Result<Option<Control>> {
         match command {
             Command::Help(None) => self.list_commands(),
             Command::Help(Some(entry)) => self.say(Tone::Plain, entry.help()),
             Command::Status => self.say(Tone::Plain, self.status()),
-            Command::Request(request) => self.ask(request),
-            Command::GoTo { place, yaw_deg } => self.ask(self.go_to(place, yaw_deg)?),
+            Command::Request(request) => self.ask(*request),
+            Command::GoTo { place, yaw_deg } => self.ask(self.go_to(*place, *yaw_deg)?),
             Command::Wind => self.say_wind("wind"),
             Command::SetWind(mean) => {
-                self.flight.set_steady_wind(mean.into())?;
+                self.flight.set_steady_wind((*mean).into())?;
                 self.say_wind("wind set");
             }
-            Command::Fault(fault) => self.inject(&fault)?,
+            Command::Fault(fault) => self.inject(fault)?,
             Command::Faults => self.list_faults(),
             Command::Clear => self.clear()?,
             Command::Speed(speed) => {
                 self.say(Tone::Plain, format!("speed: {speed} x real time"));
-                return Ok(Some(Control::Speed(speed)));
+                return Ok(Some(Control::Speed(*speed)));
             }
             Command::Quit => return Ok(Some(Control::Quit)),
         }
@@ -271,7 +271,9 @@ impl Session {
         if lines.is_empty() {
             self.say(Tone::Plain, "no faults".to_owned());
         }
-        lines.into_iter().for_each(|line| self.list(line));
+        for line in lines {
+            self.list(line);
+        }
     }
 
     /// The faults that act, and those to come.

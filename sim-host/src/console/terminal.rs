@@ -67,7 +67,9 @@ impl Terminal for Stdio {
         while !self.editor.has_line()
             && let Ok(bytes) = self.typed.try_recv()
         {
-            bytes.iter().for_each(|byte| self.editor.feed(*byte));
+            for byte in bytes {
+                self.editor.feed(byte);
+            }
             changed = true;
         }
         let line = self.editor.take_line();

@@ -95,8 +95,9 @@ impl Flights {
     pub fn fly(done: impl Fn() + Sync) -> Result<Self> {
         let fly = |(name, settings, what): &(&str, &[&str], &str)| Flown::new(name, settings, what).inspect(|_| done());
         let flown: Vec<Flown> = FLOWN.par_iter().map(fly).collect::<Result<_>>()?;
+        let flown = <[Flown; FLOWN.len()]>::try_from(flown);
         let [ideal, attitude, disturbed, disturbed_output, literal, literal_strong, literal_thin, literal_slow, helix] =
-            <[Flown; FLOWN.len()]>::try_from(flown).expect("as many as were to be flown");
+            flown.map_err(|flown| anyhow::anyhow!("{} flights in place of {}", flown.len(), FLOWN.len()))?;
         Ok(Self {
             ideal,
             attitude,

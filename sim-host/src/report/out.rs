@@ -128,9 +128,12 @@ fn refuse_foreign(target: &Path) -> Result<()> {
     }
 }
 
+fn is_figure(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|extension| extension == "svg")
+}
+
 fn is_ours(name: &str) -> bool {
-    let figure = Path::new(name).extension().is_some_and(|extension| extension == "svg");
-    figure || name.starts_with("seed-") || MARKS.contains(&name) || OURS.contains(&name)
+    is_figure(name) || name.starts_with("seed-") || MARKS.contains(&name) || OURS.contains(&name)
 }
 
 /// Names of what a folder holds: figures are counted.
@@ -140,7 +143,7 @@ fn contents(folder: &Path) -> std::io::Result<String> {
     for entry in fs::read_dir(folder)? {
         let name = entry?.file_name().to_string_lossy().into_owned();
         match name {
-            _ if name.ends_with(".svg") => figures += 1,
+            _ if is_figure(&name) => figures += 1,
             _ if name.starts_with("seed-") => seeds += 1,
             _ => names.push(name),
         }

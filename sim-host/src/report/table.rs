@@ -189,7 +189,8 @@ pub fn seeds(rows: &[Row]) -> String {
     // The last column holds words, and is not to be pushed to the right.
     let numbers: Vec<_> = lines.iter().map(|[a, b, c, d, _]| [a, b, c, d].map(Clone::clone)).collect();
     let text = aligned_to_width(&numbers);
-    text.iter().zip(&lines).map(|(numbers, [.., end])| format!("{numbers}  {end}\n")).collect()
+    let lines: Vec<_> = text.iter().zip(&lines).map(|(numbers, [.., end])| format!("{numbers}  {end}\n")).collect();
+    lines.concat()
 }
 
 /// A flight in a line: seed, three numbers, end.

@@ -106,6 +106,7 @@ pub struct Course {
 
 /// Records the course of a flight.
 #[derive(Clone, Debug, Default)]
+#[allow(clippy::struct_excessive_bools, reason = "each remembers one thing that has been seen, in any combination")]
 pub struct TimelineRecorder {
     script: Vec<Command>,
     course: Course,

@@ -47,7 +47,7 @@ mod tests {
             assert_eq!(again.flight_config(), scenario.flight_config(), "{}", listed.name);
             let (airframe, tuning, control) =
                 (scenario.file.airframe.clone(), scenario.file.tuning.clone(), scenario.file.control.clone());
-            let file = super::ScenarioFile { airframe, tuning, control, ..again.file };
+            let file = super::ScenarioFile { airframe, control, tuning, ..again.file };
             assert_eq!(
                 (file, again.airframe, again.controller),
                 (scenario.file, scenario.airframe, scenario.controller)

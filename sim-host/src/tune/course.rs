@@ -39,8 +39,13 @@ struct CourseFile {
 /// the errors a controller that halves one flight's error gains as much as one that halves another's, whatever their
 /// sizes.
 ///
-/// A flight that is survived costs `rms ln(RMS + floor) + yaw ln(yaw RMS + floor) + settling S/T + chattering ln(1 + v)
-/// + saturation σ` with the distance from the trajectory in m and the heading's error in rad, S the time until the
+/// A flight that is survived costs
+///
+/// ```text
+/// rms ln(RMS + floor) + yaw ln(yaw RMS + floor) + settling S/T + chattering ln(1 + v) + saturation σ
+/// ```
+///
+/// with the distance from the trajectory in m and the heading's error in rad, S the time until the
 /// distance stays within 5 cm, T the time that counts, v the total variation of the commanded ω² per second in units of
 /// Σω² in hover, σ the saturated part of the flight. A flight that is lost costs `lost (2 − t/D)`, t the time flown of
 /// the whole D: the later, the better.

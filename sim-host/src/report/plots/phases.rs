@@ -68,7 +68,9 @@ fn events(scenario: &Scenario, rows: &[Row], timeline: &Timeline) -> Vec<(f64, S
 /// When it touched down, s.
 fn touchdown(scenario: &Scenario, rows: &[Row]) -> Option<f64> {
     let mut touchdown = Touchdown::new(flight::ground(scenario)?);
-    rows.iter().for_each(|row| touchdown.record(row));
+    for row in rows {
+        touchdown.record(row);
+    }
     touchdown.first().map(|contact| contact.t_s)
 }
 
