@@ -1,0 +1,131 @@
+use super::*;
+use crate::sensors::faults::{Kind, Sensor};
+
+fn read(line: &str) -> Command {
+    parse(line, 1500).expect(line).expect("a command")
+}
+
+#[test]
+fn every_command_is_read() {
+    let request = Command::Request;
+    let goto = |place: [Option<f64>; 3], yaw_deg: Option<f64>| Command::GoTo { place, yaw_deg };
+    for (line, command) in [
+        ("help", Command::Help(None)),
+        ("help rtl", Command::Help(COMMANDS.iter().find(|entry| entry.name() == "return"))),
+        ("status", Command::Status),
+        ("arm", request(Request::Arm { force: false })),
+        ("ARM force", request(Request::Arm { force: true })),
+        ("disarm", request(Request::Disarm { force: false })),
+        ("disarm force", request(Request::Disarm { force: true })),
+        ("takeoff", request(Request::TakeOff { height_m: 2.5 })),
+        ("take-off 5", request(Request::TakeOff { height_m: 5.0 })),
+        ("takeoff height=0.3", request(Request::TakeOff { height_m: 0.3 })),
+        ("goto 1 -2 3", goto([Some(1.0), Some(-2.0), Some(3.0)], None)),
+        ("goto 1 -2 3 90", goto([Some(1.0), Some(-2.0), Some(3.0)], Some(90.0))),
+        ("goto up=3 yaw=-90", goto([None, None, Some(3.0)], Some(-90.0))),
+        ("velocity 1 0 0.5", request(Request::Velocity { velocity_m_s: [1.0, 0.0, 0.5], yaw_rate_rad_s: 0.0 })),
+        ("hold", request(Request::Hold)),
+        ("trajectory", request(Request::Follow)),
+        ("rtl", request(Request::Return)),
+        ("return", request(Request::Return)),
+        ("land", request(Request::Land)),
+        ("kill", request(Request::Disarm { force: true })),
+        ("wind", Command::Wind),
+        ("wind 3 -1", Command::SetWind([3.0, -1.0, 0.0])),
+        ("wind 3 -1 0.5", Command::SetWind([3.0, -1.0, 0.5])),
+        ("wind speed=0 from=0", Command::SetWind([0.0; 3])),
+        ("fault gnss off", Command::Fault(Fault::starting(Some(Sensor::Gnss), Kind::Off {}, 1500))),
+        ("faults", Command::Faults),
+        ("clear", Command::Clear),
+        ("speed 10", Command::Speed(10.0)),
+        ("quit  # and good night", Command::Quit),
+    ] {
+        assert_eq!(read(line), command, "{line}");
+    }
+    assert_eq!(parse("   ", 0).expect("nothing"), None);
+    assert_eq!(parse("# arm", 0).expect("nothing"), None);
+}
+
+#[test]
+fn wind_comes_from_where_forecasts_say() {
+    // From the west it moves to the east: west is −5.
+    for (from, velocity) in [(270.0, [0.0, -5.0]), (0.0, [-5.0, 0.0]), (90.0, [0.0, 5.0])] {
+        let [north, west, up] = blowing(5.0, from);
+        assert!((north - velocity[0]).abs() < 1e-12 && (west - velocity[1]).abs() < 1e-12, "{from}: {north} {west}");
+        assert_eq!(up, 0.0);
+    }
+}
+
+#[test]
+fn mistakes_are_answered_in_a_line_that_says_what_to_type() {
+    for (line, answer) in [
+        ("takof 5", "unknown command `takof`: did you mean `takeoff`? `help` lists all"),
+        ("lnad", "unknown command `lnad`: did you mean `land`? `help` lists all"),
+        ("xyzzy", "unknown command `xyzzy`: `help` lists all"),
+        ("help lnad", "help: unknown command `lnad`: did you mean `land`? `help` lists all"),
+        ("help land now", "help: `now` is too much"),
+        ("status now", "status: `now` is too much: it takes no arguments"),
+        ("arm now", "arm: `now` is unknown here: only `force` may follow"),
+        ("disarm 1", "disarm: `1` is unknown here: only `force` may follow"),
+        ("takeoff 200", "takeoff: HEIGHT must be between 0.3 and 100 m, not 200"),
+        ("takeoff 0", "takeoff: HEIGHT must be between 0.3 and 100 m, not 0"),
+        ("takeoff nan", "takeoff: HEIGHT must be between 0.3 and 100 m, not nan"),
+        ("takeoff high", "takeoff: HEIGHT must be a number, not `high`"),
+        ("takeoff 5 6", "takeoff: `6` is too much: height at most"),
+        ("goto", "goto: say where: NORTH WEST UP in m"),
+        ("goto nrth=5", "goto: there is no `nrth`: did you mean `north`?"),
+        ("goto 1 2 3 400", "goto: YAW must be between -360 and 360°, not 400"),
+        ("goto 1 2 1e9", "goto: UP must be between -10000 and 10000 m, not 1e9"),
+        ("goto 1 2 3 north=4", "goto: NORTH is given twice"),
+        ("goto 1 2 3 4 5", "goto: `5` is too much: north, west, up, yaw at most"),
+        ("velocity", "velocity: say which: NORTH WEST UP in m/s"),
+        ("velocity 1000", "velocity: NORTH must be between -100 and 100 m/s, not 1000"),
+        ("hold on", "hold: `on` is too much: it takes no arguments"),
+        ("wind 3", "wind: say NORTH WEST [UP], or speed= and from="),
+        ("wind speed=3", "wind: say NORTH WEST [UP], or speed= and from="),
+        ("wind 1 2 speed=3 from=4", "wind: say NORTH WEST [UP], or speed= and from="),
+        ("wind speed=-3 from=0", "wind: SPEED must be between 0 and 50 m/s, not -3"),
+        ("fault", "fault: say how it fails: kind=off|stuck"),
+        ("fault gns off", "fault: `gns` is no sensor and no kind of fault: did you mean `gnss`?"),
+        ("fault gnss kind=of", "fault: there is no kind of fault `of`: did you mean `off`?"),
+        ("clear gnss", "clear: `gnss` is too much: it takes no arguments"),
+        ("speed", "speed: say X, how many times real time"),
+        ("speed 0", "speed: X must be between 0.01 and 1000, not 0"),
+        ("quit now", "quit: `now` is too much: it takes no arguments"),
+    ] {
+        let error = format!("{:#}", parse(line, 0).expect_err(line));
+        assert!(error.starts_with(answer) && !error.contains('\n'), "{line}: {error}");
+    }
+}
+
+#[test]
+fn names_are_unique_and_help_gives_the_ranges_that_are_checked() {
+    let mut names: Vec<&str> = COMMANDS.iter().flat_map(|entry| entry.names).copied().collect();
+    let count = names.len();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), count);
+    let help = |name: &str| entry(name).expect("known").help();
+    let heights = format!("between {} and {} m", TAKE_OFF_HEIGHTS_M.start(), TAKE_OFF_HEIGHTS_M.end());
+    assert!(help("takeoff").contains(&heights), "{}", help("takeoff"));
+    assert!(help("takeoff").contains(&format!("(m; {TAKE_OFF_HEIGHT_M})")));
+    assert!(help("speed").contains(&format!("between {} and {}", SPEEDS.start(), SPEEDS.end())));
+    assert!(help("rtl").starts_with("return: ") && help("rtl").ends_with("Also called rtl"), "{}", help("rtl"));
+}
+
+#[test]
+fn the_manual_has_the_same_table() {
+    let manual = include_str!("../../../../docs/serve.md");
+    let rows: Vec<&str> = manual.lines().filter(|line| line.starts_with("| `")).collect();
+    let table: Vec<String> =
+        COMMANDS.iter().map(|entry| format!("| `{}` | {} |", entry.usage(), entry.summary())).collect();
+    assert_eq!(rows, table);
+}
+
+#[test]
+fn a_started_name_is_completed_if_only_one_goes_on_like_that() {
+    assert_eq!(completion("tak"), Some("eoff"));
+    assert_eq!(completion("faults"), Some(""));
+    assert_eq!(completion("s"), None);
+    assert_eq!(completion("x"), None);
+}
