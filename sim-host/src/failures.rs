@@ -26,7 +26,13 @@ pub fn parse<'a>(words: impl Iterator<Item = &'a str>, now: Tick) -> Result<Faul
     let mut table = Table::new();
     for word in words {
         let (key, value) = key_and_value(word)?;
-        ensure!(table.insert(key.to_owned(), value).is_none(), "`{key}` is given twice");
+        let given = plain(&value);
+        if let Some(before) = table.insert(key.to_owned(), value) {
+            bail!("`{key}` is given twice, as `{}` and `{given}`: keep one", plain(&before));
+        }
+    }
+    if table.get("kind").is_some_and(|kind| kind.as_str() == Some("rotor")) && table.len() == 1 {
+        bail!("say which rotor, from 0, and how much of it is left: fault rotor index=0 effectiveness=0");
     }
     ensure!(table.contains_key("kind"), "say how it fails: kind={}", KINDS.join("|"));
     table.entry("from_s").or_insert(Value::Float(f64::from(now) * TICK_S_EXACT));
@@ -36,6 +42,13 @@ pub fn parse<'a>(words: impl Iterator<Item = &'a str>, now: Tick) -> Result<Faul
 /// A word as the key and the value that it stands for.
 fn key_and_value(word: &str) -> Result<(&str, Value)> {
     let sensors = Sensor::ALL.map(Sensor::name);
+    // As PX4 calls them.
+    let word = match word {
+        "gps" => "gnss",
+        "compass" => "mag",
+        "motor" => "rotor",
+        other => other,
+    };
     let (key, text) = match word.split_once('=') {
         Some(pair) => pair,
         None if sensors.contains(&word) => ("sensor", word),

@@ -23,6 +23,11 @@ pub fn listen() -> Result<()> {
     ctrlc::set_handler(handler).context("cannot handle Ctrl-C")
 }
 
+/// Asks for an end, as the user would: when nobody reads what is printed any more.
+pub fn request() {
+    REQUESTED.store(true, Ordering::Relaxed);
+}
+
 /// Whether the user has asked for an end.
 pub fn requested() -> bool {
     REQUESTED.load(Ordering::Relaxed)

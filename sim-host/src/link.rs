@@ -38,6 +38,10 @@ pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
     if let Ok(address) = text.parse() {
         return Ok(address);
     }
+    // The system would take a whole number for an address.
+    if text.parse::<u32>().is_ok() {
+        bail!("`{text}` is no address: for a port use 127.0.0.1:{text}");
+    }
     if let Ok(ip) = text.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>() {
         return Ok(SocketAddr::new(ip, default_port));
     }
@@ -98,6 +102,12 @@ impl UdpLink {
     pub fn bind(listen: SocketAddr, peers: &[SocketAddr]) -> anyhow::Result<Self> {
         if let Some(peer) = peers.iter().find(|peer| peer.is_ipv4() != listen.is_ipv4()) {
             bail!("cannot send from {listen} to {peer}: one is IPv4, the other IPv6: give both of one kind");
+        }
+        if let (true, Some(far)) = (listen.ip().is_loopback(), peers.iter().find(|peer| !peer.ip().is_loopback())) {
+            bail!(
+                "cannot send from {listen}, which reaches this machine alone, to {far}: add --listen :{}",
+                listen.port()
+            );
         }
         let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, &error))?;
         socket.set_nonblocking(true).with_context(|| format!("cannot use UDP address {listen}"))?;

@@ -9,10 +9,11 @@ use crate::interrupt::{self, Interrupted};
 use crate::report::{Paint, Staged, table};
 use crate::scenario::Scenario;
 
-const NEXT: &str = "next:
-  sim-host run x500-helix --out runs/x500-helix   another flight (`sim-host scenarios` lists them)
-  sim-host run outdoor-tour --seeds 1..20         the same tour in twenty winds, with twenty sets of sensors
-  sim-host serve                                  fly it yourself from QGroundControl";
+const NEXT: &str = "next, each after `cargo run --release --`:
+  run x500-helix --out runs/x500-helix   another flight (`scenarios` lists them)
+  run outdoor-tour --seeds 1..20         the same tour in twenty winds, with twenty sets of sensors
+  paper                                  the paper's Figures 2 to 7, and its claims beside what is flown here
+  serve                                  fly it yourself: type `help`, or connect a ground station";
 
 pub(super) fn run() -> Result<()> {
     interrupt::listen()?;

@@ -17,7 +17,7 @@ use crate::report::timeline::{Course, Event, EventKind};
 use crate::report::{
     Figures, Flight, Metrics, OutFolder, Progress, SensedRecorder, Summary, Timeline, TimelineRecorder, TruthWriter,
 };
-use crate::scenario::{Group, Scenario};
+use crate::scenario::{Group, PlantKind, Scenario};
 use crate::sil::{End, Outcome};
 
 /// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
@@ -131,6 +131,7 @@ pub(super) fn summarise(
         truth_sha256,
         real_time_factor: duration_s / flown.wall_s,
         saturated_fraction: f64::from(outcome.saturated_ticks) / f64::from(outcome.ticks.max(1)),
+        has_rotors: scenario.file.plant != PlantKind::PaperDecoupled,
         papers_helix: scenario.file.trajectory == Trajectory::PAPER_HELIX,
         settles: settles(scenario, metrics),
         time_optimal_s: scenario.file.time_optimal_s,

@@ -32,15 +32,17 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
 
 /// What flies, and how to talk to it.
 fn greeting(scenario: &Scenario, listen: SocketAddr, peers: &[SocketAddr]) -> String {
-    let peers: Vec<String> = peers.iter().map(ToString::to_string).collect();
+    let hint = |port: u16, hint| if peers.iter().any(|peer| peer.port() == port) { hint } else { "" };
+    let addresses: Vec<String> = peers.iter().map(ToString::to_string).collect();
     format!(
         "`{}`: {}\n\
-         MAVLink goes to {}, and comes in on {listen}. QGroundControl connects by itself on port 14550;\n\
-         MAVProxy: mavproxy.py --master=udp:127.0.0.1:14550; MAVSDK: udpin://0.0.0.0:14540\n\
-         Type `help` for the commands; `arm`, `takeoff 5`, `land` is a first flight. `quit` or Ctrl-C ends it.\n",
+         MAVLink goes to {}, and comes in on {listen}.\n\
+         {}{}Type `help` for the commands; `arm`, `takeoff 5`, `land` is a first flight. `quit` or Ctrl-C ends it.\n",
         scenario.name,
         scenario.file.summary,
-        peers.join(" and "),
+        addresses.join(" and "),
+        hint(14550, "QGroundControl connects by itself; MAVProxy: mavproxy.py --master=udp:127.0.0.1:14550\n"),
+        hint(14540, "MAVSDK: udpin://0.0.0.0:14540\n"),
     )
 }
 

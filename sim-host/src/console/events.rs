@@ -14,7 +14,7 @@ use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
 use crate::record::{Recorder as _, Row};
 use crate::report::timeline::fault_name;
-use crate::report::touchdown::{Contact, Touchdown};
+use crate::report::touchdown::{Contact, HARDEST_M_S, Touchdown};
 use crate::sil::Flight;
 
 /// Whether the commander's output has come into effect in the tick before this one.
@@ -125,6 +125,13 @@ impl Watch {
 
     fn look_at_ground(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
         let landed = flight.autopilot.inner.commander_output().landed;
+        if let Some((contact, place)) = self.contact
+            && contact.descent_m_s >= HARDEST_M_S
+        {
+            let how = self.describe(&contact, &place);
+            tell(Tone::Alarm, format!("CRASHED: {how}"));
+            self.contact = None;
+        }
         if landed && !self.landed {
             let how = self.contact.take().map(|(contact, place)| self.describe(&contact, &place));
             tell(Tone::Good, how.map_or_else(|| "landed".to_owned(), |how| format!("landed: {how}")));

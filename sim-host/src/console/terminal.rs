@@ -86,8 +86,12 @@ impl Terminal for Stdio {
     fn print(&mut self, line: &Line) {
         let start = if self.before.is_some() { "\r\x1b[K" } else { "" };
         let text = if self.colour { coloured(line) } else { line.to_string() };
-        // Nobody may be there to read it.
-        let _ = writeln!(std::io::stdout(), "{start}{text}");
+        if let Err(error) = writeln!(std::io::stdout(), "{start}{text}")
+            && error.kind() == std::io::ErrorKind::BrokenPipe
+        {
+            // As in `sim-host serve | head`: nobody is there to read any more.
+            crate::interrupt::request();
+        }
         self.show_typed();
     }
 }

@@ -95,13 +95,16 @@ fn altitude_rate(ideal: &Flown, z: &Approach) -> Line {
 fn thrust_demanded(ideal: &Flown, first: f64, z: &Approach) -> Line {
     let constants = ideal.scenario.constants();
     let weight = constants.mass * constants.gravity;
+    // ż = żd − ė, and the reference climbs at 1 m/s.
+    let rate = z.rate_at(z.reached_s());
+    let mean = weight + constants.mass * z.lambda * rate + constants.drag.z * (1.0 - rate);
     let here = ideal.rows.iter().map(|row| row.u[0]).reduce(f64::max);
     let why = format!(
         "Eq. 28 has no limit: m (g + λ ėz + K) is {first:.0} N at the start, {:.0} times the weight. On the surface it switches by \
-         ± m K = {:.0} N around a mean that begins at m (g + λ ėz) = {:.0} N: rotors do not pull down.",
+         ± m K = {:.0} N around a mean that begins at m (g + λ ėz) + k3 ż = {} N: rotors do not pull down.",
         first / weight,
         constants.mass * z.gain,
-        weight + constants.mass * z.lambda * z.rate_at(z.reached_s()),
+        format!("{mean:.0}").replace('-', "−"),
     );
     Line::new("control input of the altitude, U1", "Section 4.1, Figure 2 d", ideal, "greatest U1", "N")
         .with(None, here, why)

@@ -34,6 +34,8 @@ pub struct Flight {
     pub time_optimal_s: Option<f64>,
     /// Whether the reference is the paper's helix, of which it makes its claims.
     pub papers_helix: bool,
+    /// False on the paper's decoupled equations, whose force and torques are direct inputs.
+    pub has_rotors: bool,
     /// Whether the flight is one of reaching a reference: when each axis settled is then shown.
     pub settles: bool,
     /// When a disturbance set in, where one did, s.
@@ -128,6 +130,9 @@ pub struct Summary {
     /// Whether the paper's claims belong beside these figures.
     #[serde(skip)]
     pub papers_helix: bool,
+    /// Whether there are rotors, whose speeds can chatter and saturate.
+    #[serde(skip)]
+    pub has_rotors: bool,
 }
 
 impl Summary {
@@ -149,12 +154,13 @@ impl Summary {
             settles: flight.settles,
             axes: if survived { metrics.axes() } else { unsettled(&metrics.axes()) },
             time_optimal_s: flight.time_optimal_s,
-            chattering: metrics.chattering(),
-            chattering_after_4s: metrics.chattering_after_4s(),
+            chattering: metrics.chattering().filter(|_| flight.has_rotors),
+            chattering_after_4s: metrics.chattering_after_4s().filter(|_| flight.has_rotors),
             saturated_fraction: flight.saturated_fraction,
             control_effort: metrics.control_effort(),
             attitude_error: metrics.tilt(),
             papers_helix: flight.papers_helix,
+            has_rotors: flight.has_rotors,
             sensed: None,
             told: None,
             recovery_s: recovery.map(|r| if survived { r } else { Recovery::default() }),
@@ -260,6 +266,7 @@ pub(super) mod tests {
             saturated_fraction: 0.0123,
             time_optimal_s: Some(1.31),
             papers_helix: true,
+            has_rotors: true,
             settles: true,
             disturbance_onset_s: None,
             end: if survived { End::DurationReached } else { End::LeftReference },

@@ -142,7 +142,8 @@ fn figures(summary: &Summary) -> String {
         [effort.thrust_rms_n, effort.roll_rms_n_m, effort.pitch_rms_n_m, effort.yaw_rms_n_m];
     let mut text = String::new();
     let mut line = |name: &str, value: &str| writeln!(text, "{name:<18}  {value}").expect("a string takes every byte");
-    if summary.sensed.is_none() {
+    // Without rotors (`paper-decoupled`) the inputs switch between the rows, and figures of them would mislead.
+    if summary.sensed.is_none() && summary.has_rotors {
         line(
             "chattering",
             &format!(
@@ -162,7 +163,9 @@ fn figures(summary: &Summary) -> String {
             ),
         );
     }
-    line("saturated", &format!("{:.2} % of the ticks", 100.0 * summary.saturated_fraction));
+    if summary.has_rotors {
+        line("saturated", &format!("{:.2} % of the ticks", 100.0 * summary.saturated_fraction));
+    }
     line(
         "simulated",
         &format!("{} s, {} times as fast as real time", summary.duration_s, number(summary.real_time_factor, 0)),

@@ -39,7 +39,7 @@ mod tests {
         std::fs::create_dir_all(&folder).expect("the temporary folder can be written");
         let path = folder.join("scenario.toml");
         for listed in list().expect("all load") {
-            let scenario = Scenario::load(listed.name, &["duration_s=3.5".into()]).expect("it loads");
+            let scenario = Scenario::load(listed.name, &["duration_s=300.5".into()]).expect("it loads");
             for (name, text) in scenario.files().expect("TOML") {
                 std::fs::write(folder.join(name), text).expect("can be written");
             }

@@ -27,7 +27,11 @@ impl<'a> Setting<'a> {
         if given.trim().is_empty() {
             bail!("--set {text}: the value is missing: use KEY=VALUE");
         }
-        Ok(Self { text, key, value: value(given) })
+        let value = value(given);
+        if value.is_str() && given.trim_start().starts_with(['{', '[']) {
+            bail!("--set {text}: not a TOML value: look at brackets, commas and quotes (names are quoted: \"sgn\")");
+        }
+        Ok(Self { text, key, value })
     }
 
     /// What the key begins with, and the rest after the dot.

@@ -157,11 +157,16 @@ pub(super) fn ticks((low, high): (f64, f64), step: f64) -> Vec<f64> {
     (0..=count).map(|i| (first + f64::from(i)) * step).filter(|v| (low - hair..=high + hair).contains(v)).collect()
 }
 
+/// From this step on, labels would be too long for the place beside the axis.
+const LONG_STEP: f64 = 1e5;
+
 /// A tick's label with as many decimals as steps of `step` need.
 pub(super) fn label(value: f64, step: f64) -> String {
     let decimals = (-(libm::log10(step) + 1e-9).floor()).clamp(0.0, 9.0) as usize;
     let value = if value.abs() < 1e-6 * step { 0.0 } else { value };
-    format!("{value:.decimals$}").replace('-', "−")
+    // Of what has diverged the size matters, not its digits.
+    let text = if step >= LONG_STEP && value != 0.0 { format!("{value:e}") } else { format!("{value:.decimals$}") };
+    text.replace('-', "−")
 }
 
 /// The label of a tick at a logarithm.
@@ -204,6 +209,7 @@ mod tests {
         assert_eq!(label(15.0, 5.0), "15");
         assert_eq!(label(-1e-17, 2.0), "0");
         assert_eq!(label(-0.002, 0.001), "−0.002");
+        assert_eq!(label(-150_000_000.0, 50_000_000.0), "−1.5e8");
         assert_eq!([decade(-2.0), decade(3.0)], ["0.01", "1000"]);
     }
 

@@ -99,7 +99,11 @@ impl<'a> Figures<'a> {
             files.push(tracking::position(folder, self)?);
         }
         files.push(tracking::attitude(folder, self)?);
-        files.push(rotors::rotors(folder, self)?);
+        // The paper's decoupled equations have no rotors, and switch their inputs a hundred times between two rows:
+        // rows tell nothing of them. The figures of `paper` show their means.
+        if self.rows.is_empty() || rotors::turn(self.rows) {
+            files.push(rotors::rotors(folder, self)?);
+        }
         if self.kind == Kind::Tracking && tracking::errs(self.rows).next().is_some() {
             files.push(tracking::portraits(folder, self)?);
         }

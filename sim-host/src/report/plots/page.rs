@@ -38,12 +38,16 @@ pub(super) fn save(
 ) -> Result<()> {
     let page = Page::default();
     let beside = text_width(heading, TITLE_SIZE) + legend_width(legend) + 60.0 < f64::from(size.0);
-    // A legend that does not fit beside the heading stands below it.
-    let second = if beside { 0 } else { LEGEND };
-    let size = (size.0, size.1 + second);
-    let (top, rest) = page.area(size).split_below(f64::from(HEADING + second));
+    // A legend that does not fit beside the heading stands below it, in as many lines as it takes.
+    let lines = if beside { vec![legend] } else { legend_lines(legend, f64::from(size.0) - 40.0) };
+    let below = if beside { 0 } else { LEGEND * lines.len() as u32 };
+    let size = (size.0, size.1 + below);
+    let (top, rest) = page.area(size).split_below(f64::from(HEADING + below));
     draw_heading(&top.inner(0.0, 0.0, top.width, f64::from(HEADING)), heading);
-    draw_legend(&top, legend, f64::from(HEADING) * 0.5 + f64::from(second));
+    let first = f64::from(HEADING) * 0.5 + f64::from(if beside { 0 } else { LEGEND });
+    for (i, line) in lines.into_iter().enumerate() {
+        draw_legend(&top, line, first + f64::from(LEGEND) * i as f64);
+    }
     draw(&rest)?;
     fs::write(path, page.finish(size))
         .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))
@@ -76,6 +80,18 @@ fn draw_heading(area: &Area, heading: &str) {
 
 fn legend_width(legend: &[Key]) -> f64 {
     legend.iter().map(|key| text_width(key.name(), KEY_SIZE) + SAMPLE + GAP + NEXT).sum()
+}
+
+/// A legend in lines that fit into a width.
+fn legend_lines<'a, 'b>(mut legend: &'a [Key<'b>], width: f64) -> Vec<&'a [Key<'b>]> {
+    let mut lines = Vec::new();
+    while !legend.is_empty() {
+        let fits = (1..=legend.len()).take_while(|count| legend_width(&legend[..*count]) <= width).last();
+        let (line, rest) = legend.split_at(fits.unwrap_or(1));
+        lines.push(line);
+        legend = rest;
+    }
+    lines
 }
 
 /// From the right to the left, at a height.

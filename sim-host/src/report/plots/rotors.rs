@@ -27,13 +27,7 @@ pub(super) fn rotors(folder: &Path, figures: &Figures) -> Result<PathBuf> {
         let unit = Quantity::new(format!("U{}", axis + 2), Unit::NewtonMetre);
         demand(rows, axis + 1, &format!("{} torque demanded", ANGLES[axis]), unit)
     };
-    // Of the paper's decoupled equations, there are no rotors.
-    let turn = rows.iter().any(|row| row.omega.iter().any(|omega| *omega != 0.0));
-    let panels = if turn {
-        vec![thrust, pair(rows, 0), torque(0), pair(rows, 2), torque(1), torque(2)]
-    } else {
-        vec![thrust, torque(0), torque(1), torque(2)]
-    };
+    let panels = [thrust, pair(rows, 0), torque(0), pair(rows, 2), torque(1), torque(2)];
     let place = |panel: Panel| Panel {
         span: figures.span(),
         shaded: figures.disturbance.as_ref().map(|disturbance| disturbance.acting),
@@ -43,10 +37,14 @@ pub(super) fn rotors(folder: &Path, figures: &Figures) -> Result<PathBuf> {
     let panels: Vec<_> = panels.into_iter().map(place).collect();
     let path = folder.join("rotors.svg");
     let legend = figures.backdrop.keys();
-    let title = if turn { "Thrust and torques demanded, rotor speeds" } else { "Thrust and torques demanded" };
-    let heading = figures.heading(title);
+    let heading = figures.heading("Thrust and torques demanded, rotor speeds");
     save(&path, size_of(panels.len().div_ceil(2), 235), &heading, &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
+}
+
+/// Whether a rotor ever turns.
+pub(super) fn turn(rows: &[Row]) -> bool {
+    rows.iter().any(|row| row.omega.iter().any(|omega| *omega != 0.0))
 }
 
 fn demand(rows: &[Row], index: usize, title: &str, up: Quantity) -> Panel {

@@ -165,7 +165,7 @@ fn axes_have_units_and_figures_have_headings() {
     says("position", &["Position and its error", "made-up, seed 1", ">x, m<", ">t, s<", ">y error, m<"]);
     says("position", &["reference", "flown", "disturbance acts", "the same after 4 s", ">y error, mm<"]);
     says("attitude", &[">roll, °<", ">pitch error, °<"]);
-    says("rotors", &[">U1, N<", ">U2, mN m<", ">speed, rad/s<"]);
+    says("rotors", &[">U1, N<", ">U2, N m<", ">U3, mN m<", ">speed, rad/s<"]);
     says("phase", &[">y error, m<", ">y error rate, m/s<", "start"]);
     says("disturbance", &["disturbance, m/s²", "disturbance, rad/s²"]);
     says("path", &["x (north), m", "y (west), m", "z (up), m", "from above", "height"]);

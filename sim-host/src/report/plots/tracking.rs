@@ -50,7 +50,7 @@ pub(super) fn position(folder: &Path, figures: &Figures) -> Result<PathBuf> {
 /// # Errors
 /// As [`position`].
 pub(super) fn attitude(folder: &Path, figures: &Figures) -> Result<PathBuf> {
-    let rows = figures.rows;
+    let rows = &with_new_target(figures.rows);
     let absolute = |axis: usize| {
         let desired = |row: &Row| {
             if figures.backdrop.flies(row.t) { row.desired_attitude[axis].to_degrees() } else { f64::NAN }
@@ -65,6 +65,15 @@ pub(super) fn attitude(folder: &Path, figures: &Figures) -> Result<PathBuf> {
     let path = folder.join("attitude.svg");
     save_pairs(&path, figures, "Attitude and its error", rows, absolute, (ANGLES, Unit::Degree, error))?;
     Ok(path)
+}
+
+/// The rows at which a new attitude was demanded: until the next, the law extrapolates it, and the row does not say
+/// how. All rows where it never changes.
+fn with_new_target(rows: &[Row]) -> Vec<Row> {
+    let new = rows.windows(2).filter(|pair| pair[0].desired_attitude != pair[1].desired_attitude);
+    let first = rows.first().copied();
+    let kept: Vec<Row> = first.into_iter().chain(new.map(|pair| pair[1])).collect();
+    if kept.len() > 1 { kept } else { rows.to_vec() }
 }
 
 /// Error rate over error of x, y and z. Returns the file written.
