@@ -93,7 +93,7 @@ def measured_table(study, overall, on_sensors):
             ["the paper's own case: x, y, z follow, on average", f"from {follows['here']:.3f} s (the paper: 0.5 s)", "`paper`"],
             ["the helix on a vehicle with limits, from 5 m away", f"within 5 cm from {helix[1]}; the time-optimal bound is "
              f"{helix[2]}; then RMS {helix[4]} mm in x / y / z", "`run helix`"],
-            ["96 cells of disturbances: RMS of PID, geometric control and INDI over ours, geometric mean",
+            ["96 cells of disturbances: RMS of PID, geometric control and INDI over ours, median over the cells",
              " / ".join(others), "`compare x500`"],
             ["hover on GNSS in 5 m/s of wind, 100 seeds: 95 % within", f"{p95('outdoor-hover', 'horizontal-error-p95-m')} m "
              f"horizontally, {p95('outdoor-hover', 'height-wander-max-m')} m in height", "`assess outdoor-hover`"],
@@ -120,15 +120,18 @@ def compare():
 
 
 def comparison_row(overall, first):
-    median = lambda key: overall["medians"][key]["median"]
+    medians = overall["medians"]
+    median = lambda key: medians[key]["median"]
     millimetres = lambda key: "lost" if median(key) is None else f"{1e3 * median(key):.1f}"
     against = "" if overall is first else f"{overall['worse_cells']} of {overall['cells']}"
-    medians = overall["medians"]
     return [
         f"`{overall['controller']}`",
         millimetres("rms_m"),
         f"{overall['rms_ratio']:.2f}",
         millimetres("max_m"),
+        f"{1e-6 * median('chattering_rad2_s3'):.2f}",
+        f"{1e3 * median('torque_rms_n_m'):.0f}",
+        f"{1e2 * median('saturated_fraction'):.2f}",
         f"{medians['survived']} of {medians['flights']}",
         against,
     ]
@@ -138,9 +141,9 @@ def comparison_table(result):
     first, *_ = result["overall"]
     for overall in result["overall"]:
         overall["cells"] = len(result["cells"])
-        # What is better or worse is told of the first controller against this one.
     return table(
-        ["tuning", "RMS, mm", "its ratio to the first's", "maximum, mm", "survived", "cells with the greater RMS"],
+        ["tuning", "RMS, mm", "its ratio to the first's", "maximum, mm", "chattering, 10⁶ (rad/s)²/s", "torque RMS, mN m",
+         "saturated, %", "survived", "cells with the greater RMS"],
         [comparison_row(overall, first) for overall in result["overall"]],
     )
 

@@ -179,7 +179,8 @@ fn unit(key: &str) -> &'static str {
         ("_w", " W"),
     ];
     // An index of an array has the unit of its array.
-    let name = key.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('.');
+    let is_index = |end: &str| !end.is_empty() && end.bytes().all(|byte| byte.is_ascii_digit());
+    let name = key.rsplit_once('.').filter(|(_, end)| is_index(end)).map_or(key, |(array, _)| array);
     UNITS.iter().find(|(suffix, _)| name.ends_with(suffix)).map_or("", |(_, unit)| unit)
 }
 

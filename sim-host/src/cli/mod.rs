@@ -357,7 +357,7 @@ pub fn main() -> ExitCode {
         // What was flown has been reported.
         Err(error) if error.is::<Interrupted>() => ExitCode::from(interrupt::EXIT_CODE),
         Err(error) => {
-            eprintln!("sim-host: {}", one_line(&error));
+            complain(&one_line(&error));
             ExitCode::from(if error.is::<run::SomeFailed>() || pil::is_finding(&error) || error.is::<assess::Unmet>() {
                 1
             } else {
@@ -379,7 +379,7 @@ fn refuse(error: &clap::Error) -> ExitCode {
         .or(tip)
         .or_else(|| meant_command(error))
         .map_or(String::new(), |tip| format!(": {tip}"));
-    eprintln!("sim-host: {complaint}{tip} (see --help)");
+    complain(&format!("{complaint}{tip} (see --help)"));
     ExitCode::from(2)
 }
 
@@ -411,8 +411,13 @@ fn meant_command(error: &clap::Error) -> Option<String> {
 /// Says, once, that seeds were given to a scenario of which none makes a difference.
 fn note_idle_seeds(scenario: &Scenario, given: bool) {
     if given && !scenario.file.is_random() {
-        eprintln!("sim-host: note: the seed makes no difference: `{}` has no random part", scenario.name);
+        complain(&format!("note: the seed makes no difference: `{}` has no random part", scenario.name));
     }
+}
+
+/// Writes a line to standard error. If nobody can read it, the exit code still tells.
+fn complain(line: &str) {
+    let _ = writeln!(std::io::stderr(), "sim-host: {line}");
 }
 
 fn one_line(error: &anyhow::Error) -> String {

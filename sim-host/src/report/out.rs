@@ -14,9 +14,10 @@ use crate::paper::Study;
 use crate::paper::flights::Flights;
 
 /// Files by which a folder is known to be ours: one of them is written by every command with `--out`.
-const MARKS: [&str; 5] = ["provenance.toml", "summary.json", "compare.json", "analyse.json", "paper.json"];
+const MARKS: [&str; 4] = ["provenance.toml", "compare.json", "analyse.json", "paper.json"];
 /// What else such a folder may hold, besides figures and a folder per seed.
-const OURS: [&str; 8] = [
+const OURS: [&str; 9] = [
+    "summary.json",
     "truth.csv",
     "estimate.csv",
     "scenario.toml",
@@ -113,12 +114,7 @@ fn resolved(target: &Path) -> Result<PathBuf> {
 
 /// Refuses to replace what is not ours.
 fn refuse_foreign(target: &Path) -> Result<()> {
-    let Ok(entries) = fs::read_dir(target) else { return Ok(()) };
-    let names: Vec<String> =
-        entries.filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned())).collect();
-    let known = names.iter().any(|name| MARKS.contains(&name.as_str()));
-    let foreign = |name: &&String| !known || !is_ours(name);
-    match names.iter().find(foreign) {
+    match foreign(target) {
         None => Ok(()),
         Some(name) => bail!(
             "--out {}: it holds `{name}`, which no run has written, and would be replaced as a whole: name another \
@@ -126,6 +122,19 @@ fn refuse_foreign(target: &Path) -> Result<()> {
             target.display()
         ),
     }
+}
+
+/// The name of something in a folder that no run has written. A folder of ours has a file that tells so, or holds
+/// folders of ours, a seed each.
+fn foreign(folder: &Path) -> Option<String> {
+    let names: Vec<String> = fs::read_dir(folder)
+        .ok()?
+        .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
+        .collect();
+    let mut in_seeds = names.iter().filter(|name| name.starts_with("seed-"));
+    let in_seeds = in_seeds.find_map(|name| Some(format!("{name}/{}", foreign(&folder.join(name))?)));
+    let known = names.iter().any(|name| MARKS.contains(&name.as_str()) || name.starts_with("seed-"));
+    in_seeds.or_else(|| names.into_iter().find(|name| !known || !is_ours(name)))
 }
 
 fn is_figure(name: &str) -> bool {
