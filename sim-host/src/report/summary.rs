@@ -130,9 +130,6 @@ pub struct Summary {
     /// Whether the paper's claims belong beside these figures.
     #[serde(skip)]
     pub papers_helix: bool,
-    /// Whether there are rotors, whose speeds can chatter and saturate.
-    #[serde(skip)]
-    pub has_rotors: bool,
 }
 
 impl Summary {
@@ -160,7 +157,6 @@ impl Summary {
             control_effort: metrics.control_effort(),
             attitude_error: metrics.tilt(),
             papers_helix: flight.papers_helix,
-            has_rotors: flight.has_rotors,
             sensed: None,
             told: None,
             recovery_s: recovery.map(|r| if survived { r } else { Recovery::default() }),

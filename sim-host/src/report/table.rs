@@ -143,7 +143,8 @@ fn figures(summary: &Summary) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: &str| writeln!(text, "{name:<18}  {value}").expect("a string takes every byte");
     // Without rotors (`paper-decoupled`) the inputs switch between the rows, and figures of them would mislead.
-    if summary.sensed.is_none() && summary.has_rotors {
+    let has_rotors = summary.chattering.is_some();
+    if summary.sensed.is_none() && has_rotors {
         line(
             "chattering",
             &format!(
@@ -163,7 +164,7 @@ fn figures(summary: &Summary) -> String {
             ),
         );
     }
-    if summary.has_rotors {
+    if has_rotors {
         line("saturated", &format!("{:.2} % of the ticks", 100.0 * summary.saturated_fraction));
     }
     line(
