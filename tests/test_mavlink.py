@@ -312,7 +312,7 @@ def test_without_satellites_it_lands(vehicle, station):
     climb(station)
     assert inject(station, mavlink.FAILURE_UNIT_SENSOR_GPS, mavlink.FAILURE_TYPE_OFF) == mavlink.MAV_RESULT_ACCEPTED
     station.wait("SYS_STATUS", lambda status: not gps_is_healthy(status), within_ms=3_000)
-    station.wait("STATUSTEXT", lambda text: "osition lost" in text.text, within_ms=10_000)
+    station.wait("STATUSTEXT", lambda text: "osition estimate lost" in text.text, within_ms=10_000)
     station.wait("HEARTBEAT", lambda heartbeat: not is_armed(heartbeat), within_ms=60_000)
     assert abs(station.wait("LOCAL_POSITION_NED").z) < 1
     assert inject(station, mavlink.FAILURE_UNIT_SENSOR_GPS, mavlink.FAILURE_TYPE_OK) == mavlink.MAV_RESULT_ACCEPTED
