@@ -58,7 +58,7 @@ pub struct Aligner {
 
 impl Aligner {
     /// Adds one job's sums and samples. Returns the alignment once the window is full; if the vehicle moved, the window
-    /// starts again until [`PATIENCE`] is used up.
+    /// starts again until `PATIENCE` is used up.
     pub fn update(
         &mut self,
         span: &Span,

@@ -1,7 +1,7 @@
 //! Where lines are typed and printed: a terminal, or pipes.
 //!
 //! On a terminal the typed line is kept below what is printed, so that neither tears the other apart: the terminal's own
-//! echo and line editing are switched off, and [`Editor`] takes their place. With pipes, whole lines go in and out.
+//! echo and line editing are switched off, and `Editor` takes their place. With pipes, whole lines go in and out.
 
 use std::io::{IsTerminal as _, Read as _, Write as _};
 use std::sync::mpsc::{Receiver, channel};

@@ -9,12 +9,12 @@
 //! Rules, the same in every figure:
 //! - A figure is named and titled by what it shows; its heading names scenario and seed.
 //! - The reference is a wide light line below a thin dark one. Where both coincide, the error is drawn beside them.
-//! - Axes have round ticks and a least span ([`axis`]), so that numerical noise is not blown up.
+//! - Axes have round ticks and a least span (`axis`), so that numerical noise is not blown up.
 //! - Lines are interrupted where a reference jumps or an angle passes 180°. Long series are thinned without losing
 //!   their peaks, so that a file stays below 300 kB.
 //!
-//! To draw another figure: make [`Panel`](panel::Panel)s of [`Points`](series::Points), and hand them to
-//! [`grid`](page::grid) within [`save`](page::save).
+//! To draw another figure: make `Panel`s of `Points`, and hand them to
+//! `grid` within `save`.
 
 pub mod analysis;
 mod axis;
