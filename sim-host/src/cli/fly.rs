@@ -161,7 +161,7 @@ struct Provenance<'a> {
     again: String,
 }
 
-fn provenance(folder: &OutFolder, scenario: &Scenario, settings: &[String], seed: u64) -> Result<()> {
+pub(super) fn provenance(folder: &OutFolder, scenario: &Scenario, settings: &[String], seed: u64) -> Result<()> {
     let provenance = Provenance {
         program: "sim-host",
         version: env!("CARGO_PKG_VERSION"),

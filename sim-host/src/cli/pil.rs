@@ -35,6 +35,7 @@ pub(super) fn run(args: &PilArgs) -> Result<()> {
     let (summary, wall_s) = match &staged {
         Some(staged) => {
             let folder = staged.folder();
+            report_of::provenance(&folder, &scenario, &args.which.settings.set, args.seed)?;
             let flown = fly(&scenario, args.seed, pil, folder.truth()?, bar)?;
             folder.summary(&flown.0)?;
             flown

@@ -316,9 +316,16 @@ mod tests {
         fs::write(target.join("thesis.tex"), "years of work").expect("can be written");
         let refused = |target: &Path| format!("{:#}", Staged::begin(target).expect_err("it holds a thesis"));
         assert!(refused(&target).contains("thesis.tex"));
-        fs::write(target.join("summary.json"), "{}").expect("can be written");
+        fs::write(target.join("provenance.toml"), "").expect("can be written");
         assert!(refused(&target).contains("thesis.tex"), "beside a flight of ours too");
-        assert!(target.join("thesis.tex").exists());
+        fs::create_dir_all(target.join("seed-1")).expect("can be made");
+        fs::rename(target.join("thesis.tex"), target.join("seed-1/thesis.tex")).expect("can be moved");
+        assert!(refused(&target).contains("seed-1/thesis.tex"), "in a folder of a seed too");
+        assert!(target.join("seed-1/thesis.tex").exists());
+        let target = place("namesake");
+        fs::create_dir_all(&target).expect("can be made");
+        fs::write(target.join("summary.json"), "{}").expect("can be written");
+        assert!(refused(&target).contains("summary.json"), "a file of that name alone is no flight of ours");
     }
 
     #[test]
