@@ -68,6 +68,7 @@ pub mod noise;
 pub mod paper;
 pub mod pil;
 pub mod pilot;
+#[cfg(feature = "search")]
 pub mod plan;
 pub mod plant;
 pub mod record;

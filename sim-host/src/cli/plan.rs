@@ -1,10 +1,20 @@
 //! `plan`: finds the path that joins a scenario's trajectory soonest.
 
-use anyhow::{Context, Result};
+#[cfg(feature = "search")]
+use anyhow::Context as _;
+use anyhow::Result;
 
 use super::Which;
+#[cfg(feature = "search")]
 use crate::report::progress;
 
+#[cfg(not(feature = "search"))]
+pub(super) fn run(which: &Which, _seed: u64, _flights: usize) -> Result<()> {
+    which.load()?;
+    crate::tune::require_optimisers("plan")
+}
+
+#[cfg(feature = "search")]
 pub(super) fn run(which: &Which, seed: u64, flights: usize) -> Result<()> {
     let scenario = which.load()?;
     let bar = progress::of_flights(flights as u64, true);

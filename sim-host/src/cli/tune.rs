@@ -9,11 +9,12 @@ use sha2::{Digest as _, Sha256};
 
 use super::TuneArgs;
 use crate::report::{OutFolder, plots, progress, truth};
-use crate::tune::{Iteration, Journal, Parameter, Run, Settings, State, Tune};
+use crate::tune::{Iteration, Journal, Parameter, Run, Settings, State, Tune, require_optimisers};
 
 pub(super) fn run(args: &TuneArgs) -> Result<()> {
     settings(args).validate()?;
     let tune = Tune::load(&args.tune)?;
+    require_optimisers("tune")?;
     let journal = journal(args, &tune)?;
     let bar = progress::of_search((args.particles * args.iterations) as u64, true);
     let pool = args.threads.pool(u64::MAX)?;

@@ -26,5 +26,6 @@ mod pil;
 mod sensor_flights;
 mod sensor_streams;
 mod trajectories;
+#[cfg(feature = "search")]
 mod tune;
 mod world;

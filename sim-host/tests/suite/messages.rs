@@ -351,6 +351,7 @@ fn too_few_seeds_are_not_judged() {
     assert!(out.contains("too few seeds, 20 needed") && !out.contains("NOT MET"), "{out}");
 }
 
+#[cfg(feature = "search")]
 #[test]
 fn a_search_that_ends_no_better_than_it_began_says_so() {
     let folder = Folder::new("tune");
@@ -369,6 +370,7 @@ fn a_search_that_ends_no_better_than_it_began_says_so() {
 }
 
 /// One short flight.
+#[cfg(feature = "search")]
 const COURSE: &str = "\
 summary = \"one flight\"
 matrix = \"x500\"
