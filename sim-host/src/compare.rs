@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use anyhow::{Result, ensure};
-use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use crate::controller::Controller;
 use crate::matrix::{Case, Matrix};
+use crate::parallel;
 use crate::scenario::{self, Scenario};
 use crate::score::{self, Score};
 use crate::seeds::Seeds;
@@ -284,7 +284,7 @@ impl<'a> Contest<'a> {
                 score,
             })
         };
-        Ok(self.judge(sorties.par_iter().map(fly).collect::<Result<_>>()?))
+        Ok(self.judge(parallel::try_map(&sorties, fly)?))
     }
 
     /// The flights, in the order of [`fly`](Self::fly), as a comparison.

@@ -66,6 +66,7 @@ pub mod link;
 pub mod matrix;
 pub mod noise;
 pub mod paper;
+mod parallel;
 pub mod pil;
 pub mod pilot;
 #[cfg(feature = "search")]

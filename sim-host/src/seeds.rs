@@ -21,6 +21,11 @@ impl Seeds {
         self.last - self.first + 1
     }
 
+    /// All of them.
+    pub fn all(self) -> Vec<u64> {
+        (self.first..=self.last).collect()
+    }
+
     /// Whether a seed is in both ranges.
     pub fn overlaps(self, other: Self) -> bool {
         self.first <= other.last && other.first <= self.last

@@ -40,13 +40,13 @@ use firmware::control::attitude::SlidingAttitude;
 use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
 use nalgebra::Complex;
-use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
 use serde::Serialize;
 
 use crate::baseline::geometric::{GeometricAttitude, GeometricPosition};
 use crate::baseline::indi::{IndiAttitude, IndiPosition};
 use crate::baseline::pid::{PidAttitude, PidPosition};
 use crate::controller::Controller;
+use crate::parallel;
 use crate::scenario::Scenario;
 use linear::{AttitudeAt, LoopAt, Which};
 pub use margins::{GainMargin, Margins, Sample};
@@ -196,13 +196,13 @@ where
 {
     let vehicle = Vehicle::new(hover)?;
     let rig = Rig { scenario: hover, vehicle: &vehicle, laws: (attitude, position) };
-    let attitude: Vec<_> = [0, 1, 2].into_par_iter().map(|axis| attitude_of(&rig, axis)).collect::<Result<_>>()?;
+    let attitude: Vec<_> = parallel::try_map(&[0, 1, 2], |axis| attitude_of(&rig, *axis))?;
     let (attitude, variances): (Vec<Attitude>, Vec<f64>) = attitude.into_iter().unzip();
     let per_sample = variances.iter().sum::<f64>().sqrt();
     Ok(Analysis {
         scenario: hover.name.clone(),
         controller: hover.controller.name(),
-        loops: Which::ALL.into_par_iter().map(|which| loop_of(&rig, which)).collect::<Result<_>>()?,
+        loops: parallel::try_map(&Which::ALL, |which| loop_of(&rig, *which))?,
         attitude,
         noise: Noise {
             per_sample,
@@ -223,10 +223,10 @@ where
     let nyquist = core::f64::consts::PI / which.step_s();
     let at = |omega: f64| which.at(rig.laws, rig.vehicle, omega);
     let first = if which.step_s() > 2e-3 { 0.5 } else { 1.0 };
-    let response: Vec<Sample> = frequencies(first, 0.99 * nyquist, POINTS)
-        .par_iter()
-        .map(|omega| Sample { omega_rad_s: *omega, value: at(*omega).value })
-        .collect();
+    let response: Vec<Sample> = parallel::map(&frequencies(first, 0.99 * nyquist, POINTS), |omega| Sample {
+        omega_rad_s: *omega,
+        value: at(*omega).value,
+    });
     let margins = Margins::of(&response, Some(nyquist));
     let mut made = Loop { name: which.name(), stable: true, margins, checks: vec![], margin_checks: vec![], response };
     let Some(crossover) = margins.crossover_rad_s else { return Ok(made) };
@@ -283,13 +283,10 @@ where
 {
     let nyquist = core::f64::consts::PI / Which::Attitude(axis).step_s();
     let share = rig.vehicle.omega_per_torque[axis].norm() / 2.0;
-    let points: Vec<(f64, f64, f64)> = frequencies(1.0, 0.99 * nyquist, POINTS)
-        .par_iter()
-        .map(|omega| {
-            let at = AttitudeAt::new(rig.laws.0, rig.vehicle, axis, *omega);
-            (*omega, size(at.followed()), share * size(at.command_for_rate_noise()))
-        })
-        .collect();
+    let points: Vec<(f64, f64, f64)> = parallel::map(&frequencies(1.0, 0.99 * nyquist, POINTS), |omega| {
+        let at = AttitudeAt::new(rig.laws.0, rig.vehicle, axis, *omega);
+        (*omega, size(at.followed()), share * size(at.command_for_rate_noise()))
+    });
     let noise_gain: Vec<(f64, f64)> = points.iter().map(|(omega, _, gain)| (*omega, *gain)).collect();
     let variance = mean_square(&noise_gain, nyquist);
     let bandwidth_rad_s = bandwidth(&points);

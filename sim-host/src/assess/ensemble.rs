@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use anyhow::{Context, Result};
-use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use serde::Serialize;
 
 use super::consistency::{Innovations, STATES};
 use super::{Assess, Expectation, Measure, Measures};
 use crate::flight;
+use crate::parallel;
 use crate::scenario::Scenario;
 use crate::seeds::Seeds;
 
@@ -131,14 +131,11 @@ pub fn fly(scenario: &Scenario, seeds: Seeds, flown: impl Fn() + Sync) -> Result
         )
     })?;
     assess.require_part_of(scenario.file.duration_s).with_context(|| format!("scenario `{}`", scenario.name))?;
-    let measured: Vec<Measures> = (seeds.first..=seeds.last)
-        .into_par_iter()
-        .map(|seed| {
-            let measures = flight::assess(scenario, assess, seed);
-            flown();
-            measures
-        })
-        .collect::<Result<_>>()?;
+    let measured: Vec<Measures> = parallel::try_map(&seeds.all(), |seed| {
+        let measures = flight::assess(scenario, assess, *seed);
+        flown();
+        measures
+    })?;
     Ok(report(&scenario.name, seeds, assess, &measured))
 }
 

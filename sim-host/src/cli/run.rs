@@ -1,10 +1,10 @@
 //! `run`: flies a scenario, for one seed or many, and reports.
 
 use anyhow::{Result, bail, ensure};
-use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
 use super::{RunArgs, fly};
 use crate::interrupt::{self, Interrupted};
+use crate::parallel;
 use crate::report::summary::{self, Row};
 use crate::report::{OutFolder, Paint, Staged, progress, table};
 use crate::scenario::Scenario;
@@ -65,12 +65,12 @@ fn many(args: &RunArgs, scenario: &Scenario, seeds: Seeds, staged: Option<Staged
 fn fly_all(args: &RunArgs, scenario: &Scenario, seeds: Seeds, folder: Option<&OutFolder>) -> Result<Vec<Row>> {
     let bar = progress::of_flights(seeds.count(), !args.json);
     let pool = args.threads.pool(seeds.count())?;
-    let fly_one = |seed: u64| {
-        let row = (!interrupt::requested()).then(|| fly_seed(args, scenario, seed, folder));
+    let fly_one = |seed: &u64| {
+        let row = (!interrupt::requested()).then(|| fly_seed(args, scenario, *seed, folder));
         bar.inc(1);
         row
     };
-    let rows = pool.install(|| (seeds.first..=seeds.last).into_par_iter().filter_map(fly_one).collect());
+    let rows = pool.install(|| parallel::map(&seeds.all(), fly_one)).into_iter().flatten().collect();
     bar.finish_and_clear();
     Ok(rows)
 }

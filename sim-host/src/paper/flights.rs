@@ -3,12 +3,12 @@
 use anyhow::Result;
 use firmware::control::sliding::AxisGains;
 use firmware::guidance::Guidance;
-use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
 use super::approach::Approach;
 use crate::controller::{Control, Controller};
 use crate::decoupled::STEP_S;
 use crate::flight;
+use crate::parallel;
 use crate::record::Row;
 use crate::report::metrics::{TRACKING_FROM_S, angle_errors, errors};
 use crate::report::{Metrics, Settling, TruthWriter};
@@ -94,7 +94,7 @@ impl Flights {
     /// None with the built-in scenarios.
     pub fn fly(done: impl Fn() + Sync) -> Result<Self> {
         let fly = |(name, settings, what): &(&str, &[&str], &str)| Flown::new(name, settings, what).inspect(|_| done());
-        let flown: Vec<Flown> = FLOWN.par_iter().map(fly).collect::<Result<_>>()?;
+        let flown: Vec<Flown> = parallel::try_map(&FLOWN, fly)?;
         let flown = <[Flown; FLOWN.len()]>::try_from(flown);
         let [ideal, attitude, disturbed, disturbed_output, literal, literal_strong, literal_thin, literal_slow, helix] =
             flown.map_err(|flown| anyhow::anyhow!("{} flights in place of {}", flown.len(), FLOWN.len()))?;

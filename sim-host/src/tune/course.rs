@@ -1,7 +1,6 @@
 //! A course: the flights and weights by which a controller is judged while it is tuned.
 
 use anyhow::{Context, Result, bail, ensure};
-use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 use serde::{Deserialize, Serialize};
 
 use super::COURSES;
@@ -9,6 +8,7 @@ use crate::controller::Controller;
 use crate::files;
 use crate::flight;
 use crate::matrix::{Case, Matrix};
+use crate::parallel;
 use crate::record::{LOST_M, Recorder, Row};
 use crate::refusal::did_you_mean;
 use crate::report::measures::Size;
@@ -212,7 +212,7 @@ impl Course {
     /// Cost of a controller: the mean over the flights, flown on the threads of the pool in which it is called.
     pub fn cost(&self, controller: &Controller) -> f64 {
         let cost = |sortie: &Sortie| sortie.cost(controller, &self.weights).unwrap_or(self.weights.refused());
-        let costs: Vec<f64> = self.sorties.par_iter().map(cost).collect();
+        let costs = parallel::map(&self.sorties, cost);
         // Summed in the order of the flights, whichever thread flew them.
         costs.iter().sum::<f64>() / costs.len() as f64
     }

@@ -1,10 +1,10 @@
 //! A run: a search, its journal and its progress.
 
 use anyhow::Result;
-use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
 use super::journal::Journal;
 use super::search::{Settings, search};
+use crate::parallel;
 
 /// An iteration's result.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +96,7 @@ impl<C: Fn(&[f64]) -> f64 + Sync> Run<C> {
             }
         }
         let unknown = &points[costs.len()..];
-        let found: Vec<f64> = unknown.par_iter().map(|point| (self.cost)(point)).collect();
+        let found = parallel::map(unknown, |point| (self.cost)(point));
         self.journal.append(unknown, &found)?;
         costs.extend(found);
         Ok(costs)
