@@ -1,10 +1,11 @@
 //! Files of ours: built into the binary by name, or read from a path; TOML, and errors in one line.
 
 use std::fmt;
+use std::fs;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
 
-use anyhow::{Context, Error, Result, anyhow, bail};
+use anyhow::{Error, Result, anyhow, bail, ensure};
 use serde::de::DeserializeOwned;
 use toml::Table;
 use toml::de::{DeTable, DeValue};
@@ -128,20 +129,29 @@ fn read_text(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String
     if Path::new(name).is_dir() {
         bail!(folder(name, kind));
     }
-    let cannot = || format!("cannot read {kind} file `{name}`");
-    let file = std::fs::File::open(name).map_err(|error| {
-        let remedy = built_in_of(name, built_in).filter(|_| error.kind() == ErrorKind::NotFound);
+    let cannot = format!("cannot read {kind} file `{name}`");
+    read_regular(Path::new(name), LARGEST).map_err(|error| {
+        let is_missing = error.downcast_ref::<std::io::Error>().is_some_and(|e| e.kind() == ErrorKind::NotFound);
+        let remedy = built_in_of(name, built_in).filter(|_| is_missing);
         let remedy = remedy.map_or(String::new(), |near| format!(": did you mean the built-in `{near}`?"));
-        anyhow!("{}: {error}{remedy}", cannot())
-    })?;
+        anyhow!("{cannot}: {error}{remedy}")
+    })
+}
+
+/// The text of a file of at most `largest` bytes.
+///
+/// # Errors
+/// What the system says, or why it is no such text: a FIFO or a device, which might never end, too large, not UTF-8.
+/// The path is left to the caller.
+pub(crate) fn read_regular(path: &Path, largest: u64) -> Result<String> {
+    let is_other = |kind: fs::FileType| !kind.is_file() && !kind.is_dir();
+    ensure!(!is_other(fs::metadata(path)?.file_type()), "it is not a regular file: write the text to one and give its path");
     let mut bytes = Vec::new();
-    file.take(LARGEST + 1).read_to_end(&mut bytes).with_context(cannot)?;
-    if bytes.len() as u64 > LARGEST {
-        bail!("{}: it is larger than {} MiB, which no {kind} file is", cannot(), LARGEST >> 20);
-    }
+    fs::File::open(path)?.take(largest + 1).read_to_end(&mut bytes)?;
+    ensure!(bytes.len() as u64 <= largest, "it is larger than {} MiB, the most that is read", largest >> 20);
     String::from_utf8(bytes).map_err(|error| {
         let line = line(&String::from_utf8_lossy(error.as_bytes()), error.utf8_error().valid_up_to());
-        anyhow!("{}: line {line} is not UTF-8: is it a text file?", cannot())
+        anyhow!("line {line} is not UTF-8: is it a text file?")
     })
 }
 

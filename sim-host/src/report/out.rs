@@ -101,7 +101,7 @@ fn resolved(target: &Path) -> Result<PathBuf> {
     if !target.exists() {
         return Ok(target.to_owned());
     }
-    ensure!(target.is_dir(), "--out {}: it is a file: name a folder", target.display());
+    ensure!(target.is_dir(), "--out {}: it is no folder: name a folder", target.display());
     let whole = target.canonicalize().with_context(|| format!("cannot read {}", target.display()))?;
     let here = std::env::current_dir().and_then(|here| here.canonicalize());
     ensure!(

@@ -274,12 +274,33 @@ fn a_file_that_is_none_says_what_it_is() {
     folder.file("runs/helix/scenario.toml", SCENARIO);
     for (name, parts) in [
         ("bytes.toml", &["scenario file `bytes.toml`", "line 2 is not UTF-8"][..]),
-        ("huge.toml", &["scenario file `huge.toml`", "larger than 1 MiB"]),
+        ("huge.toml", &["scenario file `huge.toml`", "larger than 1 MiB, the most that is read"]),
         ("runs/helix", &["`runs/helix`", "folder", "give `runs/helix/scenario.toml`"]),
         ("runs/other", &["`runs/other`", "folder", "path of a scenario file"]),
         ("gone.toml", &["scenario file `gone.toml`", "No such file"]),
     ] {
         folder.refuses(&["run", name], parts);
+    }
+}
+
+#[test]
+fn what_might_never_end_is_not_read() {
+    let folder = Folder::new("fifo");
+    for name in ["fifo.toml", "fifo.csv", "fifo"] {
+        let path = folder.0.join(name);
+        rustix::fs::mkfifoat(rustix::fs::CWD, &path, rustix::fs::Mode::RUSR).expect("the temporary folder can be written");
+    }
+    let cure = "it is not a regular file: write the text to one and give its path";
+    folder.refuses(&["run", "fifo.toml"], &["scenario file `fifo.toml`", cure]);
+    folder.refuses(&["run", "/dev/zero"], &["scenario file `/dev/zero`", cure]);
+    folder.refuses(&["compare", "/dev/zero"], &["matrix file `/dev/zero`", cure]);
+    folder.refuses_settings("x500-hover", &["tuning=fifo.toml"], &["tuning file `fifo.toml`", cure]);
+    for file in ["fifo.csv", "/dev/zero"] {
+        let trajectory = format!("trajectory={{csv={{file=\"{file}\"}}}}");
+        folder.refuses_settings("x500-hover", &[&trajectory], &["`trajectory.csv`", file, cure]);
+    }
+    for command in [&["run", "helix"][..], &["analyse", "x500-hover"], &["paper"]] {
+        folder.refuses(&[command, &["--out", "fifo"]].concat(), &["--out fifo", "it is no folder: name a folder"]);
     }
 }
 
