@@ -53,11 +53,19 @@ impl Source {
         Ok(Self { kind, name: name.to_owned(), text, is_path })
     }
 
+    /// A built-in file, or the file at a path, which a key names.
+    ///
+    /// # Errors
+    /// A refusal of the key.
+    pub(crate) fn named(key: &str, name: &str, kind: &'static str, built_in: &[(&str, &str)]) -> Result<Self> {
+        Self::read(name, kind, built_in).map_err(|error| Refusal::new(key, format!(": {error:#}")).into())
+    }
+
     /// As a table.
     pub(crate) fn table(&self) -> Result<Table> {
         self.text.parse::<Table>().map_err(|error| {
             let line = error.span().map_or(1, |span| line(&self.text, span.start));
-            anyhow!("{self}, line {line}: {}", error.message().trim().replace('\n', " "))
+            anyhow!("{self}, line {line}: {}", plain(error.message(), self.text.lines().nth(line - 1)))
         })
     }
 
@@ -96,6 +104,17 @@ impl Source {
         }
         at
     }
+}
+
+/// What the TOML parser says, in plain words; `text` is the line that it is about.
+fn plain(message: &str, text: Option<&str>) -> String {
+    if message.contains("i128") || message.contains("overflowed") {
+        let key = text.and_then(|text| text.split_once('=')).map_or("a number", |(key, _)| key.trim());
+        return format!("`{key}` is too large: whole numbers go to {}, others to {:e}", i64::MAX, f64::MAX);
+    }
+    let message = message.trim().replace('\n', " ");
+    // What could follow helps nobody here.
+    [", expected nothing", ", expected literal string"].iter().fold(message, |text, tail| text.replace(tail, ""))
 }
 
 /// The number of the line in which a byte of a text stands.
@@ -145,7 +164,10 @@ fn read_text(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String
 /// The path is left to the caller.
 pub(crate) fn read_regular(path: &Path, largest: u64) -> Result<String> {
     let is_other = |kind: fs::FileType| !kind.is_file() && !kind.is_dir();
-    ensure!(!is_other(fs::metadata(path)?.file_type()), "it is not a regular file: write the text to one and give its path");
+    ensure!(
+        !is_other(fs::metadata(path)?.file_type()),
+        "it is not a regular file: write the text to one and give its path"
+    );
     let mut bytes = Vec::new();
     fs::File::open(path)?.take(largest + 1).read_to_end(&mut bytes)?;
     ensure!(bytes.len() as u64 <= largest, "it is larger than {} MiB, the most that is read", largest >> 20);

@@ -87,3 +87,4 @@ pub mod statistics;
 pub mod sweep;
 pub mod tune;
 pub mod weather;
+mod words;

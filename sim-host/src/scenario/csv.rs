@@ -49,7 +49,9 @@ fn rows(text: &str) -> Result<Vec<Row>> {
     let mut columns = [0; 4];
     for (column, name) in columns.iter_mut().zip(COLUMNS) {
         *column = place(name).ok_or_else(|| {
-            anyhow!("line {line}: no column `{name}` in `{header}`: it must have t_s, x_m, y_m, z_m, and may have yaw_rad")
+            anyhow!(
+                "line {line}: no column `{name}` in `{header}`: it must have t_s, x_m, y_m, z_m, and may have yaw_rad"
+            )
         })?;
     }
     let yaw = place(YAW);
@@ -59,7 +61,11 @@ fn rows(text: &str) -> Result<Vec<Row>> {
         let row = row(line, text, columns, yaw)?;
         rows.push(after(rows.last(), row)?);
     }
-    ensure!(rows.len() >= ROWS_MIN, "it must have {ROWS_MIN} rows or more below the columns' names, not {}", rows.len());
+    ensure!(
+        rows.len() >= ROWS_MIN,
+        "it must have {ROWS_MIN} rows or more below the columns' names, not {}",
+        rows.len()
+    );
     Ok(rows)
 }
 
