@@ -12,6 +12,7 @@ use super::{Figures, Summary, TruthWriter, comparison, paper, plots};
 use crate::compare::Comparison;
 use crate::paper::Study;
 use crate::paper::flights::Flights;
+use crate::words::counted;
 
 /// Files by which a folder is known to be ours: one of them is written by every command with `--out`.
 const MARKS: [&str; 4] = ["provenance.toml", "compare.json", "analyse.json", "paper.json"];
@@ -158,13 +159,11 @@ fn contents(folder: &Path) -> std::io::Result<String> {
         }
     }
     names.sort();
-    let mut counted = |count: i32, what: &str| {
+    for (count, noun) in [(figures, "figure"), (seeds, "folder")] {
         if count > 0 {
-            names.insert(0, format!("{count} {what}{}", if count > 1 { "s" } else { "" }));
+            names.insert(0, counted(count, noun));
         }
-    };
-    counted(figures, "figure");
-    counted(seeds, "folder");
+    }
     Ok(names.join(", "))
 }
 
