@@ -66,7 +66,7 @@ impl ConfigError {
     /// `field`, if it is not.
     pub fn require_positive(field: impl Into<Field>, value: f32) -> Result<(), Self> {
         let field = field.into();
-        if value.is_finite() && value <= 0.0 {
+        if value <= 0.0 {
             return Err(Self::NotPositive(field));
         }
         Self::require_within(field, value, SMALLEST, LARGEST)
@@ -78,19 +78,19 @@ impl ConfigError {
     /// `field`, if it is not.
     pub fn require_not_negative(field: impl Into<Field>, value: f32) -> Result<(), Self> {
         let field = field.into();
-        if value.is_finite() && value < 0.0 {
+        if value < 0.0 {
             return Err(Self::Negative(field));
         }
         Self::require_within(field, value, 0.0, LARGEST)
     }
 
-    /// Checks that `value` is finite and within `low ..= high`.
+    /// Checks that `value` is a number within `low ..= high`.
     ///
     /// # Errors
     /// `field`, if it is not.
     pub fn require_within(field: impl Into<Field>, value: f32, low: f32, high: f32) -> Result<(), Self> {
         let field = field.into();
-        if !value.is_finite() {
+        if value.is_nan() {
             Err(Self::NonFinite(field))
         } else if (low..=high).contains(&value) {
             Ok(())

@@ -22,6 +22,11 @@ pub struct Rotor {
     pub yaw_n_m_s2: f64,
 }
 
+/// Least and greatest thrust over weight: below, it cannot climb; above, ωmax is no speed of a rotor.
+pub(crate) const THRUST_TO_WEIGHT: (f64, f64) = (1.01, 1e3);
+/// Slowest rotors, s.
+pub(crate) const ROTOR_LAG_MAX_S: f64 = 10.0;
+
 /// How many points a battery's curve has: at 0, 10, …, 100 % of its charge.
 pub const CURVE_POINTS: usize = 11;
 
@@ -117,7 +122,8 @@ impl AirframeFile {
         let positive = |name: &str, value| above_zero(&format!("airframe.{name}"), value);
         positive("mass_kg", self.mass_kg)?;
         positive("gravity_m_s2", self.gravity_m_s2)?;
-        positive("thrust_to_weight", self.thrust_to_weight)?;
+        within("airframe.thrust_to_weight", self.thrust_to_weight, THRUST_TO_WEIGHT.0, THRUST_TO_WEIGHT.1)?;
+        within("airframe.rotor_lag_s", self.rotor_lag_s, 0.0, ROTOR_LAG_MAX_S)?;
         for (i, moment) in self.inertia_kg_m2.iter().enumerate() {
             positive(&format!("inertia_kg_m2.{i}"), *moment)?;
         }

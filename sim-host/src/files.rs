@@ -1,10 +1,11 @@
 //! Files of ours: built into the binary by name, or read from a path; TOML, and errors in one line.
 
 use std::fmt;
+use std::fs;
 use std::io::{ErrorKind, Read as _};
 use std::path::Path;
 
-use anyhow::{Context, Error, Result, anyhow, bail};
+use anyhow::{Error, Result, anyhow, bail, ensure};
 use serde::de::DeserializeOwned;
 use toml::Table;
 use toml::de::{DeTable, DeValue};
@@ -52,11 +53,19 @@ impl Source {
         Ok(Self { kind, name: name.to_owned(), text, is_path })
     }
 
+    /// A built-in file, or the file at a path, which a key names.
+    ///
+    /// # Errors
+    /// A refusal of the key.
+    pub(crate) fn named(key: &str, name: &str, kind: &'static str, built_in: &[(&str, &str)]) -> Result<Self> {
+        Self::read(name, kind, built_in).map_err(|error| Refusal::new(key, format!(": {error:#}")).into())
+    }
+
     /// As a table.
     pub(crate) fn table(&self) -> Result<Table> {
         self.text.parse::<Table>().map_err(|error| {
             let line = error.span().map_or(1, |span| line(&self.text, span.start));
-            anyhow!("{self}, line {line}: {}", error.message().trim().replace('\n', " "))
+            anyhow!("{self}, line {line}: {}", plain(error.message(), self.text.lines().nth(line - 1)))
         })
     }
 
@@ -97,6 +106,17 @@ impl Source {
     }
 }
 
+/// What the TOML parser says, in plain words; `text` is the line that it is about.
+fn plain(message: &str, text: Option<&str>) -> String {
+    if message.contains("i128") || message.contains("overflowed") {
+        let key = text.and_then(|text| text.split_once('=')).map_or("a number", |(key, _)| key.trim());
+        return format!("`{key}` is too large: whole numbers go to {}, others to {:e}", i64::MAX, f64::MAX);
+    }
+    let message = message.trim().replace('\n', " ");
+    // What could follow helps nobody here.
+    [", expected nothing", ", expected literal string"].iter().fold(message, |text, tail| text.replace(tail, ""))
+}
+
 /// The number of the line in which a byte of a text stands.
 fn line(text: &str, byte: usize) -> usize {
     text[..byte.min(text.len())].bytes().filter(|byte| *byte == b'\n').count() + 1
@@ -128,20 +148,32 @@ fn read_text(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Result<String
     if Path::new(name).is_dir() {
         bail!(folder(name, kind));
     }
-    let cannot = || format!("cannot read {kind} file `{name}`");
-    let file = std::fs::File::open(name).map_err(|error| {
-        let remedy = built_in_of(name, built_in).filter(|_| error.kind() == ErrorKind::NotFound);
+    let cannot = format!("cannot read {kind} file `{name}`");
+    read_regular(Path::new(name), LARGEST).map_err(|error| {
+        let is_missing = error.downcast_ref::<std::io::Error>().is_some_and(|e| e.kind() == ErrorKind::NotFound);
+        let remedy = built_in_of(name, built_in).filter(|_| is_missing);
         let remedy = remedy.map_or(String::new(), |near| format!(": did you mean the built-in `{near}`?"));
-        anyhow!("{}: {error}{remedy}", cannot())
-    })?;
+        anyhow!("{cannot}: {error}{remedy}")
+    })
+}
+
+/// The text of a file of at most `largest` bytes.
+///
+/// # Errors
+/// What the system says, or why it is no such text: a FIFO or a device, which might never end, too large, not UTF-8.
+/// The path is left to the caller.
+pub(crate) fn read_regular(path: &Path, largest: u64) -> Result<String> {
+    let is_other = |kind: fs::FileType| !kind.is_file() && !kind.is_dir();
+    ensure!(
+        !is_other(fs::metadata(path)?.file_type()),
+        "it is not a regular file: write the text to one and give its path"
+    );
     let mut bytes = Vec::new();
-    file.take(LARGEST + 1).read_to_end(&mut bytes).with_context(cannot)?;
-    if bytes.len() as u64 > LARGEST {
-        bail!("{}: it is larger than {} MiB, which no {kind} file is", cannot(), LARGEST >> 20);
-    }
+    fs::File::open(path)?.take(largest + 1).read_to_end(&mut bytes)?;
+    ensure!(bytes.len() as u64 <= largest, "it is larger than {} MiB, the most that is read", largest >> 20);
     String::from_utf8(bytes).map_err(|error| {
         let line = line(&String::from_utf8_lossy(error.as_bytes()), error.utf8_error().valid_up_to());
-        anyhow!("{}: line {line} is not UTF-8: is it a text file?", cannot())
+        anyhow!("line {line} is not UTF-8: is it a text file?")
     })
 }
 

@@ -88,3 +88,4 @@ pub mod statistics;
 pub mod sweep;
 pub mod tune;
 pub mod weather;
+mod words;

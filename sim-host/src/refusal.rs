@@ -37,7 +37,7 @@ impl Refusal {
 
     /// With the value that was given.
     pub(crate) fn given(mut self, value: impl Display) -> Self {
-        self.given = Some(value.to_string().replace("NaN", "nan"));
+        self.given = Some(short(&value.to_string()));
         self
     }
 
@@ -52,9 +52,13 @@ impl Refusal {
         &self.key
     }
 
-    /// Whether a rule of values was broken and nobody has said yet by which.
+    /// Whether a rule of values was broken and nobody has said yet by which, as the file has it: what is larger than an
+    /// f32 arrives as infinite.
     pub(crate) fn lacks_value(&self) -> bool {
-        self.given.is_none() && self.rule.starts_with("must ") && !self.rule.contains(", not ")
+        match self.given.as_deref() {
+            None => self.rule.starts_with("must ") && !self.rule.contains(", not "),
+            Some(given) => matches!(given, "inf" | "-inf"),
+        }
     }
 
     /// An error about a table at `group`: a refusal's key is put below it, any other is told where it is.
@@ -147,6 +151,13 @@ fn range(key: &str, low: f64, high: f64) -> String {
     format!("must be between {} and {}{}", figure(low), figure(high), unit(key))
 }
 
+/// A value as it was given, unless it is a number of so many digits that nobody has written it so.
+fn short(text: &str) -> String {
+    const LONGEST: usize = 15;
+    let number = text.parse::<f64>().ok().filter(|number| number.is_finite() && text.len() > LONGEST);
+    number.map_or_else(|| text.replace("NaN", "nan"), figure)
+}
+
 /// A number as short as it can be written.
 pub(crate) fn figure(value: f64) -> String {
     let size = value.abs();
@@ -210,6 +221,8 @@ mod tests {
         let text = |result: Result<()>| result.expect_err("refused").to_string();
         assert_eq!(text(within("duration_s", -1.0, 1e-3, 1e6)), "`duration_s` must be between 0.001 and 1e6 s, not -1");
         assert_eq!(text(within("start_m.0", 0.1_f32, 1.0, 2.0)), "`start_m.0` must be between 1 and 2 m, not 0.1");
+        assert_eq!(text(within("a", 1e308, 0.0, 1.0)), "`a` must be between 0 and 1, not 1e308");
+        assert_eq!(text(within("a", f32::MAX, 0.0, 1.0)), "`a` must be between 0 and 1, not 3.4028235e38");
         assert_eq!(text(above_zero("mass_kg", f64::NAN)), "`mass_kg` must be above 0, not nan");
         assert_eq!(
             text(after(("push.from_s", 5.0), ("push.to_s", 3.0))),

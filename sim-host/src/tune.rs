@@ -23,7 +23,7 @@ mod space;
 pub use course::{Course, Weights};
 pub use journal::Journal;
 pub use run::{Iteration, Run, State};
-pub use search::{Method, Settings, require_optimisers};
+pub use search::{ITERATIONS, Method, PARTICLES, Settings, require_optimisers};
 pub use space::{Parameter, Scale, Space};
 
 use anyhow::{Context, Result};

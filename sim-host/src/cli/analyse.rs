@@ -9,9 +9,11 @@ use crate::analyse::{Analysis, Loop, analyse};
 use crate::report::{Staged, plots};
 
 pub(super) fn run(which: &Which, seed: u64, out: Option<&Path>, as_json: bool) -> Result<()> {
-    let analysis = analyse(&which.load()?, seed)?;
-    if let Some(path) = out {
-        let staged = Staged::begin(path)?;
+    let scenario = which.load()?;
+    // Before the analysis, which takes a while.
+    let staged = out.map(Staged::begin).transpose()?;
+    let analysis = analyse(&scenario, seed)?;
+    if let Some(staged) = staged {
         let folder = staged.folder();
         folder.text("analyse.json", &(serde_json::to_string(&analysis)? + "\n"))?;
         plots::analysis::draw(folder.path(), &analysis)?;

@@ -6,6 +6,7 @@ use super::AssessArgs;
 use crate::assess::{Report, ensemble};
 use crate::report::progress;
 use crate::scenario::{self, Scenario};
+use crate::words::counted;
 
 pub(super) fn run(args: &AssessArgs) -> Result<()> {
     let scenarios = load(args)?;
@@ -27,7 +28,7 @@ pub(super) fn run(args: &AssessArgs) -> Result<()> {
         (0, _) => format!("none against what is expected; of {too_few} not all is judged: too few seeds"),
         _ => format!("{unmet} not as expected"),
     };
-    super::say(&format!("{}\n{} scenarios: {end}", texts.join("\n"), reports.len()))?;
+    super::say(&format!("{}\n{}: {end}", texts.join("\n"), counted(reports.len(), "scenario")))?;
     if unmet == 0 { Ok(()) } else { Err(Unmet { scenarios: unmet }.into()) }
 }
 

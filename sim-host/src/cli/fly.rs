@@ -2,12 +2,14 @@
 //! command, and `pil`.
 
 use std::io::Write;
+use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Result;
 use firmware::guidance::Trajectory;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::files::read_regular;
 use crate::flight;
 use crate::record::Row;
 use crate::report::estimate::Belief;
@@ -22,6 +24,11 @@ use crate::sil::{End, Outcome};
 
 /// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
 const FIGURES_UP_TO_S: f64 = 600.0;
+
+/// By which a provenance.toml is known to be ours.
+const PROGRAM: &str = "sim-host";
+/// A larger one is not ours, bytes.
+const PROVENANCE_MAX: u64 = 1 << 20;
 
 /// What came of a flight, and how long it took, s.
 pub(super) struct Flown {
@@ -163,7 +170,7 @@ struct Provenance<'a> {
 
 pub(super) fn provenance(folder: &OutFolder, scenario: &Scenario, settings: &[String], seed: u64) -> Result<()> {
     let provenance = Provenance {
-        program: "sim-host",
+        program: PROGRAM,
         version: env!("CARGO_PKG_VERSION"),
         scenario: &scenario.name,
         set: settings,
@@ -172,6 +179,19 @@ pub(super) fn provenance(folder: &OutFolder, scenario: &Scenario, settings: &[St
     };
     folder.text("provenance.toml", &toml::to_string(&provenance)?)?;
     scenario.files()?.iter().try_for_each(|(name, text)| folder.text(name, text))
+}
+
+/// The seed of the flight that has left a scenario.toml, if one has: it stands in the provenance.toml beside it.
+pub(super) fn seed_beside(scenario: &str) -> Option<u64> {
+    #[derive(Deserialize)]
+    struct Flown {
+        program: String,
+        seed: u64,
+    }
+    let path = Path::new(scenario);
+    let text = read_regular(&path.with_file_name("provenance.toml"), PROVENANCE_MAX).ok()?;
+    let flown: Flown = toml::from_str(&text).ok()?;
+    (path.file_name()? == "scenario.toml" && flown.program == PROGRAM).then_some(flown.seed)
 }
 
 fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, taken: &Taken) -> Result<()> {

@@ -8,8 +8,10 @@ mod analyse;
 mod assess;
 mod bench;
 mod compare;
+mod complaints;
 mod demo;
 mod fly;
+mod numbers;
 mod paper;
 mod pil;
 mod plan;
@@ -25,15 +27,16 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
-use clap::error::{ContextKind, ContextValue};
-use clap::{Args, CommandFactory as _, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
+use complaints::{complain, one_line, refuse};
+use numbers::{number, whole};
 
 use crate::interrupt::{self, Interrupted};
 use crate::link;
-use crate::refusal::did_you_mean;
-use crate::scenario::{self, Scenario};
+use crate::scenario::Scenario;
 use crate::seeds::{self, Seeds};
-use crate::tune::Method;
+use crate::serve::SPEEDS;
+use crate::tune::{ITERATIONS, Method, PARTICLES};
 
 /// More threads than this do not make it faster.
 const MOST_THREADS: usize = 256;
@@ -81,10 +84,10 @@ enum Command {
     /// Measure how fast the simulation is.
     Bench {
         /// Simulated seconds a run.
-        #[arg(long, default_value_t = 2000.0)]
+        #[arg(long, default_value_t = 2000.0, value_parser = number(1.0..=1e6), allow_negative_numbers = true)]
         seconds: f64,
         /// Runs; the median counts.
-        #[arg(long, default_value_t = 5)]
+        #[arg(long, default_value_t = 5, value_parser = whole(1..=10_000_usize), allow_negative_numbers = true)]
         runs: usize,
         /// Print a JSON object.
         #[arg(long)]
@@ -120,7 +123,7 @@ enum Command {
         #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
         seed: u64,
         /// Flights to spend at most.
-        #[arg(long, default_value_t = 60_000)]
+        #[arg(long, default_value_t = 60_000, value_parser = whole(1..=1_000_000_000_usize), allow_negative_numbers = true)]
         flights: usize,
     },
     /// Search for the gains of a controller, and write them as a tuning file.
@@ -138,7 +141,7 @@ struct Settings {
 #[derive(Args, Clone, Copy, Debug)]
 struct Threads {
     /// Flights at once; as many as there are cores by default. The results do not depend on it.
-    #[arg(long, value_name = "J", value_parser = jobs)]
+    #[arg(long, value_name = "J", value_parser = jobs, allow_negative_numbers = true)]
     jobs: Option<usize>,
 }
 
@@ -190,17 +193,11 @@ impl Which {
 struct RunArgs {
     #[command(flatten)]
     which: Which,
-    /// Seed of the random numbers.
-    #[arg(
-        long,
-        default_value_t = 1,
-        value_parser = seeds::number,
-        allow_negative_numbers = true,
-        conflicts_with = "seeds"
-    )]
-    seed: u64,
+    /// Seed of the random numbers; of a scenario.toml that an earlier run has left, the one it flew, else 1.
+    #[arg(long, value_parser = seeds::number, allow_negative_numbers = true, conflicts_with = "seeds")]
+    seed: Option<u64>,
     /// Seeds to fly, first and last.
-    #[arg(long, value_name = "A..B")]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     seeds: Option<Seeds>,
     #[command(flatten)]
     threads: Threads,
@@ -217,7 +214,7 @@ struct AssessArgs {
     /// Names of built-in scenarios, or paths of files; all built-in ones that are judged without any.
     scenarios: Vec<String>,
     /// Seeds to fly, first and last.
-    #[arg(long, value_name = "A..B", default_value = "1..100")]
+    #[arg(long, value_name = "A..B", default_value = "1..100", allow_hyphen_values = true)]
     seeds: Seeds,
     #[command(flatten)]
     threads: Threads,
@@ -243,7 +240,7 @@ struct CompareArgs {
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     disturbances: Option<Vec<String>>,
     /// Seeds to fly, first and last, in place of the matrix' own.
-    #[arg(long, value_name = "A..B")]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     seeds: Option<Seeds>,
     #[command(flatten)]
     threads: Threads,
@@ -269,7 +266,7 @@ struct ServeArgs {
     #[arg(long = "peer", value_name = "ADDRESS", default_values = link::DEFAULT_PEERS, value_parser = peer_address)]
     peers: Vec<SocketAddr>,
     /// Simulated seconds per second, 0.01 to 1000.
-    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 1.0, value_parser = number(SPEEDS), allow_negative_numbers = true)]
     speed: f64,
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
@@ -289,13 +286,13 @@ struct PilArgs {
     #[arg(long, value_name = "ELF")]
     image: Option<PathBuf>,
     /// Let the outer partition's jobs take this much longer, µs of the target's time.
-    #[arg(long, default_value_t = 0, value_name = "US")]
+    #[arg(long, default_value_t = 0, value_name = "US", value_parser = whole(0..=u32::MAX), allow_negative_numbers = true)]
     busy_outer_us: u32,
     /// Let the commander's jobs take this much longer, µs.
-    #[arg(long, default_value_t = 0, value_name = "US")]
+    #[arg(long, default_value_t = 0, value_name = "US", value_parser = whole(0..=u32::MAX), allow_negative_numbers = true)]
     busy_commander_us: u32,
     /// Let the ground partition's jobs take this much longer, µs.
-    #[arg(long, default_value_t = 0, value_name = "US")]
+    #[arg(long, default_value_t = 0, value_name = "US", value_parser = whole(0..=u32::MAX), allow_negative_numbers = true)]
     busy_ground_us: u32,
     /// Write truth.csv and summary.json there.
     #[arg(long, value_name = "DIR")]
@@ -313,10 +310,10 @@ struct TuneArgs {
     #[arg(long, value_enum, default_value_t = Method::Pso)]
     method: Method,
     /// Points an iteration.
-    #[arg(long, default_value_t = 40)]
+    #[arg(long, default_value_t = 40, value_parser = whole(PARTICLES), allow_negative_numbers = true)]
     particles: usize,
     /// Iterations, the first random points among them.
-    #[arg(long, default_value_t = 60)]
+    #[arg(long, default_value_t = 60, value_parser = whole(ITERATIONS), allow_negative_numbers = true)]
     iterations: usize,
     /// Seed of the search.
     #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
@@ -367,65 +364,11 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Help and version as clap prints them; its complaints, which take several lines, in one.
-fn refuse(error: &clap::Error) -> ExitCode {
-    if !error.use_stderr() {
-        let _ = error.print();
-        return ExitCode::SUCCESS;
-    }
-    let text = error.to_string();
-    let (complaint, tip) = complaint(&text);
-    let tip = misplaced_scenario(error)
-        .or(tip)
-        .or_else(|| meant_command(error))
-        .map_or(String::new(), |tip| format!(": {tip}"));
-    complain(&format!("{complaint}{tip} (see --help)"));
-    ExitCode::from(2)
-}
-
-/// What clap complains of in its first paragraph, and the tip that may follow it.
-fn complaint(text: &str) -> (String, Option<String>) {
-    let before_usage = text.split("Usage:").next().unwrap_or(text);
-    let lines = || before_usage.lines().map(str::trim);
-    let complaint = lines().take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ");
-    // "To pass '-1' as a value, use '-- -1'" helps nobody here: no argument begins with a dash.
-    let tips = lines().filter_map(|line| line.strip_prefix("tip: "));
-    let tip = tips.filter(|tip| !tip.starts_with("to pass")).map(str::to_owned).next();
-    (complaint.trim_start_matches("error: ").to_owned(), tip)
-}
-
-/// `sim-host helix` means `sim-host run helix`.
-fn misplaced_scenario(error: &clap::Error) -> Option<String> {
-    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
-    scenario::is_built_in(word).then(|| format!("it is a scenario, which `sim-host run {word}` flies"))
-}
-
-/// The command that an unknown one may have meant, or all.
-fn meant_command(error: &clap::Error) -> Option<String> {
-    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
-    let cli = Cli::command();
-    let names: Vec<&str> = cli.get_subcommands().map(clap::Command::get_name).collect();
-    Some(did_you_mean(word, &names))
-}
-
 /// Says, once, that seeds were given to a scenario of which none makes a difference.
 fn note_idle_seeds(scenario: &Scenario, given: bool) {
     if given && !scenario.file.is_random() {
         complain(&format!("note: the seed makes no difference: `{}` has no random part", scenario.name));
     }
-}
-
-/// Writes a line to standard error. If nobody can read it, the exit code still tells.
-fn complain(line: &str) {
-    let _ = writeln!(std::io::stderr(), "sim-host: {line}");
-}
-
-fn one_line(error: &anyhow::Error) -> String {
-    // The system's number of an error, "(os error 2)", tells nobody more than its text does.
-    let text = format!("{error:#}").replace('\n', " ");
-    let mut pieces = text.split(" (os error ");
-    let first = pieces.next().unwrap_or_default().to_owned();
-    pieces.fold(first, |text, piece| text + piece.split_once(')').map_or("", |(_, rest)| rest))
 }
 
 /// Writes a result to standard output. A reader that has gone away is not an error.
@@ -439,16 +382,9 @@ fn say(text: &str) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use clap::CommandFactory as _;
 
-    #[test]
-    fn a_complaint_keeps_its_tip() {
-        let refused = |arguments: &[&str]| complaint(&Cli::try_parse_from(arguments).expect_err("refused").to_string());
-        let (text, tip) = refused(&["sim-host", "asses"]);
-        assert!(text.contains("'asses'") && tip.is_some_and(|tip| tip.contains("'assess'")), "{text}");
-        let (text, tip) = refused(&["sim-host", "run"]);
-        assert!(text.contains("<SCENARIO>") && tip.is_none(), "{text}");
-    }
+    use super::*;
 
     #[test]
     fn the_arguments_are_consistent() {

@@ -7,6 +7,8 @@ use anyhow::Result;
 use super::Which;
 #[cfg(feature = "search")]
 use crate::report::progress;
+#[cfg(feature = "search")]
+use crate::words::counted;
 
 #[cfg(not(feature = "search"))]
 pub(super) fn run(which: &Which, _seed: u64, _flights: usize) -> Result<()> {
@@ -22,7 +24,8 @@ pub(super) fn run(which: &Which, seed: u64, flights: usize) -> Result<()> {
     bar.finish_and_clear();
     let table = toml::to_string(&planned.plan).context("the plan cannot be written as TOML")?;
     super::say(&format!(
-        "# All axes within 4 cm from {:.3} s; {} flights.\n[join]\n{table}",
-        planned.settle_s, planned.flights
+        "# All axes within 4 cm from {:.3} s; {}.\n[join]\n{table}",
+        planned.settle_s,
+        counted(planned.flights, "flight")
     ))
 }

@@ -10,23 +10,38 @@ use crate::report::{OutFolder, Paint, Staged, progress, table};
 use crate::scenario::Scenario;
 use crate::seeds::Seeds;
 use crate::sil::End;
+use crate::words::counted;
 
 pub(super) fn run(args: &RunArgs) -> Result<()> {
     let scenario = args.which.load()?;
-    super::note_idle_seeds(&scenario, args.seeds.is_some() || args.seed != 1);
+    super::note_idle_seeds(&scenario, args.seeds.is_some() || args.seed.is_some_and(|seed| seed != 1));
     interrupt::listen()?;
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
     match args.seeds {
         Some(seeds) => many(args, &scenario, seeds, staged),
-        None => one(args, &scenario, staged),
+        None => one(args, &scenario, seed(args, &scenario), staged),
     }
 }
 
-fn one(args: &RunArgs, scenario: &Scenario, staged: Option<Staged>) -> Result<()> {
+/// The seed that was given, or that of the flight which has left the scenario, so that it is the same flight; else 1.
+fn seed(args: &RunArgs, scenario: &Scenario) -> u64 {
+    let again = || {
+        let seed = fly::seed_beside(&args.which.scenario)?;
+        if scenario.file.is_random() {
+            super::complain(&format!(
+                "note: flown with seed {seed}, as provenance.toml has it; choose another with --seed"
+            ));
+        }
+        Some(seed)
+    };
+    args.seed.or_else(again).unwrap_or(1)
+}
+
+fn one(args: &RunArgs, scenario: &Scenario, seed: u64, staged: Option<Staged>) -> Result<()> {
     let visible = !args.json;
     let summary = match &staged {
-        Some(staged) => fly::fly_into(&staged.folder(), scenario, &args.which.settings.set, args.seed, visible)?,
-        None => fly::fly(scenario, args.seed, visible)?,
+        Some(staged) => fly::fly_into(&staged.folder(), scenario, &args.which.settings.set, seed, visible)?,
+        None => fly::fly(scenario, seed, visible)?,
     };
     let text = if args.json { summary.to_json() } else { table::render(&summary, Paint::for_stdout()) };
     report(args, &text, staged)?;
@@ -104,7 +119,7 @@ pub(super) struct SomeFailed {
 
 impl std::fmt::Display for SomeFailed {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} of {} seeds could not be flown", self.failed, self.of)
+        write!(f, "{} of {} could not be flown", self.failed, counted(self.of, "seed"))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::net::SocketAddr;
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 
 use super::ServeArgs;
 use crate::console::Session;
@@ -11,13 +11,11 @@ use crate::flight;
 use crate::interrupt::{self, Interrupted};
 use crate::link::UdpLink;
 use crate::scenario::Scenario;
-use crate::serve::{Flown, Pacing, SPEEDS, serve};
+use crate::serve::{Flown, Pacing, serve};
 
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
     scenario.require_rigid_body()?;
-    let (low, high) = (SPEEDS.start(), SPEEDS.end());
-    ensure!(SPEEDS.contains(&args.speed), "--speed must be between {low} and {high}, not {}", args.speed);
     let flight = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;
     let mut session = Session::new(flight);
     let mut link = UdpLink::bind(args.listen, &args.peers)?;

@@ -10,6 +10,7 @@ use sha2::{Digest as _, Sha256};
 use super::TuneArgs;
 use crate::report::{OutFolder, plots, progress, truth};
 use crate::tune::{Iteration, Journal, Parameter, Run, Settings, State, Tune, require_optimisers};
+use crate::words::counted;
 
 pub(super) fn run(args: &TuneArgs) -> Result<()> {
     settings(args).validate()?;
@@ -30,14 +31,14 @@ pub(super) fn run(args: &TuneArgs) -> Result<()> {
     })?;
     bar.finish_and_clear();
     super::say(&format!(
-        "cost {:.4} after {} evaluations of {} flights: {} holds the gains",
+        "cost {:.4} after {} evaluations of {}: {} holds the gains",
         state.best_cost(),
         state.iterations.len() * args.particles,
-        tune.course.flights(),
+        counted(tune.course.flights(), "flight"),
         args.out.join(TUNING).display()
     ))?;
     if let Some(warning) = warning(args, &state, base_cost) {
-        eprintln!("sim-host: {warning}");
+        super::complain(&warning);
     }
     Ok(())
 }
@@ -101,13 +102,13 @@ impl<'a> Report<'a> {
         let iterations = state.iterations.len();
         let worse = if state.best_cost() < self.base_cost { "" } else { ", which are no worse" };
         format!(
-            "cost {:.4} on course {} (the base's own gains: {:.4}{worse}) after {} evaluations of {} flights: \
+            "cost {:.4} on course {} (the base's own gains: {:.4}{worse}) after {} evaluations of {}: \
              sim-host tune {tune} --method {} --particles {particles} --iterations {iterations} --seed {seed}",
             state.best_cost(),
             self.tune.course.name,
             self.base_cost,
             iterations * particles,
-            self.tune.course.flights(),
+            counted(self.tune.course.flights(), "flight"),
             method.name(),
         )
     }

@@ -6,6 +6,7 @@ use serde_path_to_error::{Path, Segment};
 use toml::{Table, Value};
 
 use super::{Refusal, nearest};
+use crate::words::counted;
 
 /// As many keys are listed; of a table that has more, the documentation tells.
 const LISTED: usize = 16;
@@ -68,11 +69,15 @@ fn refusal(path: &str, message: &str) -> Refusal {
             return if given == "unit variant" { refusal } else { refusal.given(unexpected(given)) };
         }
     }
+    if let Some(found) = message.strip_prefix("wanted exactly 1 element, ") {
+        let several = "must be one kind alone: keep one of its tables";
+        return Refusal::new(path, if found.starts_with("more") { several } else { "must name a kind, not {}" });
+    }
     if let Some((count, expected)) =
         message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "))
     {
         return match expected.strip_prefix("an array of length ") {
-            Some(right) => Refusal::new(path, format!("must have {right} values")).given(count),
+            Some(right) => Refusal::new(path, format!("must have {}", values(right))).given(count),
             None => Refusal::new(path, format!("has too many values, {count}")),
         };
     }
@@ -147,8 +152,11 @@ fn plain(expected: &str) -> String {
 
 /// "an array of length 3" in plain words.
 fn array(expected: &str) -> Option<String> {
-    let length = expected.strip_prefix("an array of length ")?;
-    Some(format!("an array of {length} values"))
+    Some(format!("an array of {}", values(expected.strip_prefix("an array of length ")?)))
+}
+
+fn values(count: &str) -> String {
+    count.parse().map_or_else(|_| count.to_owned(), |count: usize| counted(count, "value"))
 }
 
 /// The value that serde did not expect: "string \"fast\"", "integer `3`", "map".
@@ -210,6 +218,11 @@ mod tests {
             (point("place_m = [1.0, 2.0]"), "`inner.1.point.place_m` must have 3 values, not 2"),
             (point("place_m = [1.0, 2.0, 3.0, 4.0]"), "`inner.1.point.place_m` has too many values, 4"),
             (point("place_m = [1.0, \"b\", 3.0]"), "`inner.1.point.place_m.1` must be a number, not \"b\""),
+            ("inner = [{}]".to_owned(), "`inner.0` must name a kind, not {}"),
+            (
+                "inner = [{ point = {}, nothing = {} }]".to_owned(),
+                "`inner.0` must be one kind alone: keep one of its tables",
+            ),
             (point("place_m = { x = 1.0 }"), "`inner.1.point.place_m` must be an array of 3 values, not a table"),
         ] {
             assert_eq!(refused(&text), expected, "{text}");

@@ -8,6 +8,7 @@ use anyhow::{Context, Result};
 
 use crate::compare::{Cell, Comparison, Figure, FlightScore, LostCell, Medians, Overall};
 use crate::statistics::Estimate;
+use crate::words::counted;
 
 /// Letters of a column of a cell's controller, of a disturbance, and between columns: four controllers fit in 120.
 const COLUMN: usize = 23;
@@ -108,9 +109,9 @@ fn heading(comparison: &Comparison) -> String {
     let (seeds, trained) = (String::from(*seeds), comparison.seeds_are_trained_on);
     let trained = if trained { " (SOME OF THEM TUNED ON)" } else { "" };
     format!(
-        "{matrix}: {summary}\n{} flights; seeds {seeds}{trained}; one flight where the seed changes nothing\n\n\
+        "{matrix}: {summary}\n{}; seeds {seeds}{trained}; one flight where the seed changes nothing\n\n\
          RMS distance from the trajectory, mm: median [95 % interval], survived/flown where some are lost\n\n",
-        flights.len()
+        counted(flights.len(), "flight")
     )
 }
 

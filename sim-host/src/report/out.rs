@@ -12,6 +12,7 @@ use super::{Figures, Summary, TruthWriter, comparison, paper, plots};
 use crate::compare::Comparison;
 use crate::paper::Study;
 use crate::paper::flights::Flights;
+use crate::words::counted;
 
 /// Files by which a folder is known to be ours: one of them is written by every command with `--out`.
 const MARKS: [&str; 4] = ["provenance.toml", "compare.json", "analyse.json", "paper.json"];
@@ -101,7 +102,7 @@ fn resolved(target: &Path) -> Result<PathBuf> {
     if !target.exists() {
         return Ok(target.to_owned());
     }
-    ensure!(target.is_dir(), "--out {}: it is a file: name a folder", target.display());
+    ensure!(target.is_dir(), "--out {}: it is no folder: name a folder", target.display());
     let whole = target.canonicalize().with_context(|| format!("cannot read {}", target.display()))?;
     let here = std::env::current_dir().and_then(|here| here.canonicalize());
     ensure!(
@@ -158,13 +159,11 @@ fn contents(folder: &Path) -> std::io::Result<String> {
         }
     }
     names.sort();
-    let mut counted = |count: i32, what: &str| {
+    for (count, noun) in [(figures, "figure"), (seeds, "folder")] {
         if count > 0 {
-            names.insert(0, format!("{count} {what}{}", if count > 1 { "s" } else { "" }));
+            names.insert(0, counted(count, noun));
         }
-    };
-    counted(figures, "figure");
-    counted(seeds, "folder");
+    }
     Ok(names.join(", "))
 }
 

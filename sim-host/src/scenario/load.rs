@@ -61,6 +61,12 @@ impl Layer {
         })
     }
 
+    /// An error about one of its own keys, with the line in which it stands unless the command line has set it.
+    fn explain(&self, error: Error) -> Error {
+        let is_set = error.downcast_ref::<Refusal>().is_some_and(|refusal| self.is_set(refusal.key()));
+        if is_set { error.context(self.source.to_string()) } else { self.source.about(error) }
+    }
+
     /// As what it describes; a key that is refused is named as a scenario has it.
     fn typed<T: serde::de::DeserializeOwned>(&self) -> Result<T> {
         typed(self.table.clone()).map_err(|error| match error.downcast::<Refusal>() {
@@ -101,7 +107,7 @@ impl Layers {
         if layer.is_set(&key) {
             return Error::new(refusal).context(own.source.to_string());
         }
-        layer.source.about(refusal.with_key(key).into())
+        layer.explain(refusal.with_key(key).into())
     }
 }
 
@@ -136,7 +142,8 @@ impl Scenario {
         if settings.iter().any(moves_the_bound) {
             file.time_optimal_s = None;
         }
-        layers.0.push(Layer::new(Source::read(&file.airframe, "airframe", &AIRFRAMES)?, ("airframe.", ""))?);
+        let airframe = Source::named("airframe", &file.airframe, "airframe", &AIRFRAMES);
+        layers.0.push(Layer::new(airframe.map_err(|error| layers.explain(error))?, ("airframe.", ""))?);
         let airframe_layer = layers.0.last_mut().ok_or_else(|| anyhow!("no airframe"))?;
         of_airframe.iter().try_for_each(|(setting, key)| airframe_layer.set(setting, key))?;
         of_airframe
@@ -213,7 +220,7 @@ fn gains(own: &mut Layer, settings: &[(&Setting, &str)]) -> Result<Option<Layer>
     if own.table.contains_key("tuning") && own.table.contains_key("control") {
         bail!("{}: {BOTH}", own.source);
     }
-    let Some(mut tuning) = named_tuning(&own.table)? else {
+    let Some(mut tuning) = named_tuning(own)? else {
         for (setting, key) in settings {
             require_controller("smc", setting, &own.source)?;
             own.set(setting, &format!("control.{key}"))?;
@@ -232,15 +239,17 @@ fn gains(own: &mut Layer, settings: &[(&Setting, &str)]) -> Result<Option<Layer>
 }
 
 /// The tuning that a scenario names, or its airframe's own where it has no gains.
-fn named_tuning(table: &Table) -> Result<Option<Layer>> {
+fn named_tuning(own: &Layer) -> Result<Option<Layer>> {
+    let table = &own.table;
     let airframe = table.get("airframe").and_then(Value::as_str).map_or_else(default_airframe, str::to_owned);
-    let own = format!("{airframe}-smc");
+    let airframes = format!("{airframe}-smc");
     let name = match table.get("tuning") {
         Some(Value::String(name)) => name,
-        None if !table.contains_key("control") && TUNINGS.iter().any(|(name, _)| *name == own) => &own,
+        None if !table.contains_key("control") && TUNINGS.iter().any(|(name, _)| *name == airframes) => &airframes,
         _ => return Ok(None),
     };
-    Layer::new(Source::read(name, "tuning", &TUNINGS)?, ("", "")).map(Some)
+    let tuning = Source::named("tuning", name, "tuning", &TUNINGS).map_err(|error| own.explain(error))?;
+    Layer::new(tuning, ("", "")).map(Some)
 }
 
 /// What a controller's keys begin with in a scenario, and in a tuning file.

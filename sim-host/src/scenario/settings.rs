@@ -45,13 +45,20 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// A value as TOML has it; what is none, is a string.
+/// A value as TOML has it; what is none, or more than one, is a string.
 pub(crate) fn value(text: &str) -> Value {
-    format!("value = {text}")
-        .parse::<Table>()
-        .ok()
+    let table = format!("value = {text}").parse::<Table>().ok().filter(|table| table.len() == 1);
+    table
         .and_then(|mut table| table.remove("value"))
+        .or_else(|| large(text))
         .unwrap_or_else(|| Value::String(text.to_owned()))
+}
+
+/// A whole number that is larger than TOML's are.
+fn large(text: &str) -> Option<Value> {
+    let digits = text.trim().trim_start_matches(['+', '-']);
+    let is_whole = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    text.trim().parse().ok().filter(|_| is_whole).map(Value::Float)
 }
 
 /// Sets a dotted key; tables that are not there are made.
@@ -125,6 +132,13 @@ mod tests {
             set(&mut table, key, value(given)).expect(key);
         }
         assert_eq!(table, "a = [{ b = [1.0, 5] }]\nc = 'x'\nd.e = true".parse().expect("TOML"));
+    }
+
+    #[test]
+    fn what_is_no_value_of_toml_is_a_string_or_a_large_number() {
+        assert_eq!(value("3\nother = 4"), Value::String("3\nother = 4".to_owned()), "nothing is dropped");
+        assert_eq!(value("[1,\n2]"), Value::Array(vec![1.into(), 2.into()]));
+        assert_eq!(value("-99999999999999999999"), Value::Float(-1e20));
     }
 
     #[test]

@@ -10,7 +10,7 @@ use firmware::guidance::{DURATION_MAX_MS, Spline, Trajectory};
 use serde::Deserialize;
 
 use super::csv::{self, nearest};
-use crate::refusal::{Refusal, nearest as nearest_name, typed, within};
+use crate::refusal::{Refusal, figure, nearest as nearest_name, typed, within};
 use crate::spline::{self, Knot, SEGMENTS_MAX, Shape};
 
 /// Greatest coordinate, m: an f32 still resolves a millimetre.
@@ -19,6 +19,8 @@ const LENGTH_MAX_M: f64 = 1e4;
 const SEGMENTS_A_LEG: f64 = 4.0;
 /// The shortest leg, s, before times are brought within the limits.
 const LEG_MIN_S: f64 = 0.2;
+/// The shortest segment of the firmware, ms.
+const SEGMENT_MIN_MS: u32 = 10;
 /// Below this mean speed in its first, or last, 0.1 s, a file begins, or ends, at rest, m/s.
 const REST_M_S: f64 = 0.2;
 const REST_S: f64 = 0.1;
@@ -71,9 +73,6 @@ pub(super) fn resolve(scenario: &mut toml::Table, folder: &Path) -> Result<()> {
     let Some(toml::Value::Table(kinds)) = scenario.get("trajectory") else { return Ok(()) };
     require_known(kinds)?;
     let Some(kind) = ["waypoints", "csv"].into_iter().find(|kind| kinds.contains_key(*kind)) else { return Ok(()) };
-    if let Some(other) = kinds.keys().find(|key| *key != kind) {
-        bail!("`trajectory` is given twice, as `{kind}` and as `{other}`: keep one");
-    }
     let path = if kind == "csv" {
         of_csv(&table(kinds, kind)?, folder, join_s, flight_s)
     } else {
@@ -85,12 +84,19 @@ pub(super) fn resolve(scenario: &mut toml::Table, folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a kind that there is none of.
+/// Refuses a kind that there is none of, none, and two.
 fn require_known(kinds: &toml::Table) -> Result<()> {
     const KINDS: [&str; 6] = ["hold", "step", "helix", "figure-eight", "waypoints", "csv"];
     let is_known = |kind: &str| kind == "spline" || KINDS.contains(&kind);
-    let Some(kind) = kinds.keys().find(|kind| !is_known(kind)) else { return Ok(()) };
-    let refusal = Refusal::new("trajectory", format!("must be one of {}", KINDS.join(", "))).given(format!("`{kind}`"));
+    let refusal = Refusal::new("trajectory", format!("must be one of {}", KINDS.join(", ")));
+    let Some(kind) = kinds.keys().find(|kind| !is_known(kind)) else {
+        return match kinds.keys().collect::<Vec<_>>()[..] {
+            [] => Err(refusal.given("an empty table").into()),
+            [_] => Ok(()),
+            [kind, other, ..] => bail!("`trajectory` is given twice, as `{kind}` and as `{other}`: keep one"),
+        };
+    };
+    let refusal = refusal.given(format!("`{kind}`"));
     let near = nearest_name(kind, KINDS);
     Err(near.map_or(refusal.clone(), |near| refusal.remedy(format!("did you mean `{near}`?"))).into())
 }
@@ -169,6 +175,7 @@ fn within_limits(file: &Waypoints, points: &[[f64; 4]], begin_s: f64) -> Result<
     let acceleration = limit("acceleration_m_s2", file.acceleration_m_s2, 2.0)?;
     let yaw_rate = limit("yaw_rate_rad_s", file.yaw_rate_rad_s, 1.0)?;
 
+    require_apart(points)?;
     let mut points = points.to_vec();
     if file.repeat && distance(&points[0], &points[points.len() - 1]) > 0.0 {
         let [x, y, z, yaw] = points[0];
@@ -181,12 +188,27 @@ fn within_limits(file: &Waypoints, points: &[[f64; 4]], begin_s: f64) -> Result<
         let long = (distance(&leg[0], &leg[1]) / speed).max((leg[1][3] - leg[0][3]).abs() / yaw_rate);
         times.push(times[i] + (long + ends).max(LEG_MIN_S));
     }
+    require_short(times[times.len() - 1])?;
     let path = through(file.repeat, &points, &times, begin_s)?;
     let peak = Peak::of(&path);
     let slower = (peak.speed / speed).max((peak.acceleration / acceleration).sqrt()).max(peak.yaw_rate / yaw_rate);
     let duration_ms = (f64::from(path.duration_ms) * slower).ceil();
-    ensure!(duration_ms <= f64::from(DURATION_MAX_MS), "the path takes {:.0} s: raise `speed_m_s`", duration_ms * 1e-3);
-    Ok(Spline { duration_ms: duration_ms as u32, ..path })
+    require_short(duration_ms * 1e-3)?;
+    Ok(Spline { duration_ms: (duration_ms as u32).max(SEGMENT_MIN_MS * path.segments() as u32), ..path })
+}
+
+/// Refuses a leg of no length: no limit says how long it takes.
+fn require_apart(points: &[[f64; 4]]) -> Result<()> {
+    let Some(i) = points.windows(2).position(|pair| pair[0] == pair[1]) else { return Ok(()) };
+    let remedy = "leave one out, or give every point `at_s` to wait there";
+    Err(Refusal::new(format!("points.{}", i + 1), format!("is where `points.{i}` is")).remedy(remedy).into())
+}
+
+/// Refuses a path that takes longer than the firmware's clock of a path goes.
+fn require_short(seconds: f64) -> Result<()> {
+    let most = f64::from(DURATION_MAX_MS) * 1e-3;
+    ensure!(seconds <= most, "the path takes {seconds:.0} s, more than {most}: raise `speed_m_s`, or leave points out");
+    Ok(())
 }
 
 fn distance(a: &[f64; 4], b: &[f64; 4]) -> f64 {
@@ -196,14 +218,10 @@ fn distance(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 /// The path of minimum snap through points at their times.
 fn through(repeat: bool, points: &[[f64; 4]], times: &[f64], begin_s: f64) -> Result<Spline> {
     let (first, last) = (times[0], times[times.len() - 1]);
-    within("points.at_s", first, 0.0, f64::from(DURATION_MAX_MS) * 1e-3)?;
-    for pair in times.windows(2) {
-        ensure!(
-            pair[1] >= pair[0] + 0.05,
-            "`points.at_s` must rise by 0.05 s at least, not from {} to {}",
-            pair[0],
-            pair[1]
-        );
+    let last_key = format!("points.{}.at_s", times.len() - 1);
+    within("points.0.at_s", first, 0.0, f64::from(DURATION_MAX_MS) * 1e-3)?;
+    for (i, pair) in times.windows(2).enumerate() {
+        later(&format!("points.{}.at_s", i + 1), pair[1], i, pair[0], 0.05)?;
     }
     let (start, end) = (points[0], points[points.len() - 1]);
     if repeat {
@@ -213,10 +231,11 @@ fn through(repeat: bool, points: &[[f64; 4]], times: &[f64], begin_s: f64) -> Re
         );
         ensure!(points.len() > 3, "`points` must be at least 3 places to `repeat`");
     }
-    let duration_ms = milliseconds("points.at_s", last - first)?;
+    let duration_ms = milliseconds(&last_key, last - first)?;
     let shortest = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     let wanted = (SEGMENTS_A_LEG * (last - first) / shortest).ceil();
     let segments = (wanted as usize).clamp(8, SEGMENTS_MAX);
+    later(&last_key, last, 0, first, f64::from(SEGMENT_MIN_MS) * 1e-3 * segments as f64)?;
     ensure!(
         wanted <= SEGMENTS_A_LEG * SEGMENTS_MAX as f64,
         "points {shortest} s apart on a path of {} s need more than its {SEGMENTS_MAX} segments: leave some out",
@@ -231,6 +250,16 @@ fn through(repeat: bool, points: &[[f64; 4]], times: &[f64], begin_s: f64) -> Re
     let inner: Vec<Knot> = if repeat { knots.take(points.len() - 1).collect() } else { inner(knots.collect()) };
     let control_points = shape.fit(&inner, &[]).context("`points`")?;
     Ok(spline::for_firmware(&shape, &control_points, milliseconds("start_s", begin_s + first)?, duration_ms))
+}
+
+/// Refuses a point's time that is not at least `gap_s` after that of another.
+fn later(key: &str, at_s: f64, before: usize, before_s: f64, gap_s: f64) -> Result<()> {
+    // Times are decimals: 0.3 - 0.25 is a little less than 0.05.
+    if at_s - before_s >= gap_s - 1e-9 {
+        return Ok(());
+    }
+    let rule = format!("must be {gap_s} s or more after `points.{before}.at_s`, {}", figure(before_s));
+    Err(Refusal::new(key, rule).given(figure(at_s)).into())
 }
 
 fn inner(mut knots: Vec<Knot>) -> Vec<Knot> {

@@ -1,11 +1,12 @@
 //! What of a scenario is refused: numbers with which no flight makes sense, each by the key that the user wrote.
 
 use anyhow::{Result, ensure};
+use firmware::config::Start;
 use firmware::guidance::Trajectory;
 
 use super::trajectory::flyable;
 use super::{AttitudeWave, Disturbance, Gust, PlantKind, Scenario, ScenarioFile, ScheduledPush, Truth, Wind, World};
-use crate::airframe::AirframeFile;
+use crate::airframe::{AirframeFile, ROTOR_LAG_MAX_S, THRUST_TO_WEIGHT};
 use crate::plant::air::ALTITUDE_M;
 use crate::refusal::{Refusal, after, within};
 use crate::sensors::{Fault, SuiteFile};
@@ -35,6 +36,7 @@ impl Scenario {
         self.airframe.validate()?;
         let longest = if f.plant == PlantKind::PaperDecoupled { DECOUPLED_DURATION_MAX_S } else { DURATION_MAX_S };
         within("duration_s", f.duration_s, 1e-3, longest)?;
+        whole_milliseconds("duration_s", f.duration_s)?;
         each("start_position_m", &f.start_position_m, LENGTH_MAX_M)?;
         delay(self.airframe.actuation_delay_s)?;
         world(f)?;
@@ -70,8 +72,8 @@ impl Scenario {
 fn optional(f: &ScenarioFile) -> Result<()> {
     for (key, value, low, high) in [
         ("time_optimal_s", f.time_optimal_s, 1e-3, 1e4),
-        ("thrust_to_weight", f.thrust_to_weight, 1.01, 1e3),
-        ("rotor_lag_s", f.rotor_lag_s, 0.0, 10.0),
+        ("thrust_to_weight", f.thrust_to_weight, THRUST_TO_WEIGHT.0, THRUST_TO_WEIGHT.1),
+        ("rotor_lag_s", f.rotor_lag_s, 0.0, ROTOR_LAG_MAX_S),
         ("join.duration_s", f.join.as_ref().map(|join| f64::from(join.duration_s)), 0.01, 1e4),
     ] {
         if let Some(value) = value {
@@ -105,6 +107,10 @@ fn world(f: &ScenarioFile) -> Result<()> {
             !is_there || plant,
             "`{key}` is modelled on the plant `rigid-body` alone: leave it out, or set `plant = \"rigid-body\"`"
         );
+    }
+    if f.start == Start::OnGround && !f.ground {
+        let refusal = Refusal::new("start", "is `on-ground`, and there is no ground");
+        return Err(refusal.remedy("set `ground = true` on the plant `rigid-body`, or `start = \"in-flight\"`").into());
     }
     truth(&f.truth)?;
     start(f)?;
@@ -180,7 +186,7 @@ fn truth(truth: &Truth) -> Result<()> {
         truth.rotor_effectiveness.iter().any(|part| *part >= 0.01),
         "`truth.rotor_effectiveness` must leave a rotor that lifts"
     );
-    within("truth.rotor_lag_s", truth.rotor_lag_s.unwrap_or(0.0), 0.0, 10.0)
+    within("truth.rotor_lag_s", truth.rotor_lag_s.unwrap_or(0.0), 0.0, ROTOR_LAG_MAX_S)
 }
 
 fn start(f: &ScenarioFile) -> Result<()> {
@@ -217,12 +223,12 @@ fn gust(key: &str, gust: &Gust) -> Result<()> {
 }
 
 fn delay(seconds: f64) -> Result<()> {
-    let ticks = seconds * 1e3;
     within("actuation_delay_s", seconds, 0.0, DELAY_TICKS_MAX as f64 * 1e-3)?;
-    whole_milliseconds("actuation_delay_s", seconds, ticks)
+    whole_milliseconds("actuation_delay_s", seconds)
 }
 
-fn whole_milliseconds(key: &str, seconds: f64, ticks: f64) -> Result<()> {
+fn whole_milliseconds(key: &str, seconds: f64) -> Result<()> {
+    let ticks = seconds * 1e3;
     if (ticks - ticks.round()).abs() < 1e-6 {
         return Ok(());
     }
@@ -288,7 +294,7 @@ fn disturbance(d: &Disturbance, duration_s: f64) -> Result<()> {
     }
     period("disturbance", d.from_s, d.to_s)?;
     within("disturbance.hold_s", d.hold_s, 1e-3, 1e3)?;
-    whole_milliseconds("disturbance.hold_s", d.hold_s, d.hold_s * 1e3)
+    whole_milliseconds("disturbance.hold_s", d.hold_s)
 }
 
 fn attitude(wave: &AttitudeWave) -> Result<()> {

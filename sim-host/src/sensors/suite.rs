@@ -150,14 +150,14 @@ pub fn list() -> Result<Vec<(&'static str, String)>> {
 }
 
 fn named(name: &str) -> Result<Table> {
-    Source::read(name, "suite", &SUITES)?.table()
+    Source::named("sensors.suite", name, "suite", &SUITES)?.table()
 }
 
 /// A sensor's table merged over its part's.
 fn with_part(sensor: &str, table: Table) -> Result<Table> {
     let name = table.get("part").and_then(Value::as_str);
     let name = name.with_context(|| format!("`sensors.{sensor}.part` must be a part's name"))?;
-    let base = Source::read(name, "part", &PARTS)?.table()?;
+    let base = Source::named(&format!("sensors.{sensor}.part"), name, "part", &PARTS)?.table()?;
     Ok(merged(base, table))
 }
 

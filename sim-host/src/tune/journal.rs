@@ -9,6 +9,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, ensure};
 
+use crate::files::read_regular;
+
+/// Larger journals are refused, bytes: tens of millions of points.
+const LARGEST: u64 = 1 << 32;
+
 /// Points and costs of a run so far, in memory and in a file.
 #[derive(Debug)]
 pub struct Journal {
@@ -39,7 +44,7 @@ impl Journal {
     /// # Errors
     /// The file cannot be read, or belongs to another run.
     pub fn resume(path: &Path, identity: &str, names: &[&str]) -> Result<Self> {
-        let text = std::fs::read_to_string(path).with_context(|| cannot("resume from", path))?;
+        let text = read_regular(path, LARGEST).with_context(|| cannot("resume from", path))?;
         let rows = text.strip_prefix(&header(identity, names)).ok_or_else(|| {
             anyhow!(
                 "{} is another run's: tune, course, method, particles or seed differ; choose another folder with --out",

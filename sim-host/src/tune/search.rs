@@ -3,6 +3,8 @@
 #[cfg(feature = "search")]
 mod libraries;
 
+use std::ops::RangeInclusive;
+
 use anyhow::{Result, ensure};
 use clap::ValueEnum;
 
@@ -25,6 +27,11 @@ impl Method {
     }
 }
 
+/// Points per iteration that a search takes. CMA-ES learns from the better half, so it needs four at least.
+pub const PARTICLES: RangeInclusive<usize> = 4..=10_000;
+/// Iterations that it takes.
+pub const ITERATIONS: RangeInclusive<usize> = 1..=1_000_000;
+
 /// How to search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
@@ -44,15 +51,18 @@ impl Settings {
     /// # Errors
     /// The option that is out of its range.
     pub fn validate(&self) -> Result<()> {
-        // CMA-ES learns from the better half, so it needs four points at least.
         ensure!(
-            (4..=10_000).contains(&self.particles),
-            "--particles must be between 4 and 10000, not {}",
+            PARTICLES.contains(&self.particles),
+            "--particles must be between {} and {}, not {}",
+            PARTICLES.start(),
+            PARTICLES.end(),
             self.particles
         );
         ensure!(
-            (1..=1_000_000).contains(&self.iterations),
-            "--iterations must be between 1 and 1000000, not {}",
+            ITERATIONS.contains(&self.iterations),
+            "--iterations must be between {} and {}, not {}",
+            ITERATIONS.start(),
+            ITERATIONS.end(),
             self.iterations
         );
         Ok(())

@@ -1,8 +1,9 @@
 //! What the program says of input that it cannot use: one line, with the name, the key, the value, what it may be and
 //! what to do, and exit code 2. One table: arguments, and what the line holds.
 
+mod arguments;
+
 use std::fs;
-use std::net::UdpSocket;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
@@ -123,12 +124,46 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("helix", "trajectory={helx={}}", &["`trajectory` must be one of", "did you mean `helix`?"]),
         ("x500-hover", "trajectory={waypoint={points=[]}}", &["`trajectory`", "did you mean `waypoints`?"]),
         ("x500-hover", "trajectory={waypoints={points=[]}}", &["`trajectory.waypoints.points` must have 2 or more"]),
+        (
+            "x500-hover",
+            "trajectory={waypoints={points=[{position_m=[0,0,2]},{position_m=[0,0,3]},{position_m=[0,0,3]}]}}",
+            &["`trajectory.waypoints.points.2` is where `points.1` is: leave one out, or give every point `at_s`"],
+        ),
+        (
+            "x500-hover",
+            "trajectory={waypoints={points=[{position_m=[0,0,2],at_s=1},{position_m=[0,0,3],at_s=1.05}]}}",
+            &["`trajectory.waypoints.points.1.at_s` must be 0.08 s or more after `points.0.at_s`, 1, not 1.05"],
+        ),
         ("x500-hover", "trajectory={csv={file=\"gone.csv\"}}", &["`trajectory.csv`", "`gone.csv`", "No such file"]),
         ("helix", "trajectory=3", &["`trajectory` must be", "not 3"]),
         ("helix", "duration_s=0", &["`duration_s` must be between 0.001 and 1e6 s, not 0"]),
         ("helix", "duration_s=-5", &["`duration_s`", "not -5"]),
         ("helix", "duration_s=inf", &["`duration_s`", "not inf"]),
-        ("helix", "duration_s=1e300", &["`duration_s`", "1e6 s"]),
+        ("helix", "duration_s=1e308", &["`duration_s` must be between 0.001 and 1e6 s, not 1e308"]),
+        ("helix", "duration_s=0.0015", &["`duration_s` must be whole milliseconds, not 0.0015 s"]),
+        ("helix", "duration_s=99999999999999999999", &["`duration_s` must be between 0.001 and 1e6 s, not 1e20"]),
+        ("helix", "duration_s=3\nstart_position_m=[0,0,0]", &["`duration_s` must be a number, not \"3\\nstart"]),
+        ("helix", "duration_s=\u{1b}[31m", &["`duration_s` must be a number, not \"\\u{1b}[31m\""]),
+        ("helix", "a\u{1b}[31m\nb=3", &["`a\\u{1b}[31m b` is no key"]),
+        ("helix", "control.x.lambda=1e39", &["`control.x.lambda` must be between 1e-9 and 1e9, not 1e39"]),
+        ("helix", "control.x.lambda=-1e308", &["`control.x.lambda` must be above 0, not -1e308"]),
+        ("helix", "trajectory.helix.yaw_rad=-1e39", &["`trajectory.helix.yaw_rad` must be", "rad, not -1e39"]),
+        (
+            "x500-hover",
+            "airframe.thrust_to_weight=1e8",
+            &["`airframe.thrust_to_weight` must be between 1.01 and 1000, not"],
+        ),
+        ("helix", "thrust_to_weight=1", &["`thrust_to_weight` must be between 1.01 and 1000, not 1"]),
+        ("x500-hover", "start=on-ground", &["`start` is `on-ground`, and there is no ground: set `ground = true`"]),
+        ("paper-ideal", "start=on-ground", &["`start` is `on-ground`", "`start = \"in-flight\"`"]),
+        ("helix", "plant={}", &["`plant` must name a kind, not {}"]),
+        (
+            "helix",
+            "control.x.reaching={sat={rho=1},sgn={}}",
+            &["`control.x.reaching` must be one kind alone: keep one"],
+        ),
+        ("helix", "trajectory={}", &["`trajectory` must be one of hold, step,", "not an empty table"]),
+        ("helix", "trajectory={hold={},step={}}", &["`trajectory` is given twice, as `hold` and as `step`"]),
         ("helix", "duration_s=soon", &["`duration_s` must be a number, not \"soon\""]),
         ("helix", "duration_s=", &["--set duration_s=", "the value is missing"]),
         ("helix", "=3", &["--set =3", "KEY=VALUE"]),
@@ -150,6 +185,11 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
     ] {
         folder.refuses_settings(scenario, &[setting], parts);
     }
+}
+
+#[test]
+fn a_fault_that_cannot_be_is_named_with_its_key() {
+    let folder = Folder::new("faults");
     for (fault, parts) in [
         ("kind=\"rotr\",index=0,effectiveness=0.5", &["`fault.0.kind`", "`rotr`", "did you mean `rotor`?"][..]),
         ("kind=\"rotor\",index=7,effectiveness=0.5", &["`fault.0.index` must be between 0 and 3, not 7"]),
@@ -246,7 +286,27 @@ fn a_file_is_named_with_the_line_of_the_key() {
             spoilt("[0.0, 0.0, 0.0]", "[0.0, 0.0]"),
             &["line 6", "`trajectory.hold.position_m` must have 3 values, not 2"],
         ),
-        (spoilt("\"x500\"", "\"x50\""), &["airframe `x50`", "did you mean `x500`?"]),
+        (
+            spoilt("\"x500\"", "\"x50\""),
+            &["scenario `bad.toml`, line 2: `airframe`: unknown airframe `x50`: did you mean `x500`?"],
+        ),
+        (
+            spoilt("duration_s", "tuning = \"x500-pdi\"\nduration_s"),
+            &["scenario `bad.toml`, line 3: `tuning`: unknown tuning `x500-pdi`: did you mean `x500-pid`?"],
+        ),
+        (
+            spoilt("duration_s", "sensors = { suite = \"gnsss\" }\nduration_s"),
+            &["scenario `bad.toml`, line 3: `sensors.suite`: unknown suite `gnsss`: did you mean `gnss`?"],
+        ),
+        (
+            spoilt("duration_s", "sensors = { suite = \"gnss\", mag.part = \"ist\" }\nduration_s"),
+            &["scenario `bad.toml`, line 3: `sensors.mag.part`: unknown part `ist`"],
+        ),
+        (
+            spoilt("= 1.0", "= 99999999999999999999"),
+            &["line 3: `duration_s` is too large: whole numbers go to 9223372036854775807, others to 1.79"],
+        ),
+        (spoilt("= 1.0", "= 1e999"), &["line 3: `duration_s` is too large"]),
         (
             format!("tuning = \"x500-smc\"\n{SCENARIO}\n[control]\ntilt_max_rad = 1.0"),
             &["scenario `bad.toml`", "`tuning` and `control`", "keep one"],
@@ -274,7 +334,7 @@ fn a_file_that_is_none_says_what_it_is() {
     folder.file("runs/helix/scenario.toml", SCENARIO);
     for (name, parts) in [
         ("bytes.toml", &["scenario file `bytes.toml`", "line 2 is not UTF-8"][..]),
-        ("huge.toml", &["scenario file `huge.toml`", "larger than 1 MiB"]),
+        ("huge.toml", &["scenario file `huge.toml`", "larger than 1 MiB, the most that is read"]),
         ("runs/helix", &["`runs/helix`", "folder", "give `runs/helix/scenario.toml`"]),
         ("runs/other", &["`runs/other`", "folder", "path of a scenario file"]),
         ("gone.toml", &["scenario file `gone.toml`", "No such file"]),
@@ -284,62 +344,25 @@ fn a_file_that_is_none_says_what_it_is() {
 }
 
 #[test]
-fn ranges_of_seeds_and_numbers_of_threads_say_what_they_may_be() {
-    let folder = Folder::new("seeds");
-    for (seeds, part) in [
-        ("9..3", "9..3 runs backwards: use 3..9"),
-        ("1..0", "1..0 runs backwards: use 0..1"),
-        ("5", "--seed 5"),
-        ("a..b", "`a` is not a seed"),
-        ("1..99999999", "more than 1000000"),
-        ("1..99999999999999999999", "0 to 18446744073709551615"),
-    ] {
-        folder.refuses(&["run", "helix", "--seeds", seeds], &["--seeds", seeds, part]);
+fn what_might_never_end_is_not_read() {
+    let folder = Folder::new("fifo");
+    for name in ["fifo.toml", "fifo.csv", "fifo"] {
+        let path = folder.0.join(name);
+        rustix::fs::mkfifoat(rustix::fs::CWD, &path, rustix::fs::Mode::RUSR)
+            .expect("the temporary folder can be written");
     }
-    folder.refuses(&["run", "helix", "--seeds", "1..2", "--jobs", "0"], &["--jobs", "'0'", "from 1 up"]);
-    folder.refuses(&["compare", "--jobs", "many"], &["--jobs", "'many'", "from 1 up"]);
-    for arguments in
-        [&["run", "helix", "--seed", "-1"][..], &["sweep", "paper-disturbed", "--seed", "99999999999999999999"]]
-    {
-        folder.refuses(arguments, &["--seed", arguments[3], "0 to 18446744073709551615"]);
+    let cure = "it is not a regular file: write the text to one and give its path";
+    folder.refuses(&["run", "fifo.toml"], &["scenario file `fifo.toml`", cure]);
+    folder.refuses(&["run", "/dev/zero"], &["scenario file `/dev/zero`", cure]);
+    folder.refuses(&["compare", "/dev/zero"], &["matrix file `/dev/zero`", cure]);
+    folder.refuses_settings("x500-hover", &["tuning=fifo.toml"], &["tuning file `fifo.toml`", cure]);
+    for file in ["fifo.csv", "/dev/zero"] {
+        let trajectory = format!("trajectory={{csv={{file=\"{file}\"}}}}");
+        folder.refuses_settings("x500-hover", &[&trajectory], &["`trajectory.csv`", file, cure]);
     }
-    folder.refuses(&["bench", "--seconds", "nan"], &["--seconds must be between 1 and 1e6 s, not nan"]);
-    folder.refuses(&["bench", "--runs", "0"], &["--runs must be between 1 and 10000, not 0"]);
-    let (_, said) = folder.prints(&["run", "helix", "--set", "duration_s=0.1", "--seeds", "1..=2", "--jobs", "100000"]);
-    assert!(!said.contains("panicked"), "{said}");
-}
-
-#[test]
-fn seeds_that_make_no_difference_are_said_once() {
-    let folder = Folder::new("idle");
-    let note = "the seed makes no difference: `helix` has no random part";
-    let short = ["run", "helix", "--set", "duration_s=0.1"];
-    for (more, said) in [(&["--seeds", "1..3"][..], 1), (&["--seed", "2"], 1), (&[], 0)] {
-        let (_, err) = folder.prints(&[&short[..], more].concat());
-        assert_eq!(err.matches(note).count(), said, "{more:?}: {err}");
+    for command in [&["run", "helix"][..], &["analyse", "x500-hover"], &["paper"]] {
+        folder.refuses(&[command, &["--out", "fifo"]].concat(), &["--out fifo", "it is no folder: name a folder"]);
     }
-    let windy = ["--seed", "2", "--set", "wind.turbulence_20ft_m_s=5"];
-    let (_, err) = folder.prints(&[&short[..], &windy].concat());
-    assert!(!err.contains(note), "turbulence is drawn from the seed: {err}");
-}
-
-#[test]
-fn addresses_say_the_cure() {
-    let folder = Folder::new("addresses");
-    let socket = UdpSocket::bind("127.0.0.1:0").expect("a free port");
-    let taken = socket.local_addr().expect("bound");
-    let next = format!("--listen 127.0.0.1:{}", taken.port().checked_add(1).unwrap_or(65534));
-    folder.refuses(&["serve", "--listen", &taken.to_string()], &[&taken.to_string(), "in use", &next]);
-    // A name, and peers by name: as far as the port, which is taken.
-    let by_name = format!("localhost:{}", taken.port());
-    folder.refuses(&["serve", "--listen", &by_name, "--peer", "localhost"], &[&taken.to_string(), "in use"]);
-    folder.refuses(
-        &["serve", "--listen", "192.0.2.1:14580"],
-        &["192.0.2.1", "no address of this machine", "127.0.0.1:14580"],
-    );
-    folder.refuses(&["serve", "--listen", "localhost:many"], &["--listen", "localhost:14580"]);
-    folder.refuses(&["serve", "--peer", ":14550"], &["--peer", "host is missing", "127.0.0.1:14550"]);
-    folder.refuses(&["serve", "--listen", "[::1]:0"], &["[::1]:0", "127.0.0.1:14550", "IPv6"]);
 }
 
 #[test]
@@ -391,6 +414,6 @@ lost = 10.0
 fn a_benchmark_says_what_it_measures() {
     let folder = Folder::new("bench");
     let (out, err) = folder.prints(&["bench", "--seconds", "1", "--runs", "3"]);
-    assert!(err.contains("3 flights of `helix`, 1 simulated seconds each"), "{err}");
+    assert!(err.contains("3 flights of `helix`, 1 simulated s each"), "{err}");
     assert!(["lowest", "median", "highest", "real time"].iter().all(|word| out.contains(word)), "{out}");
 }

@@ -53,7 +53,11 @@ fn times_follow_from_the_limits_and_use_them() {
 #[test]
 fn what_is_wrong_with_waypoints_is_named() {
     for (from, to, error) in [
-        ("at_s = 5.5", "at_s = 3.25", "`points.at_s` must rise by 0.05 s at least, not from 3.25 to 3.25"),
+        (
+            "at_s = 5.5",
+            "at_s = 3.25",
+            "`trajectory.waypoints.points.2.at_s` must be 0.05 s or more after `points.1.at_s`, 3.25, not 3.25",
+        ),
         (", at_s = 8", "", "3 of 4 points have `at_s`: give it to all of them, or to none"),
         ("[-2, 0, 1]", "[-2, 0, 1e5]", "position_m.2` must be between -10000 and 10000 m, not 100000"),
         (
@@ -74,7 +78,7 @@ fn what_is_wrong_with_waypoints_is_named() {
         (
             "[trajectory.waypoints]",
             "[trajectory.hold]\n[trajectory.waypoints]",
-            "`trajectory` is given twice, as `waypoints` and as `hold`",
+            "`trajectory` is given twice, as `hold` and as `waypoints`",
         ),
     ] {
         let text = POINTS.replace(from, to);

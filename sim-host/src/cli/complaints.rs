@@ -1,0 +1,83 @@
+//! Complaints: one line on standard error each, as a terminal can show it.
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use clap::CommandFactory as _;
+use clap::error::{ContextKind, ContextValue};
+
+use super::Cli;
+use crate::refusal::did_you_mean;
+use crate::scenario;
+use crate::words::printable;
+
+/// Help and version as clap prints them; its complaints, which take several lines, in one.
+pub(super) fn refuse(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        let _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = error.to_string();
+    let (complaint, tip) = complaint(&text);
+    let tip = misplaced_scenario(error)
+        .or(tip)
+        .or_else(|| meant_command(error))
+        .map_or(String::new(), |tip| format!(": {tip}"));
+    complain(&format!("{complaint}{tip} (see --help)"));
+    ExitCode::from(2)
+}
+
+/// What clap complains of in its first paragraph, and the tip that may follow it.
+fn complaint(text: &str) -> (String, Option<String>) {
+    let before_usage = text.split("Usage:").next().unwrap_or(text);
+    let lines = || before_usage.lines().map(str::trim);
+    let complaint = lines().take_while(|line| !line.is_empty()).collect::<Vec<_>>().join(" ");
+    // "To pass '-1' as a value, use '-- -1'" helps nobody here: no argument begins with a dash.
+    let tips = lines().filter_map(|line| line.strip_prefix("tip: "));
+    let tip = tips.filter(|tip| !tip.starts_with("to pass")).map(str::to_owned).next();
+    (complaint.trim_start_matches("error: ").to_owned(), tip)
+}
+
+/// `sim-host helix` means `sim-host run helix`.
+fn misplaced_scenario(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
+    scenario::is_built_in(word).then(|| format!("it is a scenario, which `sim-host run {word}` flies"))
+}
+
+/// The command that an unknown one may have meant, or all.
+fn meant_command(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
+    let cli = Cli::command();
+    let names: Vec<&str> = cli.get_subcommands().map(clap::Command::get_name).collect();
+    Some(did_you_mean(word, &names))
+}
+
+/// Writes a line to standard error. If nobody can read it, the exit code still tells.
+pub(super) fn complain(line: &str) {
+    let _ = writeln!(std::io::stderr(), "sim-host: {}", printable(line));
+}
+
+/// An error with its causes, in a line.
+pub(super) fn one_line(error: &anyhow::Error) -> String {
+    // The system's number of an error, "(os error 2)", tells nobody more than its text does.
+    let text = format!("{error:#}").replace('\n', " ");
+    let mut pieces = text.split(" (os error ");
+    let first = pieces.next().unwrap_or_default().to_owned();
+    printable(&pieces.fold(first, |text, piece| text + piece.split_once(')').map_or("", |(_, rest)| rest)))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser as _;
+
+    use super::*;
+
+    #[test]
+    fn a_complaint_keeps_its_tip() {
+        let refused = |arguments: &[&str]| complaint(&Cli::try_parse_from(arguments).expect_err("refused").to_string());
+        let (text, tip) = refused(&["sim-host", "asses"]);
+        assert!(text.contains("'asses'") && tip.is_some_and(|tip| tip.contains("'assess'")), "{text}");
+        let (text, tip) = refused(&["sim-host", "run"]);
+        assert!(text.contains("<SCENARIO>") && tip.is_none(), "{text}");
+    }
+}
