@@ -61,6 +61,8 @@ fn a_vehicle_too_heavy_to_fly_has_not_survived() {
     assert_eq!(json["mission"]["completed"], false);
     let text = folder.text(&heavy);
     assert!(text.contains("mission NOT completed\n  never flew"), "{text}");
+    // 2 kg with rotors for twice the weight, at three times the mass.
+    assert!(text.contains("its rotors give at most 39.2 N and it weighs 58.8 N: thrust-to-weight 0.67\n"), "{text}");
 }
 
 #[test]
