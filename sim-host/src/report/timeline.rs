@@ -232,10 +232,10 @@ impl TimelineRecorder {
     /// What the vehicle said to the newest command of its kind.
     fn answer(&mut self, t: f64, reply: &Reply) {
         let (name, refused) = (reply.command.request.name(), refusal(reply));
-        if let Some(leg) = self.course.legs.iter_mut().rfind(|leg| leg.order.request().name() == name) {
-            leg.refused = refused;
-        }
-        if let Some(reason) = refused {
+        let leg = self.course.legs.iter_mut().rfind(|leg| leg.order.request().name() == name);
+        let before = leg.and_then(|leg| std::mem::replace(&mut leg.refused, refused));
+        // Orders that are repeated until they are accepted are refused again and again.
+        if let Some(reason) = refused.filter(|_| refused != before) {
             self.say(t, EventKind::Refused, format!("{name} refused: {reason}"));
         }
     }
