@@ -83,9 +83,9 @@ fn a_hard_touchdown_is_a_crash_and_the_flight_goes_on() {
 #[test]
 fn a_refused_command_is_told_as_refused_and_once() {
     // A place before take-off, and an arming that is repeated twice a second while there is no position.
-    let command = "command=[{at_s=1.0,order=\"arm\"},{at_s=9.0,order={go-to={position_m=[8.0,0.0,5.0],yaw_deg=0.0}}}]";
+    let command = "command=[{at_s=1.0,order=\"arm\"},{at_s=8.0,order={go-to={position_m=[8.0,0.0,5.0],yaw_deg=0.0}}},{at_s=8.5,order={take-off={height_m=2.0}}}]";
     let fault = "fault=[{sensor=\"gnss\",kind=\"off\",from_s=0.2,to_s=4.0}]";
-    let flight = ["run", "path", "--set", command, "--set", fault, "--set", "duration_s=12"];
+    let flight = ["run", "path", "--set", command, "--set", fault, "--set", "duration_s=14"];
     let text = Folder::new("refused").text(&flight);
     assert!(text.contains("`go-to 8, 0, 5 m` refused: ") && !text.contains("missed by"), "{text}");
     assert!(!text.contains("m from go-to"), "{text}");
