@@ -2,12 +2,15 @@
 """Checks a flight's truth.csv against the equations of docs/simulation.md, without any code of the project.
 
 From each row the motion is integrated to the next row's time, and compared with that row. For flights of the paper's
-airframe on the rigid-body plant, in the air and undisturbed: `tests/check_truth.py runs/helix/truth.csv [LAG_S]`.
+airframe on the rigid-body plant, in the air and undisturbed: `tests/check_truth.py runs/helix/truth.csv [LAG_S]`. What
+else was flown with, by the scenario beside the file, is named in one line, and the exit code is 2.
 """
 
 import csv
 import math
 import sys
+import tomllib
+from pathlib import Path
 
 # Table 2 of the paper.
 B, D, MASS, ARM, ROTOR_INERTIA = 29.8e-4, 33e-6, 0.823, 0.350, 28.4e-4
@@ -69,7 +72,25 @@ def largest_difference(path, lag_s):
     return largest, rows
 
 
+def not_modelled(folder):
+    """What of a flight's folder these equations do not have."""
+    toml = lambda name: tomllib.loads((folder / name).read_text(encoding="utf-8")) if (folder / name).is_file() else {}
+    flown, airframe = toml("scenario.toml"), toml("airframe.toml")
+    found = [f"plant = {flown['plant']}"] if flown.get("plant", "rigid-body") != "rigid-body" else []
+    found += ["another airframe"] if airframe.get("mass_kg", MASS) != MASS else []
+    found += [key for key in ("ground", "wind", "push", "battery", "fault") if flown.get(key)]
+    pushes = ("acceleration_m_s2", "angular_acceleration_rad_s2")
+    found += ["disturbance"] if any(flown.get("disturbance", {}).get(key) for key in pushes) else []
+    sound = {"mass_factor": 1.0, "inertia_factor": 1.0, "rotor_effectiveness": [1.0] * 4}
+    found += [f"truth.{key}" for key, value in flown.get("truth", {}).items() if key in sound and value != sound[key]]
+    return found + [f"world.{key}" for key, value in flown.get("world", {}).items() if value]
+
+
 def main():
+    found = not_modelled(Path(sys.argv[1]).parent)
+    if found:
+        print(f"{sys.argv[1]}: cannot be checked, for it was flown with {', '.join(found)}, which this script does not model")
+        return 2
     largest, rows = largest_difference(sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 else 0.0)
     print(f"{rows} rows; the largest difference from one row to the next is {largest:.1e}")
     return 0 if rows > 1 and largest < TOLERANCE else 1

@@ -150,7 +150,7 @@ def comparison_table(result):
 
 # What of the flights on sensors stands in docs/results.md: scenario, measure, how it reads there, what is expected.
 ON_SENSORS = [
-    ("outdoor-hover", "climb-s", "take-off to 10 m, within 0.35 m after, s", "30; PX4’s test 30"),
+    ("outdoor-hover", "climb-s", "climb to 10 m: from lift-off until within 0.35 m, s", "30; PX4’s test 30"),
     ("outdoor-hover", "height-wander-max-m", "then height over 60 s, 5 m/s of wind, m", "0.15; PX4’s test 0.25"),
     ("outdoor-hover", "horizontal-error-p95-m", "and distance, 95 % of the time, m", "1.0"),
     ("indoor-hover", "horizontal-error-p95-m", "the same on motion capture, m", "0.05"),
@@ -167,6 +167,7 @@ ON_SENSORS = [
     ("weak-rotor", "height-error-max-m", "a rotor at 65 % for 30 s: height, m", "1; ArduPilot’s test 5"),
     ("weak-rotor", "horizontal-error-max-m", "and drift, m", "2; ArduPilot’s test 10"),
     ("lost-rotor", "touchdown-m-s", "a rotor lost at 20 m: touches down at, m/s", "3"),
+    ("lost-rotor", "horizontal-error-max-m", "and how far from where it failed, at most, m", "–"),
 ]
 
 

@@ -32,7 +32,7 @@ pub fn parse<'a>(words: impl Iterator<Item = &'a str>, now: Tick) -> Result<Faul
         }
     }
     if table.get("kind").is_some_and(|kind| kind.as_str() == Some("rotor")) && table.len() == 1 {
-        bail!("say which rotor, from 0, and how much of it is left: fault rotor index=0 effectiveness=0");
+        bail!("say which rotor (index=0 is rotor 1) and how much of it is left: fault rotor index=0 effectiveness=0");
     }
     ensure!(table.contains_key("kind"), "say how it fails: kind={}", KINDS.join("|"));
     table.entry("from_s").or_insert(Value::Float(f64::from(now) * TICK_S_EXACT));

@@ -72,7 +72,8 @@ pub struct Command {
 }
 
 impl Order {
-    fn request(&self) -> Request {
+    /// What the vehicle is asked.
+    pub(crate) fn request(&self) -> Request {
         match *self {
             Self::Arm => Request::Arm { force: false },
             Self::Disarm => Request::Disarm { force: false },

@@ -301,6 +301,13 @@ impl Scenario {
         self.file.truth.of(&self.airframe.constants())
     }
 
+    /// The greatest thrust of the rotors as they truly are, and the vehicle's true weight, both at sea level, N.
+    pub fn thrust_and_weight_n(&self) -> [f64; 2] {
+        let plant = self.constants();
+        let thrust_n = plant.geometry.row(0).sum() * self.airframe.omega_max().powi(2);
+        [thrust_n, plant.mass * plant.gravity]
+    }
+
     /// How much later than commanded the rotors are told, ticks.
     pub fn actuation_delay_ticks(&self) -> usize {
         (self.airframe.actuation_delay_s * 1e3).round() as usize

@@ -7,6 +7,8 @@ use serde::Serialize;
 
 /// Least coverage probability of an interval.
 pub const CONFIDENCE: f64 = 0.95;
+/// Values from which on a median has an interval: of five, even the least and the greatest miss it with probability 2/32.
+pub const FOR_AN_INTERVAL: usize = 6;
 
 /// Accumulates a root mean square.
 #[derive(Clone, Copy, Debug, Default)]
@@ -89,7 +91,7 @@ mod tests {
             assert_eq!(interval_ranks(count), Some((rank - 1, count - rank)), "{count}");
         }
         // Five values miss it with probability 2/32.
-        assert!((0..6).all(|count| interval_ranks(count).is_none()));
+        assert!((0..FOR_AN_INTERVAL).all(|count| interval_ranks(count).is_none()));
     }
 
     #[test]

@@ -106,6 +106,9 @@ pub struct Report {
 /// the approximation of the quantile wants 30.
 const SEEDS_FOR_BANDS: u64 = 30;
 
+/// Seeds from which on the 5th and the 95th percentile are others than the least and the greatest.
+const SEEDS_FOR_TAILS: u64 = 20;
+
 /// A percentile of sorted values by nearest rank; none without any.
 pub fn percentile(sorted: &[f64], percent: f64) -> Option<f64> {
     let rank = (percent / 100.0 * sorted.len() as f64).ceil() as usize;
@@ -290,6 +293,12 @@ impl Report {
             let name = row.measure.name();
             let _ = writeln!(text, "{name:26} {:>6} {p5:>10} {p50:>10} {p95:>10} {max:>10} {rms:>10}", row.count);
         }
+        if self.seeds.count() < SEEDS_FOR_TAILS {
+            let _ = writeln!(
+                text,
+                "p5 and p95 of so few seeds are the least and the greatest: {SEEDS_FOR_TAILS} seeds or more tell them apart"
+            );
+        }
         let _ = writeln!(
             text,
             "\n{:26} {:>8} {:>10} {:>10} {:>10}",
@@ -352,6 +361,8 @@ mod tests {
         assert_eq!(percentile(&values, 0.0), Some(1.0));
         assert_eq!(percentile(&values[..3], 50.0), Some(2.0));
         assert_eq!(percentile(&[], 50.0), None);
+        let tail = |count: usize| (percentile(&values[..count], 95.0), percentile(&values[..count], 100.0));
+        assert_eq!((tail(19), tail(20)), ((Some(19.0), Some(19.0)), (Some(19.0), Some(20.0))));
     }
 
     #[test]
@@ -366,6 +377,8 @@ mod tests {
         let judged = |last| report("x", Seeds { first: 1, last }, &assess, &[]);
         let (few, many) = (judged(19), judged(30));
         assert!(few.is_met() && few.seeds_needed() == Some(30) && few.render().contains("too few seeds, 20 needed"));
+        assert!(few.render().contains("\np5 and p95 of so few seeds are the least and the greatest: 20 seeds or more"));
+        assert!(!many.render().contains("so few seeds"));
         assert!(!many.is_met() && many.seeds_needed().is_none() && many.render().contains("NOT MET"));
     }
 

@@ -14,7 +14,7 @@ use crate::flight;
 use crate::record::Row;
 use crate::report::estimate::Belief;
 use crate::report::mission::{self, REACHED_BY_GNSS_M, REACHED_M};
-use crate::report::summary::Told;
+use crate::report::summary::{Aim, Told};
 use crate::report::timeline::{Course, Event, EventKind};
 use crate::report::{
     Figures, Flight, Metrics, OutFolder, Progress, SensedRecorder, Summary, Timeline, TimelineRecorder, TruthWriter,
@@ -89,7 +89,7 @@ fn take<W: Write>(
     bar.finish();
     let sensed = sensed.map(|sensed| sensed.finish(outcome.touchdown)).transpose()?;
     let (sensed, beliefs) = sensed.map_or_else(Default::default, |(sensed, beliefs)| (Some(sensed), beliefs));
-    let mut course = course.finish(&scenario.file.fault);
+    let mut course = course.finish(&scenario.file.fault, &scenario.file.push);
     add_contacts(&mut course.timeline, &outcome);
     let timeline = course.timeline.clone();
     let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics)
@@ -116,10 +116,33 @@ fn told(scenario: &Scenario, course: Course, outcome: &Outcome) -> Option<Told> 
     if commands == 0 && scenario.file.sensors.is_none() {
         return None;
     }
+    let mission = (commands > 0).then(|| mission::judge(&course, outcome, commands, radius_m(scenario)));
+    Some(Told::new(course, mission.map(|mission| mission.because(too_heavy(scenario, outcome)))))
+}
+
+/// Why a vehicle never flew, if its rotors cannot lift it.
+fn too_heavy(scenario: &Scenario, outcome: &Outcome) -> Option<String> {
+    let [thrust_n, weight_n] = scenario.thrust_and_weight_n();
+    let ratio = thrust_n / weight_n;
+    (outcome.end == End::NeverFlew && ratio < 1.0).then(|| {
+        format!("its rotors give at most {thrust_n:.1} N and it weighs {weight_n:.1} N: thrust-to-weight {ratio:.2}")
+    })
+}
+
+/// How near a place counts as reached, m.
+fn radius_m(scenario: &Scenario) -> f64 {
     let by_gnss = scenario.file.sensors.as_ref().is_some_and(|suite| suite.gnss.is_some());
-    let radius_m = if by_gnss { REACHED_BY_GNSS_M } else { REACHED_M };
-    let mission = (commands > 0).then(|| mission::judge(&course, outcome, commands, radius_m));
-    Some(Told::new(course, mission))
+    if by_gnss { REACHED_BY_GNSS_M } else { REACHED_M }
+}
+
+/// What a flight is to follow. On sensors a place counts as reached as it does for a pilot, and the heading, which is as
+/// good as its estimate, is not judged.
+fn aim(scenario: &Scenario) -> Aim {
+    match &scenario.file {
+        file if file.attitude.is_some() => Aim::Attitude,
+        file if file.sensors.is_some() => Aim::Position { within_m: radius_m(scenario), within_rad: f64::INFINITY },
+        _ => Aim::IDEAL,
+    }
 }
 
 pub(super) fn summarise(
@@ -142,7 +165,9 @@ pub(super) fn summarise(
         papers_helix: scenario.file.trajectory == Trajectory::PAPER_HELIX,
         settles: settles(scenario, metrics),
         time_optimal_s: scenario.file.time_optimal_s,
+        aim: aim(scenario),
         disturbance_onset_s: scenario.file.disturbance.map(|d| d.from_s),
+        too_heavy: too_heavy(scenario, &outcome),
         end: outcome.end,
     };
     Summary::new(flight, metrics)

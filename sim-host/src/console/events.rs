@@ -59,6 +59,8 @@ pub struct Watch {
     mode: Mode,
     ready: Steady<Result<(), Refusal>>,
     position: Steady<bool>,
+    /// Whether it was told that the position is unknown, and not yet that it is known again.
+    lost: bool,
     /// Where it was armed, m: the truth.
     home: Vector3<f64>,
     touchdown: Option<Touchdown>,
@@ -77,6 +79,7 @@ impl Watch {
             mode: commander.mode,
             ready: Steady::new(),
             position: Steady { told: Some(true), seen: None },
+            lost: false,
             home: flight.plant().motion().position,
             touchdown: touchdown(flight),
             contact: None,
@@ -174,17 +177,29 @@ impl Watch {
     fn look_at_health(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
         let (tick, vehicle) = (flight.next_tick(), &flight.autopilot.inner);
         let commander = vehicle.commander_output();
+        let position = self.position.see(tick, vehicle.nav_health().position);
+        if let Some(text) = position.and_then(|known| position_text(&mut self.lost, known, commander.armed)) {
+            tell(if self.lost { Tone::Alarm } else { Tone::Good }, text.to_owned());
+        }
         if commander.armed {
-            if let Some(known) = self.position.see(tick, vehicle.nav_health().position) {
-                let (tone, what) = if known { (Tone::Good, "known again") } else { (Tone::Alarm, "unknown") };
-                tell(tone, format!("navigation: position {what}"));
-            }
-        } else if let Some(ready) = self.ready.see(tick, commander.armable) {
+            return;
+        }
+        if let Some(ready) = self.ready.see(tick, commander.armable) {
             match ready {
                 Ok(()) => tell(Tone::Good, "ready to arm".to_owned()),
                 Err(refusal) => tell(Tone::Refused, format!("not ready to arm: {}", refusal.reason())),
             }
         }
+    }
+}
+
+/// What is said of a position that has become known or unknown. On the ground whether it may be armed tells of one that
+/// is unknown; what was lost in the air is found again when it is, and not when the vehicle is armed the next time.
+fn position_text(lost: &mut bool, known: bool, armed: bool) -> Option<&'static str> {
+    let was_lost = std::mem::replace(lost, !known && (*lost || armed));
+    match known {
+        true => was_lost.then_some("navigation: position known again"),
+        false => (armed && !was_lost).then_some("navigation: position unknown"),
     }
 }
 
@@ -204,6 +219,16 @@ fn failsafe(event: Event) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_position_lost_in_the_air_is_found_again_on_the_ground_and_one_unknown_before_arming_is_not() {
+        let mut lost = false;
+        let mut say = |known, armed| position_text(&mut lost, known, armed);
+        assert_eq!([say(false, false), say(true, false)], [None, None], "before the first fix");
+        assert_eq!(say(false, true), Some("navigation: position unknown"));
+        assert_eq!(say(true, false), Some("navigation: position known again"));
+        assert_eq!(say(true, true), None, "armed anew");
+    }
 
     #[test]
     fn what_flickers_is_told_once_it_has_lasted() {

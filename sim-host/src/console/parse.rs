@@ -195,7 +195,7 @@ pub const COMMANDS: &[Entry] = &[
         names: &["fault", "failure"],
         arguments: "[SENSOR] KIND [KEY=VALUE]...",
         summary: "make a sensor, a rotor or the battery fail",
-        details: "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5`, \
+        details: "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5` (rotor 1), \
                   `fault collapse factor=0.8`; from now on for good, or `from_s=` and `to_s=` (s). The keys are those of \
                   `[[fault]]` in docs/simulation.md",
         read: |words, now| Ok(Command::Fault(failures::parse(words.iter().copied(), now)?)),

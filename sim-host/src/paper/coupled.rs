@@ -91,10 +91,12 @@ fn not_the_limits(flown: &Flown) -> String {
 fn thin(flown: &Flown) -> String {
     let gains = &flown.control().x;
     format!(
-        "with λ = {} 1/s and K = {} m/s² on x, y and z but the layer of Table 1, K/ρ is still {:.0} 1/s",
+        "with λ = {} 1/s and K = {} m/s² on x, y and z but the layer of Table 1, K/ρ is still {:.0} 1/s: the attitude asked for \
+         jumps so that its feedforward demands up to {:.0e} N m, of which the rotors give what they can",
         gains.lambda,
         gains.gain,
         layer_rate(gains),
+        flown.greatest_torque_n_m(),
     )
 }
 

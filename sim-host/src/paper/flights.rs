@@ -177,6 +177,11 @@ impl Flown {
         after.map(position_error).reduce(f64::max)
     }
 
+    /// The greatest torque demanded about an axis, N m.
+    pub fn greatest_torque_n_m(&self) -> f64 {
+        self.rows.iter().map(|row| greatest(&row.u[1..])).fold(0.0, f64::max)
+    }
+
     /// The row at a time.
     pub fn at(&self, t: f64) -> Option<&Row> {
         self.rows.get(self.rows.partition_point(|row| row.t < t - 5e-4))

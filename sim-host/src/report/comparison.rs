@@ -7,7 +7,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 use crate::compare::{Cell, Comparison, Figure, FlightScore, LostCell, Medians, Overall};
-use crate::statistics::Estimate;
+use crate::statistics::{Estimate, FOR_AN_INTERVAL};
 use crate::words::counted;
 
 /// Letters of a column of a cell's controller, of a disturbance, and between columns: four controllers fit in 120.
@@ -108,8 +108,10 @@ fn heading(comparison: &Comparison) -> String {
     let Comparison { matrix, summary, seeds, flights, .. } = comparison;
     let (seeds, trained) = (String::from(*seeds), comparison.seeds_are_trained_on);
     let trained = if trained { " (SOME OF THEM TUNED ON)" } else { "" };
+    let few = comparison.seeds.count() < FOR_AN_INTERVAL as u64 && comparison.cells.iter().any(|cell| cell.random);
+    let few = if few { ". No interval: it takes six seeds or more" } else { "" };
     format!(
-        "{matrix}: {summary}\n{}; seeds {seeds}{trained}; one flight where the seed changes nothing\n\n\
+        "{matrix}: {summary}\n{}; seeds {seeds}{trained}; one flight where the seed changes nothing{few}\n\n\
          RMS distance from the trajectory, mm: median [95 % interval], survived/flown where some are lost\n\n",
         counted(flights.len(), "flight")
     )
@@ -275,6 +277,15 @@ pub(super) mod tests {
             markdown.lines().filter(|line| line.starts_with("| x500-")).all(|line| columns(line) >= 5),
             "{markdown}"
         );
+    }
+
+    #[test]
+    fn too_few_seeds_for_an_interval_are_named() {
+        let few = "one flight where the seed changes nothing. No interval: it takes six seeds or more\n";
+        let comparison = comparison();
+        assert!(!render(&comparison).contains("No interval"));
+        let comparison = Comparison { seeds: "1001..1005".parse().expect("valid"), ..comparison };
+        assert!(render(&comparison).contains(few) && markdown(&comparison).contains(few));
     }
 
     #[test]

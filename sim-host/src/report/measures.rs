@@ -94,7 +94,62 @@ impl Variation {
     }
 }
 
+/// The greatest value of about the last second: of ten blocks of a tenth, the newest of which is being filled.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Recent {
+    blocks: [f64; Self::BLOCKS],
+    newest: u64,
+}
+
+impl Recent {
+    const BLOCKS: usize = 10;
+
+    /// Takes the value at time `t` (s), not before the one of the last call. A NaN is greater than any.
+    pub(crate) fn take(&mut self, t: f64, value: f64) {
+        let block = (t * Self::BLOCKS as f64) as u64;
+        let passed = block.saturating_sub(self.newest).min(Self::BLOCKS as u64);
+        for i in 0..passed {
+            self.blocks[((block - i) % Self::BLOCKS as u64) as usize] = 0.0;
+        }
+        self.newest = self.newest.max(block);
+        let greatest = &mut self.blocks[(self.newest % Self::BLOCKS as u64) as usize];
+        if value.is_nan() || value > *greatest {
+            *greatest = value;
+        }
+    }
+
+    /// The greatest; infinite if a value was NaN.
+    pub(crate) fn max(&self) -> f64 {
+        self.blocks.iter().fold(0.0, |most, value| if value.is_nan() { f64::INFINITY } else { value.max(most) })
+    }
+}
+
 /// `None` for what JSON cannot hold.
 pub(crate) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_recent_is_the_last_second() {
+        let mut recent = Recent::default();
+        for k in 0..5000_u32 {
+            // 7 until 3.5 s, then 2 but for one tick at 4.2 s.
+            let value = if k < 3500 {
+                7.0
+            } else if k == 4200 {
+                3.0
+            } else {
+                2.0
+            };
+            recent.take(f64::from(k) / 1e3, value);
+            let expected = if k < 4400 { 7.0 } else { 3.0 };
+            assert!(recent.max() == expected, "{k}: {}", recent.max());
+        }
+        recent.take(5.0, f64::NAN);
+        assert!(recent.max().is_infinite());
+    }
 }

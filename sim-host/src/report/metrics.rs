@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::angles::{roll_pitch_yaw, wrap, yaw};
 pub use super::measures::Settling;
-use super::measures::{Size, Variation, finite};
+use super::measures::{Recent, Size, Variation, finite};
 use crate::record::{Recorder, Row};
 
 /// RMS and maximum error are taken from here on, s: what comes before is the approach.
@@ -86,6 +86,17 @@ pub struct TiltFigures {
     pub pitch_max_rad: Option<f64>,
 }
 
+/// The greatest errors in about the last second of a flight; infinite where one was NaN.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EndErrors {
+    /// Distance from the reference, m.
+    pub distance_m: f64,
+    /// Error of roll or pitch, rad.
+    pub tilt_rad: f64,
+    /// Error of yaw, rad.
+    pub yaw_rad: f64,
+}
+
 /// Time from a disturbance's onset until the error stays within 5 cm, or 2° for an angle, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Recovery {
@@ -158,7 +169,9 @@ pub struct Metrics {
     axes: [Axis; 4],
     /// Roll, pitch, yaw.
     angles: [Settling; 3],
-    tilt: [Size; 2],
+    tilt: [Axis; 2],
+    /// Distance from the reference (m), and the greatest error of roll and pitch, and that of yaw (rad).
+    recent: [Recent; 3],
     chattering: Variation,
     chattering_after_4s: Variation,
     effort: [Size; 4],
@@ -171,7 +184,8 @@ impl Metrics {
         Self {
             axes: [Axis::new(); 4],
             angles: [Settling::new(ANGLE_RECOVERY_BAND); 3],
-            tilt: [Size::default(); 2],
+            tilt: [Axis::new(); 2],
+            recent: [Recent::default(); 3],
             chattering: Variation::from(f64::NEG_INFINITY),
             chattering_after_4s: Variation::from(TRACKING_FROM_S),
             effort: [Size::default(); 4],
@@ -200,9 +214,20 @@ impl Metrics {
         ControlEffort { thrust_rms_n, roll_rms_n_m, pitch_rms_n_m, yaw_rms_n_m }
     }
 
+    /// How roll and pitch followed what was desired of them, rad.
+    pub fn roll_and_pitch(&self) -> [AxisFigures; 2] {
+        self.tilt.map(|axis| axis.figures())
+    }
+
+    /// How far the flight was off in about its last second.
+    pub fn at_the_end(&self) -> EndErrors {
+        let [distance_m, tilt_rad, yaw_rad] = self.recent.map(|recent| recent.max());
+        EndErrors { distance_m, tilt_rad, yaw_rad }
+    }
+
     /// How roll and pitch followed what was desired of them, after 4 s, rad.
     pub fn tilt(&self) -> TiltFigures {
-        let [roll, pitch] = self.tilt;
+        let [roll, pitch] = self.tilt.map(|axis| axis.tracking);
         TiltFigures {
             roll_rms_rad: roll.rms(),
             roll_max_rad: roll.max(),
@@ -239,10 +264,14 @@ impl Recorder for Metrics {
         for (settling, error) in self.angles.iter_mut().zip(angles) {
             settling.take(row.t, error);
         }
-        if row.t >= TRACKING_FROM_S {
-            for (size, error) in self.tilt.iter_mut().zip(angles) {
-                size.take(error);
-            }
+        for (axis, error) in self.tilt.iter_mut().zip(angles) {
+            axis.take(row.t, error);
+        }
+        let [x, y, z, yaw] = errors;
+        let [roll, pitch, _] = angles;
+        let off = [libm::sqrt(x * x + y * y + z * z), roll.abs().max(pitch.abs()), yaw.abs()];
+        for (recent, value) in self.recent.iter_mut().zip(off) {
+            recent.take(row.t, value);
         }
         self.chattering.take(row.t, row.omega_command);
         self.chattering_after_4s.take(row.t, row.omega_command);

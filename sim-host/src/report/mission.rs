@@ -22,6 +22,18 @@ pub struct Mission {
     pub reason: Option<String>,
 }
 
+impl Mission {
+    /// The same with what lies behind the reason, where that is known.
+    #[must_use]
+    pub fn because(mut self, cause: Option<String>) -> Self {
+        if let (Some(reason), Some(cause)) = (&mut self.reason, cause) {
+            reason.push_str("; ");
+            reason.push_str(&cause);
+        }
+        self
+    }
+}
+
 /// Judges a flight of `commands` commands, with places reached within `radius_m`.
 pub fn judge(course: &Course, outcome: &Outcome, commands: usize, radius_m: f64) -> Mission {
     let reason = Judge { course, outcome, commands, radius_m }.reason();
@@ -41,6 +53,7 @@ impl Judge<'_> {
         let response = self.course.response.map(|(t, text)| format!("{text} at {t:.1} s; {}", self.ending()));
         response
             .or_else(|| self.bad_end())
+            .or_else(|| self.refused())
             .or_else(|| self.left_over())
             .or_else(|| self.missed())
             .or_else(|| self.aloft())
@@ -68,6 +81,12 @@ impl Judge<'_> {
             (End::DurationReached, None) => "still flying at the end".into(),
             (end, _) => end_text(&end, t),
         }
+    }
+
+    /// The first command that the vehicle refused, and why.
+    fn refused(&self) -> Option<String> {
+        let refused = |leg: &Leg| Some(format!("`{}` refused: {}", order_text(&leg.order), leg.refused?));
+        self.course.legs.iter().find_map(refused)
     }
 
     fn left_over(&self) -> Option<String> {
@@ -134,7 +153,7 @@ mod tests {
     const TAKE_OFF: Order = Order::TakeOff { height_m: 5.0 };
 
     fn leg(order: Order, off_m: f64) -> Leg {
-        Leg { order, place: Some([0.0; 3]), off_m: Some(off_m) }
+        Leg { order, place: Some([0.0; 3]), refused: None, off_m: Some(off_m) }
     }
 
     fn course(legs: Vec<Leg>) -> Course {
@@ -162,6 +181,14 @@ mod tests {
         assert_eq!(reason(&missed, &landed(0.5)), "`take-off to 5 m` missed by 3.2 m");
         let left_over = course(vec![leg(TAKE_OFF, 0.1)]);
         assert!(reason(&left_over, &Outcome::default()).starts_with("1 of 2 commands given: `take-off to 5 m`"));
+    }
+
+    #[test]
+    fn a_refused_command_is_no_missed_place() {
+        let far = Order::GoTo { position_m: [9e3, 0.0, 5.0], yaw_deg: 0.0 };
+        let refused = Leg { refused: Some("outside the geofence"), off_m: None, ..leg(far, 0.0) };
+        let flown = course(vec![leg(TAKE_OFF, 0.1), refused]);
+        assert_eq!(reason(&flown, &landed(0.0)), "`go-to 9000, 0, 5 m` refused: outside the geofence");
     }
 
     #[test]

@@ -2,6 +2,17 @@
 
 use std::io::IsTerminal as _;
 
+/// What is said of a flight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It did what it should.
+    Good,
+    /// It was flown to its end, but not where it should have been.
+    Off,
+    /// It did not do what it should, or was lost.
+    Failed,
+}
+
 /// Colours, or none.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Paint {
@@ -19,9 +30,14 @@ impl Paint {
         Self { on: wanted && able && std::io::stdout().is_terminal() }
     }
 
-    /// Green and bold for what is well, red and bold for what is not.
-    pub fn verdict(self, text: &str, good: bool) -> String {
-        self.paint(if good { "1;32" } else { "1;31" }, text)
+    /// Bold: green for what is well, yellow for what was flown but not as it should be, red for what failed.
+    pub fn verdict(self, text: &str, how: Verdict) -> String {
+        let code = match how {
+            Verdict::Good => "1;32",
+            Verdict::Off => "1;33",
+            Verdict::Failed => "1;31",
+        };
+        self.paint(code, text)
     }
 
     /// Dim, line by line: for what matters less.
@@ -46,8 +62,9 @@ mod tests {
     #[test]
     fn colour_is_around_the_text_and_nowhere_without_a_terminal() {
         let paint = Paint { on: true };
-        assert_eq!(paint.verdict("well", true), "\x1b[1;32mwell\x1b[0m");
+        assert_eq!(paint.verdict("well", Verdict::Good), "\x1b[1;32mwell\x1b[0m");
+        assert_eq!(paint.verdict("so so", Verdict::Off), "\x1b[1;33mso so\x1b[0m");
         assert_eq!(paint.dim("a\n\nb\n"), "\x1b[2ma\x1b[0m\n\n\x1b[2mb\x1b[0m\n");
-        assert_eq!(Paint::PLAIN.verdict("well", false) + &Paint::PLAIN.dim("a\n"), "wella\n");
+        assert_eq!(Paint::PLAIN.verdict("well", Verdict::Failed) + &Paint::PLAIN.dim("a\n"), "wella\n");
     }
 }

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use serde::Serialize;
 
-use super::metrics::{Axes, AxisFigures, ControlEffort, Metrics, Recovery, TiltFigures};
+use super::measures::finite;
+use super::metrics::{Axes, AxisFigures, ControlEffort, EndErrors, Metrics, Recovery, TiltFigures, WIDE_BAND};
 use super::mission::Mission;
 use super::sensed::Sensed;
 use super::timeline::{Course, Leg, Timeline, order_text};
@@ -38,10 +39,55 @@ pub struct Flight {
     pub has_rotors: bool,
     /// Whether the flight is one of reaching a reference: when each axis settled is then shown.
     pub settles: bool,
+    /// What it is to follow, and how closely at its end.
+    pub aim: Aim,
     /// When a disturbance set in, where one did, s.
     pub disturbance_onset_s: Option<f64>,
+    /// Why its rotors could not lift it, if it never flew for that.
+    pub too_heavy: Option<String>,
     /// Why it ended.
     pub end: End,
+}
+
+/// What a flight is to follow, and how closely it has to at its end to have reached it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Aim {
+    /// A position within so many m, and the heading within so many rad.
+    Position {
+        /// m.
+        within_m: f64,
+        /// rad.
+        within_rad: f64,
+    },
+    /// Stated roll, pitch and yaw: there is no position loop.
+    Attitude,
+}
+
+impl Aim {
+    /// On ideal state: the bands in which an axis counts as settled.
+    pub const IDEAL: Self = Self::Position { within_m: WIDE_BAND, within_rad: WIDE_BAND };
+
+    /// How far off it was in its last second, in words; `None` if it was where it should have been.
+    pub fn missed(&self, end: &EndErrors) -> Option<String> {
+        let EndErrors { distance_m, tilt_rad, yaw_rad } = *end;
+        let degrees = |angle: f64| format!("{:.1}°", angle.to_degrees());
+        let (position, heading) = match *self {
+            Self::Position { within_m, within_rad } => (distance_m >= within_m, yaw_rad >= within_rad),
+            Self::Attitude => {
+                let off = tilt_rad.max(yaw_rad);
+                return (off >= WIDE_BAND).then(|| format!("up to {} off its reference", degrees(off)));
+            }
+        };
+        match (position, heading) {
+            (true, _) => Some(format!("up to {} off its reference", metres(distance_m))),
+            (false, true) => Some(format!("heading up to {} off", degrees(yaw_rad))),
+            (false, false) => None,
+        }
+    }
+}
+
+fn metres(distance: f64) -> String {
+    if distance < 1.0 { format!("{distance:.2} m") } else { format!("{distance:.1} m") }
 }
 
 /// What a flight on sensors or with a pilot did.
@@ -99,6 +145,8 @@ pub struct Summary {
     pub end: &'static str,
     /// The contact with the ground that damaged it; null without one.
     pub crash: Option<Crash>,
+    /// Greatest distance from the reference in the last second, m.
+    pub end_error_m: Option<f64>,
     /// How each axis followed the paper's reference.
     pub axes: Axes<AxisFigures>,
     /// The time-optimal bound for joining the reference, where known, s.
@@ -121,6 +169,15 @@ pub struct Summary {
     /// Of a flight on sensors or with a pilot, its keys stand among the others.
     #[serde(flatten)]
     pub told: Option<Told>,
+    /// Where it should have been in its last second and was not, in words.
+    #[serde(skip)]
+    pub missed: Option<String>,
+    /// Why its rotors could not lift it, if it never flew for that.
+    #[serde(skip)]
+    pub too_heavy: Option<String>,
+    /// How roll and pitch followed, where they are what is followed.
+    #[serde(skip)]
+    pub roll_and_pitch: Option<[AxisFigures; 2]>,
     /// Why it ended, with the details.
     #[serde(skip)]
     pub ended: End,
@@ -137,6 +194,8 @@ impl Summary {
     pub fn new(flight: Flight, metrics: &Metrics) -> Self {
         let survived = flight.end.survived();
         let crash = if let End::Crashed(crash) = flight.end { Some(crash) } else { None };
+        let end = metrics.at_the_end();
+        let tilt = (flight.aim == Aim::Attitude).then(|| metrics.roll_and_pitch());
         let recovery = flight.disturbance_onset_s.map(|onset| metrics.recovery(onset));
         Self {
             scenario: flight.scenario,
@@ -147,6 +206,10 @@ impl Summary {
             survived,
             end: flight.end.name(),
             crash,
+            end_error_m: finite(end.distance_m),
+            too_heavy: flight.too_heavy,
+            missed: flight.aim.missed(&end),
+            roll_and_pitch: tilt.map(|tilt| if survived { tilt } else { tilt.map(|axis| cleared(&axis)) }),
             ended: flight.end,
             settles: flight.settles,
             axes: if survived { metrics.axes() } else { unsettled(&metrics.axes()) },
@@ -241,8 +304,11 @@ fn several_lines<T: Serialize>(value: &T) -> String {
 
 /// A flight that ended early has not stayed anywhere until the end.
 fn unsettled(axes: &Axes<AxisFigures>) -> Axes<AxisFigures> {
-    let clear = |axis: AxisFigures| AxisFigures { settle_5cm_s: None, settle_2mm_s: None, ..axis };
-    Axes { x: clear(axes.x), y: clear(axes.y), z: clear(axes.z), yaw: clear(axes.yaw) }
+    Axes { x: cleared(&axes.x), y: cleared(&axes.y), z: cleared(&axes.z), yaw: cleared(&axes.yaw) }
+}
+
+fn cleared(axis: &AxisFigures) -> AxisFigures {
+    AxisFigures { settle_5cm_s: None, settle_2mm_s: None, ..*axis }
 }
 
 #[cfg(test)]
@@ -264,7 +330,9 @@ pub(super) mod tests {
             papers_helix: true,
             has_rotors: true,
             settles: true,
+            aim: Aim::IDEAL,
             disturbance_onset_s: None,
+            too_heavy: None,
             end: if survived { End::DurationReached } else { End::LeftReference },
         }
     }
@@ -303,7 +371,7 @@ pub(super) mod tests {
         let json = parse(&Summary::new(flight(true), &metrics()).to_json());
         let documented = [
             ["scenario", "seed", "duration_s", "truth_sha256", "real_time_factor"].as_slice(),
-            &["axes", "chattering", "saturated_fraction", "time_optimal_s", "survived", "end", "crash"],
+            &["end_error_m", "axes", "chattering", "saturated_fraction", "time_optimal_s", "survived", "end", "crash"],
             &["chattering_after_4s", "control_effort", "attitude_error", "recovery_s"],
         ];
         assert_eq!(keys(&json), documented.concat().into_iter().collect());
@@ -312,6 +380,17 @@ pub(super) mod tests {
         assert!(["x", "y", "z", "yaw"].iter().all(|axis| keys(&json["axes"][axis]) == figures));
         let effort = BTreeSet::from(["thrust_rms_n", "roll_rms_n_m", "pitch_rms_n_m", "yaw_rms_n_m"]);
         assert_eq!(keys(&json["control_effort"]), effort);
+    }
+
+    #[test]
+    fn a_flight_that_ends_off_its_reference_says_how_far() {
+        let end = |distance_m, yaw_rad| EndErrors { distance_m, tilt_rad: 0.3, yaw_rad };
+        let missed = |aim: Aim, end| aim.missed(&end);
+        assert_eq!(missed(Aim::IDEAL, end(0.049, 0.049)), None);
+        assert_eq!(missed(Aim::IDEAL, end(0.05, 0.0)).as_deref(), Some("up to 0.05 m off its reference"));
+        assert_eq!(missed(Aim::IDEAL, end(13.19, 0.2)).as_deref(), Some("up to 13.2 m off its reference"));
+        assert_eq!(missed(Aim::IDEAL, end(0.0, 0.1)).as_deref(), Some("heading up to 5.7° off"));
+        assert_eq!(missed(Aim::Attitude, end(9.0, 0.0)).as_deref(), Some("up to 17.2° off its reference"));
     }
 
     #[test]

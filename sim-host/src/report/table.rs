@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use super::metrics::{AxisFigures, Recovery};
 use super::mission::{Mission, end_text};
-use super::paint::Paint;
+use super::paint::{Paint, Verdict};
 use super::summary::{Row, Summary};
 use crate::paper::claims::{AVERAGE_FOLLOWS, DISTURBANCE_REMOVED, PaperClaim, X_FOLLOWS, Y_FOLLOWS, Z_FOLLOWS};
 use crate::sil::End;
@@ -19,23 +19,33 @@ pub fn render(summary: &Summary, paint: Paint) -> String {
 /// The verdict in one line, with its newline; why not in a second one.
 pub fn heading(summary: &Summary, paint: Paint) -> String {
     let name = format!("{}, seed {}: ", summary.scenario, summary.seed);
-    let (text, good) = verdict(summary);
+    let (text, how) = verdict(summary);
     let why = summary.told.as_ref().and_then(|told| told.mission.as_ref()?.reason.as_ref());
     let why = why.map_or_else(String::new, |reason| format!("  {reason}\n"));
-    name + &paint.verdict(&text, good) + "\n" + &why
+    name + &paint.verdict(&text, how) + "\n" + &why
 }
 
-/// The verdict, and whether it is a good one.
-fn verdict(summary: &Summary) -> (String, bool) {
+/// The verdict in words, and what it is.
+fn verdict(summary: &Summary) -> (String, Verdict) {
     let mission = summary.told.as_ref().and_then(|told| told.mission.as_ref());
     match mission {
-        Some(Mission { completed: true, .. }) => ("mission completed".into(), true),
-        Some(_) => ("mission NOT completed".into(), false),
+        Some(Mission { completed: true, .. }) => ("mission completed".into(), Verdict::Good),
+        Some(_) => ("mission NOT completed".into(), Verdict::Failed),
         None if summary.ended == End::NeverFlew => {
-            let cure = format!("it has no commands; `sim-host serve {}` lets you fly it", summary.scenario);
-            (format!("never flew: {cure}"), false)
+            let cure = || format!("it has no commands; `sim-host serve {}` lets you fly it", summary.scenario);
+            (format!("never flew: {}", summary.too_heavy.clone().unwrap_or_else(cure)), Verdict::Failed)
         }
-        None => (end_text(&summary.ended, summary.duration_s), summary.survived),
+        None => flown(summary),
+    }
+}
+
+/// The verdict on a flight without a pilot: by where it was in its last second.
+fn flown(summary: &Summary) -> (String, Verdict) {
+    let end = end_text(&summary.ended, summary.duration_s);
+    match &summary.missed {
+        _ if !summary.survived => (end, Verdict::Failed),
+        Some(missed) => (format!("{end}, but {missed} in the last second"), Verdict::Off),
+        None => (end, Verdict::Good),
     }
 }
 
@@ -46,6 +56,7 @@ pub fn result(summary: &Summary) -> String {
             course::render(told, summary.sensed.as_ref())
         }
         _ if summary.ended == End::NeverFlew => String::new(),
+        _ if summary.roll_and_pitch.is_some() => attitude_table(summary),
         _ if !summary.settles => error_table(summary),
         _ => {
             let recovery = summary.recovery_s.as_ref().map(recovery).unwrap_or_default();
@@ -59,7 +70,7 @@ fn error_table(summary: &Summary) -> String {
     let mut rows =
         vec![["axis", "error RMS", "maximum"].map(String::from), ["", "after 4 s", "after 4 s"].map(String::from)];
     for (name, axis) in summary.axes.named() {
-        let unit = if name == "yaw" { "rad" } else { "m" };
+        let unit = unit(name);
         rows.push([name.into(), error(axis.rms_m, unit), error(axis.max_m, unit)]);
     }
     aligned(&rows) + "\n"
@@ -84,8 +95,21 @@ fn settling_table(summary: &Summary) -> String {
     aligned(&rows) + "yaw: within 0.05 rad and 0.002 rad; its errors are in mrad\n\n"
 }
 
+/// How roll, pitch and yaw followed, where they are what is followed.
+fn attitude_table(summary: &Summary) -> String {
+    let mut rows = vec![
+        ["axis", "within 50 mrad", "within 2 mrad", "RMS", "maximum", "overshoot", ""].map(String::from),
+        ["", "from", "from", "after 4 s", "after 4 s", "", ""].map(String::from),
+    ];
+    let [roll, pitch] = summary.roll_and_pitch.unwrap_or_default();
+    for (name, axis) in [("roll", &roll), ("pitch", &pitch), ("yaw", &summary.axes.yaw)] {
+        rows.push(axis_row(name, axis, None));
+    }
+    aligned(&rows) + "\n"
+}
+
 fn axis_row(name: &str, axis: &AxisFigures, claim: Option<PaperClaim>) -> [String; 7] {
-    let unit = if name == "yaw" { "rad" } else { "m" };
+    let unit = unit(name);
     [
         name.into(),
         seconds(axis.settle_5cm_s),
@@ -95,6 +119,11 @@ fn axis_row(name: &str, axis: &AxisFigures, claim: Option<PaperClaim>) -> [Strin
         axis.overshoot.map_or_else(undefined, |o| format!("{:.1} %", 100.0 * o)),
         claim.map_or_else(String::new, |c| seconds(Some(c.time_s))),
     ]
+}
+
+/// The unit of an axis' errors.
+fn unit(axis: &str) -> &'static str {
+    if matches!(axis, "roll" | "pitch" | "yaw") { "rad" } else { "m" }
 }
 
 /// Mean of the times at which x, y and z settle within 5 cm, s.
@@ -137,7 +166,7 @@ fn recovery(recovery: &Recovery) -> String {
 
 fn figures(summary: &Summary) -> String {
     let effort = &summary.control_effort;
-    let number = |value: Option<f64>, digits| value.map_or_else(undefined, |v| format!("{v:.digits$}"));
+    let number = |value: Option<f64>, digits| value.map_or_else(undefined, |v| number(v, digits));
     let [thrust, roll, pitch, yaw] =
         [effort.thrust_rms_n, effort.roll_rms_n_m, effort.pitch_rms_n_m, effort.yaw_rms_n_m];
     let mut text = String::new();
@@ -239,6 +268,11 @@ fn seconds(time: Option<f64>) -> String {
     time.map_or_else(|| "no".into(), |t| format!("{t:.3} s"))
 }
 
+/// A number with so many decimals, or by its size where it has diverged.
+fn number(value: f64, digits: usize) -> String {
+    if value.abs() < DIVERGED { format!("{value:.digits$}") } else { format!("{value:.1e}") }
+}
+
 /// An error in thousandths of its unit, or in the unit where that would be a long number.
 fn error(value: Option<f64>, unit: &str) -> String {
     match value {
@@ -249,6 +283,9 @@ fn error(value: Option<f64>, unit: &str) -> String {
     }
 }
 
+/// From here on digits mean nothing: rotors' total variation is below it in every flight that is flown well.
+const DIVERGED: f64 = 1e9;
+
 fn undefined() -> String {
     "–".into()
 }
@@ -256,7 +293,7 @@ fn undefined() -> String {
 #[cfg(test)]
 mod tests {
     use super::super::summary::tests::{flight, metrics};
-    use super::super::summary::{Flight, Summary};
+    use super::super::summary::{Aim, Flight, Summary};
     use super::*;
     use crate::report::metrics::Metrics;
 
@@ -288,6 +325,25 @@ truth SHA-256       abababababababababababababababababababababababababababababab
     }
 
     #[test]
+    fn a_flight_that_ends_off_its_reference_is_no_success() {
+        let off =
+            Summary { missed: Some("up to 13.2 m off its reference".into()), ..Summary::new(flight(true), &metrics()) };
+        let expected = "helix, seed 7: flown for 20 s, but up to 13.2 m off its reference in the last second\n";
+        assert_eq!(heading(&off, Paint::PLAIN), expected);
+        assert_eq!(verdict(&off).1, Verdict::Off);
+        assert_eq!(verdict(&Summary::new(flight(true), &metrics())).1, Verdict::Good);
+    }
+
+    #[test]
+    fn an_attitude_case_is_judged_by_its_angles() {
+        let text = render(&Summary::new(Flight { aim: Aim::Attitude, ..flight(true) }, &metrics()), Paint::PLAIN);
+        let rows: Vec<&str> = text.lines().skip(4).take(3).collect();
+        let row = |name: &str| format!("{name:<5}         0.000 s        0.000 s  0.000 mrad  0.000 mrad          –");
+        assert_eq!(rows, ["roll", "pitch", "yaw"].map(row), "{text}");
+        assert!(!text.contains("mean xyz"), "{text}");
+    }
+
+    #[test]
     fn a_flight_without_figures_still_has_a_table() {
         let text = render(&Summary::new(flight(false), &Metrics::new()), Paint::PLAIN);
         assert!(text.contains("LOST") && !text.contains("never") && !text.contains("NaN"), "{text}");
@@ -299,5 +355,6 @@ truth SHA-256       abababababababababababababababababababababababababababababab
         assert_eq!(error(Some(0.25), "rad"), "250.000 mrad");
         assert_eq!(error(Some(12.345), "m"), "12.35 m");
         assert_eq!(error(Some(1.0e12), "m"), "1.0e12 m");
+        assert_eq!((number(0.26875, 4).as_str(), number(1.62e33, 4).as_str()), ("0.2687", "1.6e33"));
     }
 }

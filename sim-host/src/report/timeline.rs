@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::measures::Size;
 use crate::pilot::{Command, Order};
 use crate::record::{Activity, Recorder, Row};
+use crate::scenario::ScheduledPush;
 use crate::sensors::Fault;
 use crate::sensors::faults::Kind;
 
@@ -40,6 +41,10 @@ pub enum EventKind {
     FaultBegins,
     /// A fault ends.
     FaultEnds,
+    /// A push begins.
+    PushBegins,
+    /// A push ends.
+    PushEnds,
     /// The vehicle acts by itself.
     Response,
     /// A foot touches the ground, after the vehicle has flown.
@@ -85,7 +90,10 @@ pub struct Leg {
     pub order: Order,
     /// Where it leads to, m, where it leads anywhere: home for a return, and where the vehicle was for a landing.
     pub place: Option<[f64; 3]>,
-    /// True distance from there when the next command was given, the vehicle first acted by itself, or at the end, m.
+    /// Why the vehicle refused it, if it did.
+    pub refused: Option<&'static str>,
+    /// True distance from there when the next command was given, the vehicle first acted by itself, or at the end, m; none of
+    /// a refused command.
     pub off_m: Option<f64>,
 }
 
@@ -131,30 +139,28 @@ impl TimelineRecorder {
         Self { script: script.to_vec(), ..Self::default() }
     }
 
-    /// The course, with the faults of a schedule that began before its end.
-    pub fn finish(mut self, faults: &[Fault]) -> Course {
+    /// The course, with the faults and pushes of a schedule that began before its end.
+    pub fn finish(mut self, faults: &[Fault], pushes: &[ScheduledPush]) -> Course {
         self.close();
         self.arrive();
         for fault in faults {
-            self.schedule(fault);
+            let kinds = [EventKind::FaultBegins, EventKind::FaultEnds];
+            self.schedule((fault.from_s, fault.to_s), kinds, ["fault: ", "fault ends: "], &fault_name(fault));
+        }
+        for push in pushes {
+            let kinds = [EventKind::PushBegins, EventKind::PushEnds];
+            self.schedule((push.from_s, Some(push.to_s)), kinds, ["push: ", "push ends: "], &push_name(push));
         }
         Course { disarmed: !self.armed, ..self.course }
     }
 
-    fn schedule(&mut self, fault: &Fault) {
-        let until = |end: Option<f64>| end.filter(|end| *end < self.end_s);
-        if fault.from_s > self.end_s {
-            return;
-        }
-        let name = fault_name(fault);
-        let ends = until(fault.to_s);
-        self.course.timeline.add(Event {
-            t_s: fault.from_s,
-            kind: EventKind::FaultBegins,
-            text: format!("fault: {name}"),
-        });
-        if let Some(t_s) = ends {
-            self.course.timeline.add(Event { t_s, kind: EventKind::FaultEnds, text: format!("fault ends: {name}") });
+    /// Adds begin and end of what a schedule did, as far as it came before the flight's end.
+    fn schedule(&mut self, (from_s, to_s): (f64, Option<f64>), kinds: [EventKind; 2], says: [&str; 2], name: &str) {
+        let times = [Some(from_s).filter(|from| *from <= self.end_s), to_s.filter(|to| *to < self.end_s)];
+        for ((t_s, kind), says) in times.into_iter().zip(kinds).zip(says) {
+            if let Some(t_s) = t_s {
+                self.course.timeline.add(Event { t_s, kind, text: format!("{says}{name}") });
+            }
         }
     }
 
@@ -175,7 +181,7 @@ impl TimelineRecorder {
             let order = command.order;
             self.arrive();
             let place = self.place_of(&order);
-            self.course.legs.push(Leg { order, place, off_m: None });
+            self.course.legs.push(Leg { order, place, refused: None, off_m: None });
             self.say(activity.t, EventKind::Order, order_text(&order));
         }
     }
@@ -199,14 +205,14 @@ impl TimelineRecorder {
         }
         let position = self.position;
         if let Some(leg) = self.course.legs.last_mut() {
-            leg.off_m = leg.place.map(|place| distance(&place, &position));
+            leg.off_m = leg.place.filter(|_| leg.refused.is_none()).map(|place| distance(&place, &position));
         }
     }
 
     fn answers(&mut self, t: f64, commander: &CommanderOutput) {
         if !self.replied {
-            for text in commander.replies.iter().filter_map(refusal_text) {
-                self.say(t, EventKind::Refused, text);
+            for reply in &commander.replies {
+                self.answer(t, reply);
             }
         }
         self.replied = !commander.replies.is_empty();
@@ -221,6 +227,17 @@ impl TimelineRecorder {
             }
         }
         self.mode = Some(commander.mode);
+    }
+
+    /// What the vehicle said to the newest command of its kind.
+    fn answer(&mut self, t: f64, reply: &Reply) {
+        let (name, refused) = (reply.command.request.name(), refusal(reply));
+        let leg = self.course.legs.iter_mut().rfind(|leg| leg.order.request().name() == name);
+        let before = leg.and_then(|leg| std::mem::replace(&mut leg.refused, refused));
+        // Orders that are repeated until they are accepted are refused again and again.
+        if let Some(reason) = refused.filter(|_| refused != before) {
+            self.say(t, EventKind::Refused, format!("{name} refused: {reason}"));
+        }
     }
 
     /// The name of what is being done, and whether a position is controlled in it.
@@ -293,12 +310,12 @@ fn is_named(phase: &str, name: &str, number: Option<usize>) -> bool {
     }
 }
 
-fn refusal_text(reply: &Reply) -> Option<String> {
-    let name = reply.command.request.name();
+/// Why a command was refused, if it was.
+fn refusal(reply: &Reply) -> Option<&'static str> {
     match reply.outcome {
         Outcome::Accepted => None,
-        Outcome::TemporarilyRejected(refusal) => Some(format!("{name} refused: {}", refusal.reason())),
-        Outcome::Denied => Some(format!("{name} refused: a value out of its range")),
+        Outcome::TemporarilyRejected(refusal) => Some(refusal.reason()),
+        Outcome::Denied => Some("a value out of its range"),
     }
 }
 
@@ -318,6 +335,17 @@ pub fn order_text(order: &Order) -> String {
     }
 }
 
+/// A push in words: its parts, along the world's axes and about the body's.
+fn push_name(push: &ScheduledPush) -> String {
+    let linear = (push.acceleration_m_s2, ["north", "west", "up"], "m/s²");
+    let angular = (push.angular_acceleration_rad_s2, ["about roll", "about pitch", "about yaw"], "rad/s²");
+    let parts = [linear, angular].into_iter().flat_map(|(values, axes, unit)| {
+        let part = move |(value, axis): (f64, &str)| (value != 0.0).then(|| format!("{value} {unit} {axis}"));
+        values.into_iter().zip(axes).filter_map(part)
+    });
+    parts.collect::<Vec<_>>().join(", ")
+}
+
 /// A fault in words.
 pub fn fault_name(fault: &Fault) -> String {
     let sensor = fault.sensor.map_or("", |sensor| sensor.name());
@@ -335,9 +363,9 @@ pub fn fault_name(fault: &Fault) -> String {
         Kind::Duplicate { .. } => format!("{sensor} repeats samples"),
         Kind::Disorder {} => format!("{sensor} samples out of order"),
         Kind::TimeJump { shift_s } => format!("{sensor} time stamps shifted by {shift_s} s"),
-        // Pilots count rotors from 1.
+        // Pilots count rotors from 1, files from 0.
         Kind::Rotor { index, effectiveness } => {
-            format!("rotor {} keeps {} % of its thrust", index + 1, 100.0 * effectiveness)
+            format!("rotor {} (index {index}) keeps {} % of its thrust", index + 1, 100.0 * effectiveness)
         }
         Kind::Collapse { factor } => format!("battery voltage falls to {} %", 100.0 * factor),
     }

@@ -61,6 +61,8 @@ fn a_vehicle_too_heavy_to_fly_has_not_survived() {
     assert_eq!(json["mission"]["completed"], false);
     let text = folder.text(&heavy);
     assert!(text.contains("mission NOT completed\n  never flew"), "{text}");
+    // 2 kg with rotors for twice the weight, at three times the mass.
+    assert!(text.contains("its rotors give at most 39.2 N and it weighs 58.9 N: thrust-to-weight 0.67\n"), "{text}");
 }
 
 #[test]
@@ -76,6 +78,26 @@ fn a_hard_touchdown_is_a_crash_and_the_flight_goes_on() {
         json["crash"]["descent_m_s"].as_f64().expect("a speed") > 4.0 || json["crash"]["tilt_rad"].as_f64() > Some(1.0)
     );
     assert!(json["duration_s"].as_f64() > json["crash"]["t_s"].as_f64(), "it is simulated on");
+}
+
+#[test]
+fn a_refused_command_is_told_as_refused_and_once() {
+    // A place before take-off, and an arming that is repeated twice a second while there is no position.
+    let command = "command=[{at_s=1.0,order=\"arm\"},{at_s=8.0,order={go-to={position_m=[8.0,0.0,5.0],yaw_deg=0.0}}},{at_s=8.5,order={take-off={height_m=2.0}}}]";
+    let fault = "fault=[{sensor=\"gnss\",kind=\"off\",from_s=0.2,to_s=4.0}]";
+    let flight = ["run", "path", "--set", command, "--set", fault, "--set", "duration_s=14"];
+    let text = Folder::new("refused").text(&flight);
+    assert!(text.contains("`go-to 8, 0, 5 m` refused: ") && !text.contains("missed by"), "{text}");
+    assert!(!text.contains("m from go-to"), "{text}");
+    assert_eq!(text.matches("Arming refused: no valid position estimate").count(), 1, "{text}");
+}
+
+#[test]
+fn a_push_is_an_event() {
+    let flight = ["run", "twist", "--set", "push.0.from_s=5.0", "--set", "push.0.to_s=6.0", "--set", "duration_s=8"];
+    let text = Folder::new("push").text(&flight);
+    let events = "     5.0 s  push: 40 rad/s² about roll\n     6.0 s  push ends: 40 rad/s² about roll\n";
+    assert!(text.contains(events), "{text}");
 }
 
 #[test]

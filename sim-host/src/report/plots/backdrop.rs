@@ -54,7 +54,7 @@ impl Backdrop {
 
     /// The legend's entries of phases, each once, and of faults.
     pub(super) fn keys(&self) -> Vec<Key<'_>> {
-        let faults = (!self.faults.is_empty()).then_some(Key::Line("fault", Role::Fault));
+        let faults = (!self.faults.is_empty()).then_some(Key::Line("fault or push", Role::Fault));
         self.phases_once().map(|(name, color)| Key::Series(name, color.tint(STRIP_TINT))).chain(faults).collect()
     }
 

@@ -8,13 +8,16 @@ use super::axis;
 use super::page::save;
 use super::series::extent;
 use super::style::{Color, INK, Key, palette};
-use super::svg::{Anchor, Area, Font, Stroke};
+use super::svg::{Anchor, Area, Font, Stroke, text_width};
 use crate::compare::{Cell, Comparison, Medians, RESOLUTION_M};
 
 /// Shown pixels of a chart of one scenario, of the names of its disturbances, and of a map's square.
 const CHART: (u32, u32) = (680, 330);
 const NAMES: u32 = 110;
 const SQUARE: (u32, u32) = (66, 26);
+/// Size of a title, and how much wider bold letters are.
+const TITLE: f64 = 13.0;
+const BOLD: f64 = 1.1;
 /// A ratio that is drawn in full colour.
 const FULL_RATIO: f64 = 4.0;
 
@@ -182,7 +185,9 @@ fn maps_of_cells(
 ) -> Result<()> {
     let across = names(comparison, |cell| &cell.scenario);
     let down = names(comparison, |cell| &cell.disturbance);
-    let width = SQUARE.0 * across.len() as u32 + 24;
+    let wide = maps.iter().map(|(_, title)| text_width(title, TITLE)).fold(0.0, f64::max);
+    // As wide as its squares, or as its title where that is longer.
+    let width = (SQUARE.0 * across.len() as u32).max((BOLD * wide).ceil() as u32) + 24;
     let total = (NAMES + 20 + width * maps.len() as u32).max(560);
     let size = (total, 44 + 30 + SQUARE.1 * down.len() as u32 + NAMES);
     save(path, size, heading, keys, |area| {
@@ -192,7 +197,7 @@ fn maps_of_cells(
         }
         for (map, (index, title)) in maps.iter().enumerate() {
             let left = NAMES + 10 + width * map as u32;
-            area.text((f64::from(left), 15.0), title, Font::new(13.0, Anchor::Start).bold());
+            area.text((f64::from(left), 15.0), title, Font::new(TITLE, Anchor::Start).bold());
             for cell in &comparison.cells {
                 let place = |names: &[&str], name: &str| names.iter().position(|known| *known == name).unwrap_or(0);
                 let at = (place(&across, &cell.scenario), place(&down, &cell.disturbance));

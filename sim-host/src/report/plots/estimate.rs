@@ -17,8 +17,11 @@ use crate::report::estimate::Belief;
 
 /// Most dots of a panel; of more, evenly many are drawn, and all that were refused.
 const MOST_DOTS: usize = 1500;
-/// What is shown of normalised innovations, in decades; what lies beyond is drawn at the edge.
-const DECADES: (f64, f64) = (-2.1, 4.1);
+/// What is shown of normalised innovations, in decades: what the gates let pass is below 100. What lies beyond is drawn at
+/// the edge, and counted in the title.
+const DECADES: (f64, f64) = (-2.1, 2.1);
+/// The top of the axis.
+const GREATEST: f32 = 100.0;
 
 /// Height of a panel.
 const PANEL: u32 = 235;
@@ -118,7 +121,9 @@ fn innovation_panel(beliefs: &[Belief], number: usize) -> Option<Panel> {
     let kept = readings.iter().enumerate().filter(|(i, (_, verdict))| i % stride == 0 || !verdict.accepted);
     let dot = |t: f64, nis: f32| (t, libm::log10(f64::from(nis)).clamp(DECADES.0 + 0.05, DECADES.1 - 0.05));
     let dots = kept.map(|(_, (t, verdict))| dot(*t, verdict.nis)).collect();
-    let title = format!("{name}: {:.1} % within", 100.0 * within as f64 / readings.len() as f64);
+    let beyond = readings.iter().filter(|(_, verdict)| verdict.nis > GREATEST).count();
+    let beyond = if beyond > 0 { format!("; {beyond} above {GREATEST}, at the edge") } else { String::new() };
+    let title = format!("{name}: {:.1} % within{beyond}", 100.0 * within as f64 / readings.len() as f64);
     let line = [first, last].map(|t| (t, libm::log10(limit))).to_vec();
     let lines = vec![(Role::Limit, line)];
     Some(Panel { dots, decades_up: Some(DECADES), ..Panel::over_time(&title, "NIS", lines) })
@@ -181,7 +186,8 @@ mod tests {
         }
         let panel = innovation_panel(&beliefs, 1).expect("there are readings");
         assert!(panel.dots.len() <= MOST_DOTS + 3);
-        assert_eq!(panel.dots.iter().filter(|dot| dot.1 > 2.9).count(), 3);
+        assert_eq!(panel.dots.iter().filter(|dot| dot.1 > 2.0).count(), 3);
+        assert!(panel.title.ends_with(" % within; 3 above 100, at the edge"), "{}", panel.title);
         assert!(innovation_panel(&beliefs, 0).is_none());
     }
 }

@@ -17,6 +17,8 @@ pub(super) const RIGHT: f64 = 20.0;
 /// Pixels from one tick to the next, at least.
 const TICK_ACROSS: f64 = 62.0;
 const TICK_UP: f64 = 30.0;
+/// A flight is shown over this at least, s: ten ticks.
+const LEAST_S: f64 = 0.01;
 /// Margin above and below the lines, as a fraction of their range.
 const MARGIN: f64 = 0.06;
 
@@ -76,7 +78,7 @@ impl Panel {
     pub(super) fn over_time(title: &str, up: impl Into<Quantity>, lines: Vec<(Role, Points)>) -> Self {
         Self {
             title: title.into(),
-            across: Quantity::from("t, s"),
+            across: Quantity::from("t, s").at_least(LEAST_S),
             up: up.into(),
             lines,
             mark_start: false,

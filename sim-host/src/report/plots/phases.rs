@@ -41,16 +41,23 @@ fn span(phase: &Phase) -> Span {
     Span { name: phase.name.clone(), from: phase.from_s, to: phase.to_s, color: phase_color(&phase.name) }
 }
 
-/// From each fault's begin to its end; without one, for good.
+/// From each fault's and each push's begin to its end; without one, for good.
 fn faults(timeline: &Timeline) -> Vec<Span> {
+    let kinds = [(EventKind::FaultBegins, EventKind::FaultEnds), (EventKind::PushBegins, EventKind::PushEnds)];
+    let mut spans: Vec<Span> = kinds.into_iter().flat_map(|kinds| spans_of(timeline, kinds)).collect();
+    spans.sort_by(|a, b| a.from.total_cmp(&b.from));
+    spans
+}
+
+fn spans_of(timeline: &Timeline, (begins, ends): (EventKind, EventKind)) -> Vec<Span> {
     let of = |kind: EventKind| timeline.events.iter().filter(move |event| event.kind == kind);
     let name = |event: &Event| event.text.split_once(": ").map_or(event.text.clone(), |(_, name)| name.to_owned());
     let fault = |begin: &Event| {
         let name_of_begin = name(begin);
-        let end = of(EventKind::FaultEnds).find(|end| end.t_s >= begin.t_s && name(end) == name_of_begin);
+        let end = of(ends).find(|end| end.t_s >= begin.t_s && name(end) == name_of_begin);
         Span { name: name_of_begin, from: begin.t_s, to: end.map_or(f64::INFINITY, |end| end.t_s), color: INK }
     };
-    of(EventKind::FaultBegins).map(fault).collect()
+    of(begins).map(fault).collect()
 }
 
 /// The first touchdown, crash and disarming, and the loss of the vehicle, s.
