@@ -18,7 +18,7 @@ pub enum Tone {
 /// A line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Simulated time, s; none for a line of a list.
+    /// Simulated time, s; none for a line of help.
     pub t_s: Option<f64>,
     /// What it is about.
     pub tone: Tone,

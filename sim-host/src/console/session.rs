@@ -82,7 +82,8 @@ impl Session {
         self.said.push(Line { t_s: Some(self.time_s()), tone, text });
     }
 
-    fn list(&mut self, text: String) {
+    /// A line of help, which belongs to no time.
+    fn explain(&mut self, text: String) {
         self.said.push(Line { t_s: None, tone: Tone::Plain, text });
     }
 
@@ -202,7 +203,7 @@ impl Session {
     fn carry_out(&mut self, command: &Command) -> Result<Option<Control>> {
         match command {
             Command::Help(None) => self.list_commands(),
-            Command::Help(Some(entry)) => self.say(Tone::Plain, entry.help()),
+            Command::Help(Some(entry)) => self.explain(entry.help()),
             Command::Status => self.say(Tone::Plain, self.status()),
             Command::Request(request) => self.ask(*request),
             Command::GoTo { place, yaw_deg } => self.ask(self.go_to(*place, *yaw_deg)?),
@@ -226,7 +227,7 @@ impl Session {
     fn list_commands(&mut self) {
         let width = COMMANDS.iter().map(|entry| entry.usage().len()).max().unwrap_or(0);
         for entry in COMMANDS {
-            self.list(format!("{:width$}  {}", entry.usage(), entry.summary()));
+            self.explain(format!("{:width$}  {}", entry.usage(), entry.summary()));
         }
     }
 
@@ -272,7 +273,7 @@ impl Session {
             self.say(Tone::Plain, "no faults".to_owned());
         }
         for line in lines {
-            self.list(line);
+            self.say(Tone::Plain, line);
         }
     }
 
