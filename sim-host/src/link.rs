@@ -7,7 +7,7 @@ use std::io::ErrorKind;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, ToSocketAddrs as _, UdpSocket};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, anyhow, bail};
+use anyhow::{Context, anyhow, bail, ensure};
 
 use crate::stations::{News, Stations};
 
@@ -38,6 +38,7 @@ pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
     if let Ok(address) = text.parse() {
         return Ok(address);
     }
+    ensure!(!text.trim().is_empty(), "the address is missing: use 127.0.0.1:{default_port}");
     // The system would take a whole number for an address.
     if text.parse::<u32>().is_ok() {
         bail!("`{text}` is no address: for a port use 127.0.0.1:{text}");
@@ -55,6 +56,7 @@ pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
     if host.is_empty() {
         return Ok(SocketAddr::new(IpAddr::V4(Ipv4Addr::UNSPECIFIED), port));
     }
+    ensure!(!host.contains(['/', ':', '[', ']', ' ']), "`{text}` is no address: use 127.0.0.1:{port}");
     let known = (host, port).to_socket_addrs().map(Iterator::collect::<Vec<_>>).unwrap_or_default();
     // `localhost` is both; ground stations listen by IPv4.
     let chosen = known.iter().find(|address| address.is_ipv4()).or(known.first());
@@ -76,6 +78,19 @@ fn cannot_listen(listen: SocketAddr, error: &std::io::Error) -> anyhow::Error {
         }
         _ => anyhow!("cannot listen on UDP address {listen}: {error}"),
     }
+}
+
+/// Whether what is sent to `peer` comes in at `own` again.
+fn is_own(own: SocketAddr, peer: &SocketAddr) -> bool {
+    // Only an address of this machine can be bound.
+    let is_this_machine = || UdpSocket::bind((peer.ip(), 0)).is_ok();
+    own.port() == peer.port() && (own.ip() == peer.ip() || (own.ip().is_unspecified() && is_this_machine()))
+}
+
+/// Where ground stations listen on this machine, unless that is `own`.
+fn elsewhere(own: SocketAddr) -> SocketAddr {
+    let ip = if own.ip().is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { own.ip() };
+    SocketAddr::new(ip, if own.port() == PEER_PORT { LISTEN_PORT } else { PEER_PORT })
 }
 
 /// A peer that was not named at the start, and when it was last heard.
@@ -110,6 +125,13 @@ impl UdpLink {
             );
         }
         let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, &error))?;
+        let own = socket.local_addr().unwrap_or(listen);
+        if let Some(peer) = peers.iter().find(|peer| is_own(own, peer)) {
+            bail!(
+                "--peer {peer} is where the vehicle itself listens: give the ground station's address, as {}",
+                elsewhere(own)
+            );
+        }
         socket.set_nonblocking(true).with_context(|| format!("cannot use UDP address {listen}"))?;
         Ok(Self { socket, peers: peers.to_vec(), guests: Vec::new(), stations: Stations::default() })
     }
@@ -226,6 +248,30 @@ mod tests {
         let address = first.local_address().expect("bound");
         let error = format!("{:#}", UdpLink::bind(address, &[]).expect_err("in use"));
         assert!(error.contains(&address.to_string()) && error.contains("--listen") && error.lines().count() == 1);
+    }
+
+    #[test]
+    fn its_own_address_is_no_peer() {
+        let free = station().local_addr().expect("bound").port();
+        for (listen, peer) in [("127.0.0.1", "127.0.0.1"), ("0.0.0.0", "127.0.0.1"), ("0.0.0.0", "127.0.0.2")] {
+            let at = |ip: &str| SocketAddr::new(ip.parse().expect("an address"), free);
+            let error = format!("{:#}", UdpLink::bind(at(listen), &[at(peer)]).expect_err("its own"));
+            let expected = format!(
+                "--peer {peer}:{free} is where the vehicle itself listens: give the ground station's address, as \
+                 127.0.0.1:14550"
+            );
+            assert_eq!(error, expected);
+        }
+    }
+
+    #[test]
+    fn what_is_no_address_is_answered_with_one() {
+        for text in ["", " ", "::", ":::", "a b", "[::1", "[]:1", "http://x", "udp:127.0.0.1:14550", "127.0.0.1:", ":x"]
+        {
+            let Err(error) = address(text, PEER_PORT) else { continue };
+            let error = format!("{error:#}");
+            assert!(error.contains(":14550") && !error.contains('\n'), "{text}: {error}");
+        }
     }
 
     #[test]

@@ -10,6 +10,7 @@ use rustix::termios::{LocalModes, OptionalActions, Termios, tcgetattr, tcsetattr
 
 use super::line::{Line, Tone};
 use super::parse::completion;
+use crate::report::paint::{Colour, Paint, stdout_takes_escapes};
 
 /// Where lines come from, and where they go.
 pub trait Terminal {
@@ -27,7 +28,7 @@ pub struct Stdio {
     editor: Editor,
     /// How the terminal was; none with pipes.
     before: Option<Termios>,
-    colour: bool,
+    paint: Paint,
 }
 
 /// What stands before the line being typed.
@@ -36,12 +37,10 @@ const PROMPT: &str = "> ";
 impl Stdio {
     /// Starts to read standard input, in a thread of its own.
     pub fn new() -> Self {
-        let is_terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
-        let is_dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
-        let before = if is_terminal && !is_dumb { without_echo() } else { None };
-        let no_colour = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-        let colour = std::io::stdout().is_terminal() && !is_dumb && !no_colour;
-        let mut stdio = Self { typed: read_in_thread(), editor: Editor::default(), before, colour };
+        let is_terminal = std::io::stdin().is_terminal() && stdout_takes_escapes();
+        let before = if is_terminal { without_echo() } else { None };
+        let paint = Paint::for_stdout();
+        let mut stdio = Self { typed: read_in_thread(), editor: Editor::default(), before, paint };
         stdio.show_typed();
         stdio
     }
@@ -85,7 +84,7 @@ impl Terminal for Stdio {
 
     fn print(&mut self, line: &Line) {
         let start = if self.before.is_some() { "\r\x1b[K" } else { "" };
-        let text = if self.colour { coloured(line) } else { line.to_string() };
+        let text = self.paint.line(colour(line.tone), &line.to_string());
         if writeln!(std::io::stdout(), "{start}{text}").is_err() {
             // As in `sim-host serve | head`: nobody is there to read any more.
             crate::interrupt::request();
@@ -128,14 +127,13 @@ fn read_in_thread() -> Receiver<Vec<u8>> {
     receiver
 }
 
-fn coloured(line: &Line) -> String {
-    let code = match line.tone {
-        Tone::Plain => return line.to_string(),
-        Tone::Good => 32,
-        Tone::Refused => 33,
-        Tone::Alarm => 31,
-    };
-    format!("\x1b[{code}m{line}\x1b[0m")
+const fn colour(tone: Tone) -> Colour {
+    match tone {
+        Tone::Plain => Colour::None,
+        Tone::Good => Colour::Green,
+        Tone::Refused => Colour::Yellow,
+        Tone::Alarm => Colour::Red,
+    }
 }
 
 /// A line being typed: its letters, and those entered before.

@@ -8,6 +8,19 @@ pub struct Paint {
     on: bool,
 }
 
+/// Colour of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colour {
+    /// The terminal's own.
+    None,
+    /// Something has failed.
+    Red,
+    /// Something went well.
+    Green,
+    /// Something was refused.
+    Yellow,
+}
+
 impl Paint {
     /// None: for files and pipes.
     pub const PLAIN: Self = Self { on: false };
@@ -15,8 +28,17 @@ impl Paint {
     /// For standard output: none unless it is a terminal, nor if `NO_COLOR` is set or `TERM` is `dumb`.
     pub fn for_stdout() -> Self {
         let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-        let able = std::env::var_os("TERM").is_some_and(|term| term != "dumb");
-        Self { on: wanted && able && std::io::stdout().is_terminal() }
+        Self { on: wanted && stdout_takes_escapes() }
+    }
+
+    /// A whole line in one colour.
+    pub fn line(self, colour: Colour, text: &str) -> String {
+        match colour {
+            Colour::None => text.to_owned(),
+            Colour::Red => self.paint("31", text),
+            Colour::Green => self.paint("32", text),
+            Colour::Yellow => self.paint("33", text),
+        }
     }
 
     /// Green and bold for what is well, red and bold for what is not.
@@ -39,6 +61,11 @@ impl Paint {
     }
 }
 
+/// Whether standard output is a terminal that knows escape sequences: `TERM` is set, and not `dumb`.
+pub fn stdout_takes_escapes() -> bool {
+    std::env::var_os("TERM").is_some_and(|term| term != "dumb") && std::io::stdout().is_terminal()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -48,6 +75,8 @@ mod tests {
         let paint = Paint { on: true };
         assert_eq!(paint.verdict("well", true), "\x1b[1;32mwell\x1b[0m");
         assert_eq!(paint.dim("a\n\nb\n"), "\x1b[2ma\x1b[0m\n\n\x1b[2mb\x1b[0m\n");
+        assert_eq!(paint.line(Colour::Yellow, "refused"), "\x1b[33mrefused\x1b[0m");
+        assert_eq!((paint.line(Colour::None, "a"), Paint::PLAIN.line(Colour::Red, "b")), ("a".into(), "b".into()));
         assert_eq!(Paint::PLAIN.verdict("well", false) + &Paint::PLAIN.dim("a\n"), "wella\n");
     }
 }

@@ -122,6 +122,8 @@ pub struct Suite {
     gnss: Option<Fitted<Receiver>>,
     pose: Option<Fitted<MotionCapture>>,
     battery: Option<Fitted<Monitor>>,
+    /// Whether each sensor is there, in the order of their declaration.
+    on_board: [bool; Sensor::ALL.len()],
     faults: Faults,
     /// Whether faults were started or ended in flight: then these determine rotors and battery, not the schedule.
     commanded: bool,
@@ -139,6 +141,7 @@ impl Suite {
             gnss: suite.gnss.as_ref().map(|spec| Fitted::new(Receiver::new(spec, home, seed))),
             pose: suite.pose.as_ref().map(|spec| Fitted::new(MotionCapture::new(spec, seed))),
             battery: suite.battery.as_ref().map(|spec| Fitted::new(Monitor::new(spec, seed))),
+            on_board: Sensor::ALL.map(|sensor| suite.has(sensor)),
             faults: Faults::new(faults, seed),
             commanded: false,
             applied: None,
@@ -202,14 +205,7 @@ impl Suite {
 
     /// Whether the suite has a sensor.
     pub fn has(&self, sensor: Sensor) -> bool {
-        match sensor {
-            Sensor::Imu | Sensor::Gyro | Sensor::Accel => true,
-            Sensor::Mag => self.mag.is_some(),
-            Sensor::Baro => self.baro.is_some(),
-            Sensor::Gnss => self.gnss.is_some(),
-            Sensor::Pose => self.pose.is_some(),
-            Sensor::Battery => self.battery.is_some(),
-        }
+        self.on_board[sensor as usize]
     }
 
     /// The faults to apply to rotors and battery at a tick, if they have changed. `None` until faults have been started
