@@ -1,7 +1,7 @@
-//! MAVLink's way out of the process: bytes in UDP datagrams, and nothing that knows what is in them.
+//! The UDP link of MAVLink: bytes in datagrams, without regard to their contents.
 //!
-//! Owns the socket and the list of who gets what is sent: the peers it was given, and whoever has sent something
-//! lately. A datagram that cannot be sent is lost, as it may be anyway on its way.
+//! Owns the socket and the list of receivers: the configured peers, and every address that has sent something lately. A
+//! datagram that cannot be sent is dropped, as the network may drop it too.
 
 use std::io::ErrorKind;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, ToSocketAddrs as _, UdpSocket};
@@ -11,9 +11,9 @@ use anyhow::{Context, anyhow, bail, ensure};
 
 use crate::stations::{News, Stations};
 
-/// Where `serve` listens unless told otherwise.
+/// The default address on which `serve` listens.
 pub const DEFAULT_LISTEN: &str = "127.0.0.1:14580";
-/// Whom `serve` sends to unless told otherwise: ground stations, and programs that use MAVSDK.
+/// The default peers of `serve`: ground stations, and programs that use MAVSDK.
 pub const DEFAULT_PEERS: [&str; 2] = ["127.0.0.1:14550", "127.0.0.1:14540"];
 
 /// The port of each, where an address is given without one.
@@ -21,7 +21,7 @@ pub const LISTEN_PORT: u16 = 14580;
 /// See [`LISTEN_PORT`].
 pub const PEER_PORT: u16 = 14550;
 
-/// Someone who has been silent this long is not sent to any more; ground stations speak every second.
+/// Nothing is sent to a guest that has been silent this long; ground stations send a heartbeat every second.
 const FORGET_AFTER: Duration = Duration::from_secs(10);
 /// More guests than this are not kept, so that a port scan cannot make the list grow.
 const GUESTS_MAX: usize = 16;
@@ -33,7 +33,7 @@ const DATAGRAM_MAX: usize = 2048;
 /// An address as a user writes it: `127.0.0.1:14550`, `localhost`, `[::1]:14550`; `:14580` for every interface.
 ///
 /// # Errors
-/// One line that names what of it is none, or the host that is not known.
+/// One line with the invalid text and a valid example, or the unknown host.
 pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
     if let Ok(address) = text.parse() {
         return Ok(address);
@@ -43,20 +43,22 @@ pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
     if text.parse::<u32>().is_ok() {
         bail!("`{text}` is no address: for a port use 127.0.0.1:{text}");
     }
-    if let Ok(ip) = text.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>() {
+    let in_brackets = text.strip_prefix('[').and_then(|text| text.strip_suffix(']'));
+    if let Ok(ip) = in_brackets.unwrap_or(text).parse::<IpAddr>() {
         return Ok(SocketAddr::new(ip, default_port));
     }
-    let (host, port) = match text.rsplit_once(':') {
-        Some((host, port)) => {
+    let (host, port) = text.rsplit_once(':').map_or((text, None), |(host, port)| (host, Some(port)));
+    ensure!(!host.contains(['/', ':', '[', ']', ' ']), "`{text}` is no address: use 127.0.0.1:{default_port}");
+    let port = match port {
+        Some(port) => {
             let port = port.parse::<u16>().ok();
-            (host, port.with_context(|| format!("`{text}` has no port from 0 to 65535: use {host}:{default_port}"))?)
+            port.with_context(|| format!("`{text}` has no port from 0 to 65535: use {host}:{default_port}"))?
         }
-        None => (text, default_port),
+        None => default_port,
     };
     if host.is_empty() {
         return Ok(SocketAddr::new(IpAddr::V4(Ipv4Addr::UNSPECIFIED), port));
     }
-    ensure!(!host.contains(['/', ':', '[', ']', ' ']), "`{text}` is no address: use 127.0.0.1:{port}");
     let known = (host, port).to_socket_addrs().map(Iterator::collect::<Vec<_>>).unwrap_or_default();
     // `localhost` is both; ground stations listen by IPv4.
     let chosen = known.iter().find(|address| address.is_ipv4()).or(known.first());
@@ -136,7 +138,7 @@ impl UdpLink {
         Ok(Self { socket, peers: peers.to_vec(), guests: Vec::new(), stations: Stations::default() })
     }
 
-    /// Where it listens; tells the port if 0 was asked for.
+    /// The address on which it listens; with the port that was assigned for port 0.
     ///
     /// # Errors
     /// The system's.
@@ -162,7 +164,7 @@ impl UdpLink {
         }
     }
 
-    /// The next change among those who are heard, if there is any.
+    /// The next ground station that was heard for the first time or lost, if any.
     pub fn news(&mut self) -> Option<News> {
         self.stations.news(Instant::now())
     }
@@ -266,10 +268,8 @@ mod tests {
 
     #[test]
     fn what_is_no_address_is_answered_with_one() {
-        for text in ["", " ", "::", ":::", "a b", "[::1", "[]:1", "http://x", "udp:127.0.0.1:14550", "127.0.0.1:", ":x"]
-        {
-            let Err(error) = address(text, PEER_PORT) else { continue };
-            let error = format!("{error:#}");
+        for text in ["", " ", ":::", "a b", "[::1", "[]:1", "http://x", "udp:127.0.0.1:14550", "127.0.0.1:", ":x"] {
+            let error = format!("{:#}", address(text, PEER_PORT).expect_err(text));
             assert!(error.contains(":14550") && !error.contains('\n'), "{text}: {error}");
         }
     }

@@ -116,14 +116,13 @@ impl<M: Model> Fitted<M> {
 /// The sensors of a flight.
 #[derive(Clone, Debug)]
 pub struct Suite {
+    file: SuiteFile,
     imu: Fitted<InertialUnit>,
     mag: Option<Fitted<Magnetometer>>,
     baro: Option<Fitted<Barometer>>,
     gnss: Option<Fitted<Receiver>>,
     pose: Option<Fitted<MotionCapture>>,
     battery: Option<Fitted<Monitor>>,
-    /// Whether each sensor is there, in the order of their declaration.
-    on_board: [bool; Sensor::ALL.len()],
     faults: Faults,
     /// Whether faults were started or ended in flight: then these determine rotors and battery, not the schedule.
     commanded: bool,
@@ -135,13 +134,13 @@ impl Suite {
     /// A valid suite at a home, under a schedule of faults and a seed.
     pub fn new(suite: &SuiteFile, home: &Home, faults: &[Fault], seed: u64) -> Self {
         Self {
+            file: suite.clone(),
             imu: Fitted::new(InertialUnit::new(&suite.imu, seed)),
             mag: suite.mag.as_ref().map(|spec| Fitted::new(Magnetometer::new(spec, home, seed))),
             baro: suite.baro.as_ref().map(|spec| Fitted::new(Barometer::new(spec, home, seed))),
             gnss: suite.gnss.as_ref().map(|spec| Fitted::new(Receiver::new(spec, home, seed))),
             pose: suite.pose.as_ref().map(|spec| Fitted::new(MotionCapture::new(spec, seed))),
             battery: suite.battery.as_ref().map(|spec| Fitted::new(Monitor::new(spec, seed))),
-            on_board: Sensor::ALL.map(|sensor| suite.has(sensor)),
             faults: Faults::new(faults, seed),
             commanded: false,
             applied: None,
@@ -205,7 +204,7 @@ impl Suite {
 
     /// Whether the suite has a sensor.
     pub fn has(&self, sensor: Sensor) -> bool {
-        self.on_board[sensor as usize]
+        self.file.has(sensor)
     }
 
     /// The faults to apply to rotors and battery at a tick, if they have changed. `None` until faults have been started

@@ -1,5 +1,5 @@
-//! The console of `serve`, in lockstep and without a clock: lines go in at given times, and what is printed is held against
-//! the truth.
+//! The console of `serve`, in lockstep and without a clock: lines go in at given times, and what is printed is held
+//! against the truth.
 
 use firmware::commander::{Event, Refusal};
 use firmware::signals::TICK_S_EXACT;
@@ -147,6 +147,24 @@ fn a_whole_flight_is_commanded_by_lines_and_told_as_it_was() {
     let lines = bench.printed.len();
     bench.fly(5.0);
     assert_eq!(bench.printed.len(), lines, "{:?}", bench.printed.last());
+}
+
+#[test]
+fn a_command_is_answered_within_24_ms_of_simulated_time() {
+    let mut slowest = 0;
+    for phase in 0..20 {
+        let mut bench = Bench::new("pad");
+        bench.fly(1.0 + f64::from(phase) * TICK_S_EXACT);
+        bench.seen = bench.printed.len();
+        bench.session.enter("disarm");
+        let before = bench.session.flight().next_tick();
+        while bench.printed.len() == bench.seen {
+            bench.tick();
+        }
+        slowest = slowest.max(bench.session.flight().next_tick() - before);
+    }
+    // Up to 20 ms to the commander's next job, and the 4 ms after which its output takes effect.
+    assert_eq!(slowest, 24);
 }
 
 #[test]
