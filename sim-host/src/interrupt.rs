@@ -1,5 +1,6 @@
-//! Ctrl-C (SIGINT) and SIGTERM. A command that [`listen`]s ends its flight after a tick and reports it; the second signal,
-//! or the first in any other command, ends the program at once. Folders that are not whole are removed either way.
+//! Ctrl-C (SIGINT) and SIGTERM. A command that [`listen`]s ends its flight after a tick and reports it; the second
+//! signal, or the first in any other command, ends the program at once. Folders that are not whole are removed either
+//! way.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -38,7 +39,7 @@ pub fn listen() {
 fn handle(signal: i32) {
     let is_first = REQUESTED.swap(signal, Ordering::Relaxed) == 0;
     if !is_first || !LISTENING.load(Ordering::Relaxed) {
-        // Never released: nothing is begun any more.
+        // Held until the end, so that no further folder is begun.
         let folders = unfinished();
         folders.iter().for_each(|folder| remove(folder));
         process::exit(i32::from(exit_code()));
@@ -59,12 +60,12 @@ fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Has a folder removed if the program is ended at once.
+/// Registers a folder to be removed if the program is ended at once.
 pub fn begin_folder(folder: &Path) {
     unfinished().push(folder.to_owned());
 }
 
-/// The folder has been dealt with.
+/// The folder is whole or removed.
 pub fn end_folder(folder: &Path) {
     unfinished().retain(|other| other != folder);
 }

@@ -1,5 +1,5 @@
-//! From a typed line to a command. One table names the commands, explains them and reads their arguments, so that help
-//! and parser cannot differ.
+//! Reads typed lines. One table has the names, arguments and explanations of the commands, so that help and parser
+//! agree.
 
 use core::fmt;
 use core::ops::RangeInclusive;
@@ -18,22 +18,22 @@ use crate::serve::SPEEDS;
 pub enum Command {
     /// Explain the commands, or one of them.
     Help(Option<&'static Entry>),
-    /// Say how the vehicle is.
+    /// Print the vehicle's state.
     Status,
-    /// Ask the commander for something.
+    /// Send a request to the commander.
     Request(Request),
-    /// Go to a place (m) with a heading (°); what is `None` stays as it is.
+    /// Go to a place (m) with a heading (°); `None` keeps the present value.
     GoTo {
         /// x, y, z, m.
         place: [Option<f64>; 3],
         /// ψ, °.
         yaw_deg: Option<f64>,
     },
-    /// Say what the steady wind is.
+    /// Print the steady wind.
     Wind,
     /// Set the steady wind: the velocity of the air, m/s.
     SetWind([f64; 3]),
-    /// Make something fail.
+    /// Start a fault.
     Fault(Fault),
     /// List the faults.
     Faults,
@@ -45,12 +45,12 @@ pub enum Command {
     Quit,
 }
 
-/// A command in the table.
+/// A row of the table of commands.
 #[derive(Debug)]
 pub struct Entry {
-    /// Its name first, then what else it is called.
+    /// Its name, then its other names.
     names: &'static [&'static str],
-    /// What may follow the name.
+    /// Its arguments, as help shows them.
     arguments: &'static str,
     /// What it does.
     summary: &'static str,
@@ -59,14 +59,14 @@ pub struct Entry {
     reads: Reads,
 }
 
-/// How what follows the name is read.
+/// How the arguments of a command are read.
 #[derive(Debug)]
 enum Reads {
-    /// Nothing may follow.
+    /// There are none.
     Nothing(Command),
-    /// `force`, or nothing.
+    /// `force`, or none.
     Force(fn(bool) -> Request),
-    /// The command's own function, at a tick.
+    /// By a function of the arguments and the present tick.
     With(fn(&[&str], Tick) -> Result<Command>),
 }
 
@@ -85,7 +85,7 @@ impl Entry {
         Self { details, ..self }
     }
 
-    /// Reads what follows the name.
+    /// Reads the arguments.
     fn read(&self, words: &[&str], now: Tick) -> Result<Command> {
         let read = match &self.reads {
             Reads::Nothing(command) => alone(words).map(|()| command.clone()),
@@ -132,40 +132,91 @@ impl Entry {
 pub const COMMANDS: &[Entry] = &[
     Entry::new(&["help", "?"], "[COMMAND]", "list the commands, or explain one", Reads::With(help)),
     Entry::new(&["status"], "", "mode, position, battery, wind and faults now", Reads::Nothing(Command::Status))
-    .with_details("Position and velocity are the vehicle's own estimate"),
-    Entry::new(&["arm"], "[force]", "let the rotors idle; `force` skips the checks", Reads::Force(|force| Request::Arm { force })),
-    Entry::new(&["disarm"], "[force]", "stop the rotors on the ground; `force` also in the air", Reads::Force(|force| Request::Disarm { force })),
+        .with_details("Position and velocity are the vehicle's own estimate"),
+    Entry::new(
+        &["arm"],
+        "[force]",
+        "let the rotors idle; `force` skips the checks",
+        Reads::Force(|force| Request::Arm { force }),
+    ),
+    Entry::new(
+        &["disarm"],
+        "[force]",
+        "stop the rotors on the ground; `force` also in the air",
+        Reads::Force(|force| Request::Disarm { force }),
+    ),
     Entry::new(&["takeoff", "take-off"], "[HEIGHT]", "climb by HEIGHT (m; 2.5) and hold", Reads::With(take_off))
-    .with_details("It has to be armed and on the ground; HEIGHT is between 0.3 and 100 m"),
-    Entry::new(&["goto", "go-to", "reposition"], "NORTH WEST UP [YAW]", "fly to a place in the local frame (m; yaw in °) and hold", Reads::With(go_to))
-    .with_details("The frame begins where z = 0 of the world is: `up` is negative below it. YAW counts from north to \
-                  west: 90 looks west, -90 east. By name, what is left out stays as it is: `goto north=5 yaw=0`"),
-    Entry::new(&["velocity"], "NORTH WEST UP [YAW_RATE]", "fly with a velocity (m/s; yaw rate in °/s) until the next command", Reads::With(velocity))
+        .with_details("It has to be armed and on the ground; HEIGHT is between 0.3 and 100 m"),
+    Entry::new(
+        &["goto", "go-to", "reposition"],
+        "NORTH WEST UP [YAW]",
+        "fly to a place in the local frame (m; yaw in °) and hold",
+        Reads::With(go_to),
+    )
+    .with_details(
+        "The frame begins where z = 0 of the world is: `up` is negative below it. YAW counts from north to \
+         west: 90 looks west, -90 east. By name, what is left out stays as it is: `goto north=5 yaw=0`",
+    ),
+    Entry::new(
+        &["velocity"],
+        "NORTH WEST UP [YAW_RATE]",
+        "fly with a velocity (m/s; yaw rate in °/s) until the next command",
+        Reads::With(velocity),
+    )
     .with_details("By name, what is left out is 0: `velocity up=1`. `hold` ends it"),
     Entry::new(&["hold", "loiter", "brake"], "", "brake and stay", Reads::Nothing(Command::Request(Request::Hold))),
-    Entry::new(&["trajectory", "follow", "mission", "start"], "", "fly the scenario's trajectory", Reads::Nothing(Command::Request(Request::Follow)))
+    Entry::new(
+        &["trajectory", "follow", "mission", "start"],
+        "",
+        "fly the scenario's trajectory",
+        Reads::Nothing(Command::Request(Request::Follow)),
+    )
     .with_details("From the ground, armed, it takes off by itself if it stands where the trajectory begins"),
-    Entry::new(&["return", "rtl"], "", "climb, fly to where it was armed, and land", Reads::Nothing(Command::Request(Request::Return))),
+    Entry::new(
+        &["return", "rtl"],
+        "",
+        "climb, fly to where it was armed, and land",
+        Reads::Nothing(Command::Request(Request::Return)),
+    ),
     Entry::new(&["land"], "", "land here; disarms by itself", Reads::Nothing(Command::Request(Request::Land))),
-    Entry::new(&["kill", "terminate"], "", "stop the rotors at once, also in the air", Reads::Nothing(Command::Request(Request::Disarm { force: true }))),
-    Entry::new(&["wind"], "[NORTH WEST [UP]]", "set the steady wind (m/s, where the air moves to), or say what it is", Reads::With(wind))
-    .with_details("Or as forecasts have it, `wind speed=5 from=270`: from the west (degrees clockwise from north). \
-                  Turbulence and gusts of the scenario stay"),
-    Entry::new(&["fault", "failure"], "[SENSOR] KIND [KEY=VALUE]...", "make a sensor, a rotor or the battery fail", Reads::With(|words, now| Ok(Command::Fault(failures::parse(words.iter().copied(), now)?))))
-    .with_details("As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5`, \
-                  `fault collapse factor=0.8`; from now on for good, or `from_s=` and `to_s=` (s). The keys are those of \
-                  `[[fault]]` in docs/simulation.md"),
+    Entry::new(
+        &["kill", "terminate"],
+        "",
+        "stop the rotors at once, also in the air",
+        Reads::Nothing(Command::Request(Request::Disarm { force: true })),
+    ),
+    Entry::new(
+        &["wind"],
+        "[NORTH WEST [UP]]",
+        "set the steady wind (m/s, where the air moves to), or say what it is",
+        Reads::With(wind),
+    )
+    .with_details(
+        "Or as forecasts have it, `wind speed=5 from=270`: from the west (degrees clockwise from north). \
+         Turbulence and gusts of the scenario stay",
+    ),
+    Entry::new(
+        &["fault", "failure"],
+        "[SENSOR] KIND [KEY=VALUE]...",
+        "make a sensor, a rotor or the battery fail",
+        Reads::With(|words, now| Ok(Command::Fault(failures::parse(words.iter().copied(), now)?))),
+    )
+    .with_details(
+        "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5`, `fault \
+         collapse factor=0.8`; from now on for good, or `from_s=` and `to_s=` (s). The keys are those of \
+         `[[fault]]` in docs/simulation.md",
+    ),
     Entry::new(&["faults"], "", "list the faults that act, and those to come", Reads::Nothing(Command::Faults)),
     Entry::new(&["clear"], "", "end all faults, those of the scenario too", Reads::Nothing(Command::Clear)),
     Entry::new(&["speed"], "X", "fly at X times real time", Reads::With(speed))
-    .with_details("X is between 0.01 and 1000"),
+        .with_details("X is between 0.01 and 1000"),
     Entry::new(&["quit", "exit"], "", "end the program", Reads::Nothing(Command::Quit)),
 ];
 
-/// Reads a line at a tick; an empty line and a comment (`#`) ask for nothing.
+/// Reads a line at a tick; `None` for an empty line and a comment (`#`).
 ///
 /// # Errors
-/// In one line, what is wrong with it and what to type instead.
+/// One line with the mistake and what to type instead.
 pub fn parse(line: &str, now: Tick) -> Result<Option<Command>> {
     let words: Vec<&str> = line.split_whitespace().take_while(|word| !word.starts_with('#')).collect();
     let Some((name, arguments)) = words.split_first() else { return Ok(None) };
@@ -185,7 +236,7 @@ fn entry(name: &str) -> Result<&'static Entry> {
     }
 }
 
-/// Too many arguments, or too few: the answer is how the command is typed.
+/// Too many arguments, or too few; answered with the command's usage.
 #[derive(Debug)]
 struct Misuse(String);
 
@@ -222,7 +273,7 @@ fn forced(words: &[&str]) -> Result<bool> {
     }
 }
 
-/// A number that a command takes.
+/// A numeric argument.
 struct Number {
     key: &'static str,
     unit: &'static str,
@@ -245,8 +296,8 @@ impl Number {
     }
 }
 
-/// Reads numbers in their order, by `key=value`, or first so and then so. Where any stands without its key, or where
-/// there are none, the first `needed` have to be there.
+/// Reads numbers by position or as `key=value`. If any is given by position, or if there are none, the first `needed`
+/// are required.
 fn numbers<const N: usize>(words: &[&str], needed: usize, known: &[Number; N]) -> Result<[Option<f64>; N]> {
     let mut values = [None; N];
     for (place, word) in words.iter().enumerate() {
@@ -288,7 +339,7 @@ fn take_off(words: &[&str], _: Tick) -> Result<Command> {
     Ok(Command::Request(Request::TakeOff { height_m }))
 }
 
-/// A constant of the firmware with the decimals that it was written with.
+/// A constant of the firmware, rounded to the decimals in its source.
 fn round(value: f32) -> f64 {
     (f64::from(value) * 1e3).round() / 1e3
 }
@@ -352,7 +403,7 @@ fn speed(words: &[&str], _: Tick) -> Result<Command> {
     Ok(Command::Speed(speed.unwrap_or(1.0)))
 }
 
-/// The longest text by which a started word goes on in all names of commands that begin with it.
+/// The rest of the command's name if only one begins with the word.
 pub fn completion(word: &str) -> Option<&'static str> {
     let mut names = COMMANDS.iter().map(Entry::name).filter(|name| name.starts_with(word));
     let name = names.next()?;

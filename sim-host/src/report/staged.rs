@@ -10,8 +10,8 @@
 //! ```
 //!
 //! A run that ends or is interrupted removes its own. What a killed run (SIGKILL, power) has left is no longer locked:
-//! the next run with the same `--out` removes it, and puts `old/` back if the run was killed between the two renames. Of
-//! runs at the same time, the last to end stays.
+//! the next run with the same `--out` removes it, and puts `old/` back if the run was killed between the two renames.
+//! Of runs at the same time, the last to end stays.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
