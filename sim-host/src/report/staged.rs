@@ -61,7 +61,7 @@ impl Staged {
 
     /// The folder to write into.
     pub fn folder(&self) -> OutFolder {
-        OutFolder(self.staging.new())
+        OutFolder(self.staging.being_written())
     }
 
     /// Puts the folder in its place, whole; what was there before is removed. Returns what it holds, in words.
@@ -69,7 +69,7 @@ impl Staged {
     /// # Errors
     /// When it cannot be renamed; the message names it.
     pub fn finish(self) -> Result<String> {
-        let contents = contents(&self.staging.new());
+        let contents = contents(&self.staging.being_written());
         let finished = contents.and_then(|contents| self.staging.replace(&self.target).map(|()| contents));
         finished.with_context(|| format!("cannot write {}: is it in use?", self.target.display()))
     }
@@ -121,13 +121,14 @@ impl Staging {
         Ok(Some(Self { folder, _lock: lock }))
     }
 
-    fn new(&self) -> PathBuf {
+    /// The folder that becomes the target.
+    fn being_written(&self) -> PathBuf {
         self.folder.join("new")
     }
 
     /// Puts what has been written in the place of `target`.
     fn replace(&self, target: &Path) -> io::Result<()> {
-        let (new, old) = (self.new(), self.folder.join("old"));
+        let (new, old) = (self.being_written(), self.folder.join("old"));
         loop {
             match fs::rename(target, &old) {
                 Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
@@ -337,13 +338,11 @@ mod tests {
         assert_eq!(around(&target), ["flight"]);
     }
 
-    /// As a killed program leaves it: the lock is released, the folder stays.
+    /// As a killed program leaves it: the folder stays, without a lock.
     fn killed(target: &Path) -> PathBuf {
-        let mut staged = Staged::begin(target).expect("begun");
-        staged.folder().text("estimate.csv", "half").expect("written");
-        staged.staging._lock = None;
-        let folder = staged.staging.folder.clone();
-        std::mem::forget(staged);
+        let folder = target.with_file_name(".flight.1.partial");
+        fs::create_dir_all(folder.join("new")).expect("can be made");
+        fs::write(folder.join("new/estimate.csv"), "half").expect("can be written");
         folder
     }
 

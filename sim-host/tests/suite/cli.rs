@@ -100,13 +100,13 @@ fn spoilt_airframe_files_are_refused() {
     ];
     for (from, to, culprit) in cases {
         assert!(AIRFRAME.contains(from), "{from}");
-        let airframe = folder.file("airframe.toml", &AIRFRAME.replacen(from, to, 1));
-        let scenario = folder.file("scenario.toml", &spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
+        let airframe = folder.file("airframe.toml", AIRFRAME.replacen(from, to, 1));
+        let scenario = folder.file("scenario.toml", spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
         folder.refuses(&["run", &scenario], &[culprit]);
     }
     // Four rotors that all push the same way cannot yaw independently of thrust.
-    let airframe = folder.file("airframe.toml", &AIRFRAME.replace("= -33e-6", "= 33e-6"));
-    let scenario = folder.file("scenario.toml", &spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
+    let airframe = folder.file("airframe.toml", AIRFRAME.replace("= -33e-6", "= 33e-6"));
+    let scenario = folder.file("scenario.toml", spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
     folder.refuses(&["run", &scenario], &["rotors"]);
 }
 
@@ -165,7 +165,7 @@ fn json_is_one_object_or_one_array_with_the_documented_keys() {
 fn a_file_s_path_and_settings_work_from_any_folder() {
     let folder = Folder::new("path");
     folder.file("mine.toml", HELIX);
-    folder.file("heavy.toml", &AIRFRAME.replace("0.823", "1.0"));
+    folder.file("heavy.toml", AIRFRAME.replace("0.823", "1.0"));
     let text = folder.succeeds(&["run", "./mine.toml", "--set", "duration_s=2", "--out", "out/deep", "--json"]);
     let summary: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(summary["duration_s"], 2.0);
@@ -258,8 +258,8 @@ fn tuning(softness: f64) -> String {
 fn compared(name: &str) -> Folder {
     let folder = Folder::new(name);
     folder.file("matrix.toml", MATRIX);
-    folder.file("stiff.toml", &tuning(1.0));
-    folder.file("soft.toml", &tuning(2.0));
+    folder.file("stiff.toml", tuning(1.0));
+    folder.file("soft.toml", tuning(2.0));
     folder
 }
 
@@ -329,7 +329,7 @@ fn a_comparison_of_what_is_not_there_is_refused() {
         ("summary", "colour = 1\nsummary", "colour"),
     ] {
         assert!(MATRIX.contains(from), "{from}");
-        folder.file("spoilt.toml", &MATRIX.replacen(from, to, 1));
+        folder.file("spoilt.toml", MATRIX.replacen(from, to, 1));
         folder.refuses(&["compare", "spoilt.toml"], &[culprit]);
     }
 }
