@@ -1,4 +1,4 @@
-//! Controllers compared: each in every cell of a matrix, under the same seeds.
+//! Compares controllers: each flies every cell of a matrix, under the same seeds.
 
 use std::collections::BTreeSet;
 
@@ -13,11 +13,11 @@ use crate::score::{self, Score};
 use crate::seeds::Seeds;
 use crate::statistics::Estimate;
 
-/// Distances below this are the same, m: no vehicle's position is known to 10 µm, and what is left of a flight that
-/// nothing disturbs are digits of an f32.
+/// Errors below this are taken as equal, m: no vehicle's position is known to 10 µm, and the error of an undisturbed
+/// flight is rounding of f32.
 pub const RESOLUTION_M: f64 = 1e-5;
 
-/// A figure of merit. Less is better in each.
+/// A figure of merit; less is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Figure {
     /// RMS of the distance from the trajectory, m.
@@ -69,7 +69,7 @@ impl Figure {
         }
     }
 
-    /// Of a flight; `None` if it has none, as a lost one has not.
+    /// Its value for a flight; `None` if undefined, as for a lost flight.
     pub fn of(self, score: &Score) -> Option<f64> {
         match self {
             Self::Rms => score.rms_m,
@@ -85,19 +85,19 @@ impl Figure {
     }
 }
 
-/// A median a figure, with how many flights survived.
+/// The median of each figure, and how many flights survived.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Medians {
     /// Flights.
     pub flights: usize,
-    /// Those whose vehicle was not lost.
+    /// Flights whose vehicle survived.
     pub survived: usize,
     /// In the order of [`Figure::ALL`].
     estimates: [Estimate; Figure::ALL.len()],
 }
 
 impl Medians {
-    /// Of flights of one controller in one cell.
+    /// Over the flights of one controller in one cell.
     pub(crate) fn of_flights(flights: &[FlightScore]) -> Self {
         Self {
             flights: flights.len(),
@@ -106,9 +106,9 @@ impl Medians {
         }
     }
 
-    /// Of the medians of cells, each of the same weight.
+    /// Over the medians of cells, equally weighted.
     fn of_cells(cells: &[&Self]) -> Self {
-        // The cells are no sample of anything: their median has no interval.
+        // The cells are chosen, not drawn at random: their median has no confidence interval.
         let estimate = |figure| Estimate {
             interval: None,
             ..Estimate::of(cells.iter().map(|cell| Some(cell.estimate(figure).median)))
@@ -154,27 +154,27 @@ pub struct FlightScore {
     pub controller: String,
     /// Seed of its random numbers.
     pub seed: u64,
-    /// How it went.
+    /// Its figures.
     pub score: Score,
 }
 
-/// How the controllers did in one scenario under one disturbance.
+/// The controllers' results in one scenario under one disturbance.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Cell {
     /// Name of the scenario.
     pub scenario: String,
     /// Name of the disturbance.
     pub disturbance: String,
-    /// Whether flights under different seeds differ; where they do not, one was flown.
+    /// Whether flights under different seeds differ; otherwise one was flown.
     pub random: bool,
-    /// One a controller, in the comparison's order.
+    /// Per controller, in the comparison's order.
     pub controllers: Vec<Medians>,
-    /// RMS error over the first controller's under the same seed, one a controller: the median over the seeds. What a
-    /// seed does to both is not in it, so that it tells more than two medians do.
+    /// RMS error divided by the first controller's under the same seed, per controller: the median over the seeds. The
+    /// pairing removes what a seed does to both flights, so that it resolves smaller differences than two medians.
     pub rms_ratios: Vec<Estimate>,
 }
 
-/// A controller over the whole matrix.
+/// A controller's results over the whole matrix.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Overall {
     /// Its name.
@@ -189,39 +189,39 @@ pub struct Overall {
     pub worse_cells: usize,
 }
 
-/// A cell that the first controller loses.
+/// A cell in which another controller has a smaller RMS error than the first.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct LostCell {
     /// Name of the scenario.
     pub scenario: String,
     /// Name of the disturbance.
     pub disturbance: String,
-    /// The controller that is best there.
+    /// The best controller there.
     pub to: String,
-    /// Its RMS error over the first controller's: below 1; 0 if the first controller's flights are lost.
+    /// Its RMS error divided by the first controller's: below 1; 0 if the first controller's flights are lost.
     pub rms_ratio: Estimate,
-    /// Whether seeds cannot explain it: the ratio's interval is below 1, or the cell is not random.
+    /// Whether the difference is significant: the ratio's interval is below 1, or the cell is not random.
     pub clear: bool,
 }
 
-/// What a comparison finds.
+/// Result of a comparison.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Comparison {
     /// Name of the matrix.
     pub matrix: String,
-    /// What it compares.
+    /// Its purpose, in one line.
     pub summary: String,
     /// Seeds flown in random cells.
     pub seeds: Seeds,
-    /// Whether some of them are seeds that controllers are tuned on.
+    /// Whether they overlap the seeds of tuning.
     pub seeds_are_trained_on: bool,
     /// Names of the controllers; the others are compared with the first.
     pub controllers: Vec<String>,
-    /// In the matrix' order.
+    /// In the matrix's order.
     pub cells: Vec<Cell>,
-    /// One a controller.
+    /// Per controller.
     pub overall: Vec<Overall>,
-    /// Where another controller has the least RMS error.
+    /// Cells in which another controller has the least RMS error.
     pub lost: Vec<LostCell>,
     /// Every flight, by cell, controller and seed.
     #[serde(skip)]
@@ -240,8 +240,8 @@ impl<'a> Contest<'a> {
     /// Loads every scenario and every controller of a matrix.
     ///
     /// # Errors
-    /// One line with the scenario or tuning, the key and the error; two scenarios or two controllers of one name; or
-    /// that no cell is left.
+    /// One line with the scenario or tuning, the key and the error; also if two scenarios or two controllers share a
+    /// name, or no cell is left.
     pub fn new(matrix: &'a Matrix) -> Result<Self> {
         require_told_apart("controllers", &matrix.file.controllers)?;
         require_told_apart("scenarios", &matrix.file.scenarios)?;
@@ -252,14 +252,14 @@ impl<'a> Contest<'a> {
         Ok(Self { matrix, cases, controllers })
     }
 
-    /// How many flights it takes.
+    /// The number of flights.
     pub fn flights(&self) -> usize {
         let seeds = |case: &Case| case.seeds(self.matrix.file.seeds).count();
         self.cases.iter().map(seeds).sum::<usize>() * self.controllers.len()
     }
 
-    /// Flies it on the threads of the current pool; `flown` is called after each flight. The result does not depend on
-    /// the number of threads.
+    /// Flies all of them on the threads of the current pool; `flown` is called after each flight. The result does not
+    /// depend on the number of threads.
     ///
     /// # Errors
     /// The firmware refuses the configuration of a scenario.
@@ -287,7 +287,7 @@ impl<'a> Contest<'a> {
         Ok(self.judge(parallel::try_map(&sorties, fly)?))
     }
 
-    /// The flights, in the order of [`fly`](Self::fly), as a comparison.
+    /// Evaluates the flights, which are in the order of [`fly`](Self::fly).
     fn judge(&self, flights: Vec<FlightScore>) -> Comparison {
         let file = &self.matrix.file;
         let mut rest = flights.as_slice();
@@ -313,13 +313,13 @@ impl<'a> Contest<'a> {
     }
 }
 
-/// A built-in name as it is, a path by its file's name.
+/// A built-in name unchanged; of a path, the file's name without its extension.
 fn short_name(name: &str) -> &str {
     let file = name.rsplit('/').next().unwrap_or(name);
     file.strip_suffix(".toml").unwrap_or(file)
 }
 
-/// Refuses paths whose files have one name: in tables and files they would be one.
+/// Refuses paths whose files have the same name: tables and files could not tell them apart.
 fn require_told_apart(key: &str, names: &[String]) -> Result<()> {
     let mut seen = BTreeSet::new();
     for name in names {
@@ -341,7 +341,7 @@ fn overall(cells: &[Cell], index: usize, name: &str) -> Overall {
 }
 
 impl Cell {
-    /// From the flights of each controller, all under the same seeds.
+    /// Evaluates the flights of each controller, all under the same seeds.
     fn of(case: &Case, flown: &[&[FlightScore]]) -> Self {
         let paired = |flights: &&[FlightScore]| {
             let pairs = flights.iter().zip(flown[0]);
@@ -356,7 +356,7 @@ impl Cell {
         }
     }
 
-    /// The cell as one that the first controller loses, if it does.
+    /// The cell as a lost one, if another controller has a smaller RMS error than the first.
     fn lost(&self, names: &[String]) -> Option<LostCell> {
         let others = self.rms_ratios.iter().zip(names).skip(1);
         let (best, to) = others.min_by(|(a, _), (b, _)| a.median.total_cmp(&b.median))?;
@@ -370,7 +370,7 @@ impl Cell {
     }
 }
 
-/// The RMS error of a flight over another's: 1 where both are below [`RESOLUTION_M`], or both lost.
+/// The RMS error of a flight divided by another's: 1 if both are below [`RESOLUTION_M`], or both are lost.
 fn ratio(flight: &Score, other: &Score) -> f64 {
     let rms = |score: &Score| score.rms_m.map_or(f64::INFINITY, |rms| rms.max(RESOLUTION_M));
     let (a, b) = (rms(flight), rms(other));
@@ -405,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn ratios_are_those_of_the_same_seed() {
+    fn ratios_compare_flights_under_the_same_seed() {
         // The seeds differ a thousandfold; under each the second has 0.9 of the first's error.
         let first: Vec<_> = (0..8).map(|k| Some(1e-3 * 10_f64.powf(0.4 * f64::from(k)))).collect();
         let second: Vec<_> = first.iter().map(|rms| rms.map(|rms| 0.9 * rms)).collect();
@@ -428,7 +428,7 @@ mod tests {
         assert_eq!((cell.controllers[1].survived, cell.controllers[1].flights), (0, 8));
         assert_eq!(cell.rms_ratios[1].median, f64::INFINITY);
         assert_eq!(cell.controllers[1].rms().median, f64::INFINITY);
-        assert_eq!(cell.lost(&names()), None, "not to one that is lost, nor to one that is the same");
+        assert_eq!(cell.lost(&names()), None, "neither to a lost one nor to an equal one");
     }
 
     #[test]
@@ -439,23 +439,23 @@ mod tests {
     }
 
     #[test]
-    fn what_seeds_may_explain_is_not_clear() {
+    fn a_difference_within_the_interval_is_not_clear() {
         let first = [Some(1.0); 8];
         let second = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 2.0].map(Some);
         let found = cell(&[&first, &second]).lost(&names()).expect("lost");
-        assert!(!found.clear, "the interval for 8 seeds is from the least to the greatest");
+        assert!(!found.clear, "the interval of 8 seeds reaches from the least to the greatest");
         assert_eq!(found.rms_ratio.interval, Some((0.5, 2.0)));
     }
 
     #[test]
-    fn what_no_position_sensor_resolves_is_the_same() {
+    fn errors_below_the_resolution_are_equal() {
         let cell = cell(&[&[Some(6e-8); 8], &[Some(9e-6); 8], &[Some(2e-5); 8]]);
         assert_eq!(cell.rms_ratios[1].median, 1.0);
         assert!((cell.rms_ratios[2].median - 2.0).abs() < 1e-12);
     }
 
     #[test]
-    fn what_would_have_one_name_is_refused() {
+    fn two_files_of_the_same_name_are_refused() {
         let refusal = |spoil: &dyn Fn(&mut Matrix)| {
             let mut matrix = Matrix::load("x500", &[]).expect("valid");
             spoil(&mut matrix);
@@ -468,7 +468,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_are_called_by_their_files() {
+    fn a_path_is_shortened_to_its_files_name() {
         assert_eq!(short_name("/tmp/here/softer.toml"), "softer");
         assert_eq!(short_name("x500-smc"), "x500-smc");
     }

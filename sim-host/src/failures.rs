@@ -1,5 +1,5 @@
-//! Failures on command, while flying: from a ground station, as PX4 and MAVSDK name them, and in lines of text, with the
-//! keys of a scenario's `[[fault]]`.
+//! Failures on command, while flying: from a ground station, as PX4 and MAVSDK name them, and in lines of text, with
+//! the keys of a scenario's `[[fault]]`.
 //!
 //! ```text
 //! sensor=gnss kind=off                 from now on, or from_s=…
@@ -78,8 +78,8 @@ fn plain(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string().replace(' ', ""), str::to_owned)
 }
 
-/// Which failures a ground station may ask for: those of the sensors on board, of the rotors, and of the battery.
-/// Without sensors, none.
+/// The failures that a ground station may inject: those of the sensors on board, the rotors and the battery. Empty on
+/// ideal state.
 pub fn injectable(sensors: Option<&Suite>, has_battery: bool) -> Injectable {
     use Manner::{Delayed, Garbage, Intermittent, Off, Slow, Stuck, Wrong};
     let Some(suite) = sensors else { return Injectable::NONE };
@@ -102,8 +102,8 @@ pub fn injectable(sensors: Option<&Suite>, has_battery: bool) -> Injectable {
     injectable
 }
 
-/// What a failure does: in which slots, and with which fault in each; none makes well. One that is not
-/// [`injectable`] does nothing.
+/// The slots of a failure, with the fault in each; `None` ends the slot's fault. Empty for a failure that is not
+/// [`injectable`].
 pub fn of(failure: &Failure, now: Tick) -> impl Iterator<Item = (usize, Option<Fault>)> + use<> {
     let Failure { unit, manner, instance } = *failure;
     let instances = match (unit, instance) {
@@ -122,7 +122,7 @@ pub fn of(failure: &Failure, now: Tick) -> impl Iterator<Item = (usize, Option<F
     })
 }
 
-/// The sensor that fails; none for rotors and battery, which are no sensors.
+/// The sensor that fails; `None` for rotors and battery.
 fn sensor(unit: Unit) -> Option<Sensor> {
     match unit {
         Unit::Gyro => Some(Sensor::Gyro),
@@ -134,7 +134,7 @@ fn sensor(unit: Unit) -> Option<Sensor> {
     }
 }
 
-/// How it fails. MAVLink gives no numbers: these are far beyond what a sound part does.
+/// The kind of fault. MAVLink specifies no magnitudes: these are far outside of normal operation.
 fn kind(unit: Unit, manner: Manner, instance: usize) -> Option<Kind> {
     /// What is left of an empty battery's voltage, and of a slow rotor's thrust.
     const EMPTY: f64 = 0.85;
@@ -155,7 +155,7 @@ fn kind(unit: Unit, manner: Manner, instance: usize) -> Option<Kind> {
     })
 }
 
-/// Deviation of what is no measurement any more, in the sensor's unit.
+/// Standard deviation of a garbage signal, in the sensor's unit.
 fn garbage(unit: Unit) -> f64 {
     match unit {
         Unit::Gyro => 1.0,

@@ -1,36 +1,88 @@
-//! Ctrl-C, and the signal that asks a program to end: a flight ends after its tick and is reported; the second time, the
-//! program ends at once.
+//! Ctrl-C (SIGINT) and SIGTERM. A command that [`listen`]s ends its flight after a tick and reports it; the second
+//! signal, or the first in any other command, ends the program at once. Folders that are not whole are removed either
+//! way.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
 
 use anyhow::{Context as _, Result};
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::iterator::Signals;
 
-/// Exit code of a program that was interrupted: 128 + SIGINT, as shells have it.
-pub const EXIT_CODE: u8 = 130;
+/// The signal that asked for an end; 0 before.
+static REQUESTED: AtomicI32 = AtomicI32::new(0);
+/// Whether the command looks at [`requested`].
+static LISTENING: AtomicBool = AtomicBool::new(false);
+/// Folders that are not whole.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-static REQUESTED: AtomicBool = AtomicBool::new(false);
-
-/// Lets flights end when the user asks for it. To be called once, by commands that look at [`requested`].
+/// Handles both signals from now on, in a thread of its own. To be called once, when the program starts. SIGHUP is left
+/// as it is, so that `nohup` works.
 ///
 /// # Errors
 /// When the system does not let signals be handled.
-pub fn listen() -> Result<()> {
-    let handler = || {
-        if REQUESTED.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(EXIT_CODE));
-        }
-    };
-    ctrlc::set_handler(handler).context("cannot handle Ctrl-C")
+pub fn handle_signals() -> Result<()> {
+    let mut signals = Signals::new([SIGINT, SIGTERM]).context("cannot handle Ctrl-C")?;
+    thread::spawn(move || signals.forever().for_each(handle));
+    Ok(())
 }
 
-/// Asks for an end, as the user would: when nobody reads what is printed any more.
+/// Promises that the command looks at [`requested`] and ends by itself.
+pub fn listen() {
+    LISTENING.store(true, Ordering::Relaxed);
+}
+
+fn handle(signal: i32) {
+    let is_first = REQUESTED.swap(signal, Ordering::Relaxed) == 0;
+    if !is_first || !LISTENING.load(Ordering::Relaxed) {
+        // Held until the end, so that no further folder is begun.
+        let folders = unfinished();
+        folders.iter().for_each(|folder| remove(folder));
+        process::exit(i32::from(exit_code()));
+    }
+}
+
+/// Removes a folder, also while a flight still writes into it.
+fn remove(folder: &Path) {
+    const ATTEMPTS: usize = 5;
+    for _ in 0..ATTEMPTS {
+        if fs::remove_dir_all(folder).is_ok() {
+            return;
+        }
+    }
+}
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Registers a folder to be removed if the program is ended at once.
+pub fn begin_folder(folder: &Path) {
+    unfinished().push(folder.to_owned());
+}
+
+/// The folder is whole or removed.
+pub fn end_folder(folder: &Path) {
+    unfinished().retain(|other| other != folder);
+}
+
+/// Asks for an end, as Ctrl-C does: when nobody reads what is printed any more.
 pub fn request() {
-    REQUESTED.store(true, Ordering::Relaxed);
+    let _ = REQUESTED.compare_exchange(0, SIGINT, Ordering::Relaxed, Ordering::Relaxed);
 }
 
 /// Whether the user has asked for an end.
 pub fn requested() -> bool {
-    REQUESTED.load(Ordering::Relaxed)
+    REQUESTED.load(Ordering::Relaxed) != 0
+}
+
+/// Exit code of a program that was interrupted, as shells have it: 128 + the signal, 130 for Ctrl-C, 143 for SIGTERM.
+pub fn exit_code() -> u8 {
+    u8::try_from(128 + REQUESTED.load(Ordering::Relaxed)).unwrap_or(u8::MAX)
 }
 
 /// What a command returns once it has reported what was flown before it was interrupted.

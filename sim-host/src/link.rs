@@ -1,19 +1,19 @@
-//! MAVLink's way out of the process: bytes in UDP datagrams, and nothing that knows what is in them.
+//! The UDP link of MAVLink: bytes in datagrams, without regard to their contents.
 //!
-//! Owns the socket and the list of who gets what is sent: the peers it was given, and whoever has sent something
-//! lately. A datagram that cannot be sent is lost, as it may be anyway on its way.
+//! Owns the socket and the list of receivers: the configured peers, and every address that has sent something lately. A
+//! datagram that cannot be sent is dropped, as the network may drop it too.
 
 use std::io::ErrorKind;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, ToSocketAddrs as _, UdpSocket};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, anyhow, bail};
+use anyhow::{Context, anyhow, bail, ensure};
 
 use crate::stations::{News, Stations};
 
-/// Where `serve` listens unless told otherwise.
+/// The default address on which `serve` listens.
 pub const DEFAULT_LISTEN: &str = "127.0.0.1:14580";
-/// Whom `serve` sends to unless told otherwise: ground stations, and programs that use MAVSDK.
+/// The default peers of `serve`: ground stations, and programs that use MAVSDK.
 pub const DEFAULT_PEERS: [&str; 2] = ["127.0.0.1:14550", "127.0.0.1:14540"];
 
 /// The port of each, where an address is given without one.
@@ -21,7 +21,7 @@ pub const LISTEN_PORT: u16 = 14580;
 /// See [`LISTEN_PORT`].
 pub const PEER_PORT: u16 = 14550;
 
-/// Someone who has been silent this long is not sent to any more; ground stations speak every second.
+/// Nothing is sent to a guest that has been silent this long; ground stations send a heartbeat every second.
 const FORGET_AFTER: Duration = Duration::from_secs(10);
 /// More guests than this are not kept, so that a port scan cannot make the list grow.
 const GUESTS_MAX: usize = 16;
@@ -33,24 +33,28 @@ const DATAGRAM_MAX: usize = 2048;
 /// An address as a user writes it: `127.0.0.1:14550`, `localhost`, `[::1]:14550`; `:14580` for every interface.
 ///
 /// # Errors
-/// One line that names what of it is none, or the host that is not known.
+/// One line with the invalid text and a valid example, or the unknown host.
 pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
     if let Ok(address) = text.parse() {
         return Ok(address);
     }
+    ensure!(!text.trim().is_empty(), "the address is missing: use 127.0.0.1:{default_port}");
     // The system would take a whole number for an address.
     if text.parse::<u32>().is_ok() {
         bail!("`{text}` is no address: for a port use 127.0.0.1:{text}");
     }
-    if let Ok(ip) = text.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>() {
+    let in_brackets = text.strip_prefix('[').and_then(|text| text.strip_suffix(']'));
+    if let Ok(ip) = in_brackets.unwrap_or(text).parse::<IpAddr>() {
         return Ok(SocketAddr::new(ip, default_port));
     }
-    let (host, port) = match text.rsplit_once(':') {
-        Some((host, port)) => {
+    let (host, port) = text.rsplit_once(':').map_or((text, None), |(host, port)| (host, Some(port)));
+    ensure!(!host.contains(['/', ':', '[', ']', ' ']), "`{text}` is no address: use 127.0.0.1:{default_port}");
+    let port = match port {
+        Some(port) => {
             let port = port.parse::<u16>().ok();
-            (host, port.with_context(|| format!("`{text}` has no port from 0 to 65535: use {host}:{default_port}"))?)
+            port.with_context(|| format!("`{text}` has no port from 0 to 65535: use {host}:{default_port}"))?
         }
-        None => (text, default_port),
+        None => default_port,
     };
     if host.is_empty() {
         return Ok(SocketAddr::new(IpAddr::V4(Ipv4Addr::UNSPECIFIED), port));
@@ -76,6 +80,19 @@ fn cannot_listen(listen: SocketAddr, error: &std::io::Error) -> anyhow::Error {
         }
         _ => anyhow!("cannot listen on UDP address {listen}: {error}"),
     }
+}
+
+/// Whether what is sent to `peer` comes in at `own` again.
+fn is_own(own: SocketAddr, peer: &SocketAddr) -> bool {
+    // Only an address of this machine can be bound.
+    let is_this_machine = || UdpSocket::bind((peer.ip(), 0)).is_ok();
+    own.port() == peer.port() && (own.ip() == peer.ip() || (own.ip().is_unspecified() && is_this_machine()))
+}
+
+/// Where ground stations listen on this machine, unless that is `own`.
+fn elsewhere(own: SocketAddr) -> SocketAddr {
+    let ip = if own.ip().is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { own.ip() };
+    SocketAddr::new(ip, if own.port() == PEER_PORT { LISTEN_PORT } else { PEER_PORT })
 }
 
 /// A peer that was not named at the start, and when it was last heard.
@@ -110,11 +127,18 @@ impl UdpLink {
             );
         }
         let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, &error))?;
+        let own = socket.local_addr().unwrap_or(listen);
+        if let Some(peer) = peers.iter().find(|peer| is_own(own, peer)) {
+            bail!(
+                "--peer {peer} is where the vehicle itself listens: give the ground station's address, as {}",
+                elsewhere(own)
+            );
+        }
         socket.set_nonblocking(true).with_context(|| format!("cannot use UDP address {listen}"))?;
         Ok(Self { socket, peers: peers.to_vec(), guests: Vec::new(), stations: Stations::default() })
     }
 
-    /// Where it listens; tells the port if 0 was asked for.
+    /// The address on which it listens; with the port that was assigned for port 0.
     ///
     /// # Errors
     /// The system's.
@@ -140,7 +164,7 @@ impl UdpLink {
         }
     }
 
-    /// The next change among those who are heard, if there is any.
+    /// The next ground station that was heard for the first time or lost, if any.
     pub fn news(&mut self) -> Option<News> {
         self.stations.news(Instant::now())
     }
@@ -226,6 +250,28 @@ mod tests {
         let address = first.local_address().expect("bound");
         let error = format!("{:#}", UdpLink::bind(address, &[]).expect_err("in use"));
         assert!(error.contains(&address.to_string()) && error.contains("--listen") && error.lines().count() == 1);
+    }
+
+    #[test]
+    fn its_own_address_is_no_peer() {
+        let free = station().local_addr().expect("bound").port();
+        for (listen, peer) in [("127.0.0.1", "127.0.0.1"), ("0.0.0.0", "127.0.0.1"), ("0.0.0.0", "127.0.0.2")] {
+            let at = |ip: &str| SocketAddr::new(ip.parse().expect("an address"), free);
+            let error = format!("{:#}", UdpLink::bind(at(listen), &[at(peer)]).expect_err("its own"));
+            let expected = format!(
+                "--peer {peer}:{free} is where the vehicle itself listens: give the ground station's address, as \
+                 127.0.0.1:14550"
+            );
+            assert_eq!(error, expected);
+        }
+    }
+
+    #[test]
+    fn what_is_no_address_is_answered_with_one() {
+        for text in ["", " ", ":::", "a b", "[::1", "[]:1", "http://x", "udp:127.0.0.1:14550", "127.0.0.1:", ":x"] {
+            let error = format!("{:#}", address(text, PEER_PORT).expect_err(text));
+            assert!(error.contains(":14550") && !error.contains('\n'), "{text}: {error}");
+        }
     }
 
     #[test]

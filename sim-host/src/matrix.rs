@@ -1,4 +1,4 @@
-//! A matrix of flights: scenarios, what disturbs them, controllers, seeds. Built into the binary, or read from a file.
+//! A matrix of flights: scenarios, disturbances, controllers, seeds. Built into the binary, or read from a file.
 
 use std::collections::BTreeSet;
 
@@ -22,9 +22,9 @@ pub struct DisturbanceEntry {
     pub name: String,
     /// `KEY=VALUE`, as `--set` takes them.
     pub set: Vec<String>,
-    /// Which scenarios it disturbs; all without it.
+    /// The scenarios that it disturbs; all if absent.
     pub scenarios: Option<Vec<String>>,
-    /// Which of them it does not.
+    /// Scenarios that are left out.
     #[serde(default)]
     pub except: Vec<String>,
 }
@@ -41,17 +41,17 @@ impl DisturbanceEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MatrixFile {
-    /// What it compares, in a line.
+    /// The purpose of the comparison, in one line.
     pub summary: String,
-    /// Names or paths of tuning files; the first is the one that the others are compared with.
+    /// Names or paths of tuning files; the others are compared with the first.
     pub controllers: Vec<String>,
     /// Names or paths of scenarios.
     pub scenarios: Vec<String>,
-    /// What disturbs them.
+    /// The disturbances.
     pub disturbances: Vec<DisturbanceEntry>,
-    /// Seeds to judge with.
+    /// Seeds of the comparison.
     pub seeds: Seeds,
-    /// Seeds to tune with; none of them judges.
+    /// Seeds of tuning; they must not overlap those of the comparison.
     pub training_seeds: Option<Seeds>,
 }
 
@@ -60,16 +60,16 @@ pub struct MatrixFile {
 pub struct Matrix {
     /// Its name, or the path of its file.
     pub name: String,
-    /// What to fly.
+    /// Its contents.
     pub file: MatrixFile,
     /// `KEY=VALUE` settings of every scenario, before those of the disturbances.
     settings: Vec<String>,
 }
 
-/// A cell of a matrix: a scenario under a disturbance. [`Scenario::flown_by`] puts a controller in.
+/// A cell of a matrix: a scenario under a disturbance. [`Scenario::flown_by`] sets its controller.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// With the settings that make the disturbance, and the controller that its file names.
+    /// With the disturbance's settings, and the controller that its file names.
     pub scenario: Scenario,
     /// Its name in the matrix.
     pub scenario_name: String,
@@ -78,12 +78,12 @@ pub struct Case {
 }
 
 impl Case {
-    /// Whether the seed makes a difference. Where it does not, one flight tells everything.
+    /// Whether flights under different seeds differ.
     pub fn is_random(&self) -> bool {
         self.scenario.file.is_random()
     }
 
-    /// The seeds out of `seeds` that are worth flying: all if they differ, the first if they do not.
+    /// The seeds to fly: all of `seeds` if flights under them differ, otherwise the first.
     pub fn seeds(&self, seeds: Seeds) -> impl Iterator<Item = u64> {
         let last = if self.is_random() { seeds.last } else { seeds.first };
         seeds.first..=last
@@ -101,7 +101,7 @@ impl Matrix {
         Ok(Self { name: name.to_owned(), file, settings: settings.to_vec() })
     }
 
-    /// Leaves only the scenarios and the disturbances named; where none are, all stay.
+    /// Keeps only the named scenarios and disturbances; `None` keeps all.
     ///
     /// # Errors
     /// One line with the first name that the matrix does not have.
@@ -118,11 +118,11 @@ impl Matrix {
         Ok(())
     }
 
-    /// Its cells: for each scenario in turn, the disturbances that apply to it.
+    /// Its cells, scenario by scenario, with the disturbances that apply to each.
     ///
     /// # Errors
-    /// One line with the disturbance, the scenario, the key and the error; a flight that ends before anything of it
-    /// counts has no figures.
+    /// One line with the disturbance, the scenario, the key and the error; also if a flight ends before its evaluated
+    /// interval begins.
     pub fn cases(&self) -> Result<Vec<Case>> {
         let cells = self.file.scenarios.iter().flat_map(|scenario| {
             let applies = |disturbance: &&DisturbanceEntry| disturbance.applies_to(scenario);
@@ -156,25 +156,25 @@ impl MatrixFile {
         }
         ensure!(
             !self.training_seeds.is_some_and(|training| training.overlaps(self.seeds)),
-            "`seeds` and `training_seeds` overlap: what is tuned on a seed cannot be judged by it"
+            "`seeds` and `training_seeds` overlap: a controller cannot be judged on the seeds that it was tuned on"
         );
         Ok(())
     }
 }
 
-/// Refuses a flight of which nothing counts.
+/// Refuses a flight that ends before its evaluated interval begins.
 fn require_counted(scenario: &Scenario) -> Result<()> {
     let (from_s, duration_s) = (counts_from_s(scenario), scenario.file.duration_s);
     ensure!(
         from_s < duration_s,
-        "scenario `{}`: `duration_s` is {duration_s}, and it counts from {from_s} s on (`join.duration_s`, or a step's \
-         `at_s`): nothing would count",
+        "scenario `{}`: `duration_s` is {duration_s}, but the flight is evaluated from {from_s} s on (`join.duration_s`, or \
+         a step's `at_s`): make it longer",
         scenario.name
     );
     Ok(())
 }
 
-/// Refuses a list that is empty, or names something twice.
+/// Refuses an empty list, and one with a name twice.
 fn distinct<'a>(key: &str, names: impl Iterator<Item = &'a String>) -> Result<()> {
     let mut seen = BTreeSet::new();
     for name in names {
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn disturbances_change_the_plant_and_not_what_the_firmware_believes() {
+    fn disturbances_change_the_plant_and_not_the_firmwares_model() {
         let cases = Matrix::load("x500", &[]).and_then(|matrix| matrix.cases()).expect("valid");
         let case = |name: &str| cases.iter().find(|case| case.disturbance_name == name).expect("there");
         let (calm, heavy) = (&case("none").scenario, &case("mass+30").scenario);
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn seeds_are_flown_where_they_make_a_difference() {
+    fn several_seeds_are_flown_where_flights_differ() {
         let matrix = Matrix::load("x500", &[]).expect("valid");
         for case in matrix.cases().expect("valid") {
             let random = case.scenario_name == "x500-recovery"
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flight_that_ends_before_it_counts_is_refused() {
+    fn a_flight_that_ends_before_its_evaluated_interval_is_refused() {
         // The step is at 1 s.
         let refusal = |setting: &str| {
             let mut matrix = Matrix::load("x500", &[setting.to_owned()]).expect("valid");

@@ -27,26 +27,26 @@ use nalgebra::Vector3;
 
 use qemu::Qemu;
 
-/// Where `cargo fw-pil` leaves the image, seen from the workspace's root.
+/// Where `cargo fw-pil` puts the image, relative to the workspace's root.
 pub const IMAGE: &str = "target/thumbv7em-none-eabihf/image/mps2-pil";
 
-/// What to start.
+/// Options of a flight on the image.
 #[derive(Clone, Debug)]
 pub struct PilOptions<'a> {
     /// The image, an ELF file.
     pub image: PathBuf,
-    /// What it is to fly.
+    /// The flight's configuration.
     pub config: &'a FlightConfig,
     /// Busy-waits added to its partitions' jobs.
     pub busy: BusyWait,
-    /// Fault that the outer partition's job provokes at a tick.
+    /// A fault that the outer partition's job causes at a tick.
     pub fault: Option<(Tick, Fault)>,
     /// Time-out for an answer of the image.
     pub timeout: Duration,
 }
 
 impl<'a> PilOptions<'a> {
-    /// A flight without disturbances.
+    /// Without busy-waits and faults, with a time-out of 10 s.
     pub fn new(image: impl Into<PathBuf>, config: &'a FlightConfig) -> Self {
         Self { image: image.into(), config, busy: BusyWait::default(), fault: None, timeout: Duration::from_secs(10) }
     }
@@ -55,11 +55,11 @@ impl<'a> PilOptions<'a> {
 /// Output of the image in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PilOutput {
-    /// The motion that it used: as sensed, or as estimated.
+    /// The motion that the controller used: the true one, or the estimate.
     pub nav: NavState,
-    /// Speeds for the rotors.
+    /// Commanded rotor speeds.
     pub motors: MotorCommand,
-    /// U1..U4 as demanded of the mixer.
+    /// U1..U4, the demand to the mixer.
     pub demand: ControlInput,
     /// Sliding variables s1, s2, s3, rad/s.
     pub s_attitude: Vector3<f32>,
@@ -67,7 +67,7 @@ pub struct PilOutput {
     pub s_position: Vector3<f32>,
     /// Whether the mixer could not give the whole demand.
     pub saturated: bool,
-    /// Overruns so far of outer, commander and ground: zeros, for the first one ends the flight.
+    /// Overruns so far of outer, commander and ground: zeros, because the first one ends the flight.
     pub overruns: [u32; 3],
 }
 
@@ -82,7 +82,7 @@ impl From<Reply> for PilOutput {
 /// A job that was not finished when its output was due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overrun {
-    /// The tick at which it was noticed.
+    /// The tick at which it was detected.
     pub tick: Tick,
     /// Overruns so far of outer, commander and ground.
     pub counts: [u32; 3],
@@ -101,7 +101,7 @@ impl fmt::Display for Overrun {
 
 impl std::error::Error for Overrun {}
 
-/// The image has stopped its rotors for good.
+/// The image has stopped its rotors permanently.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped {
     /// The tick that was not finished.
@@ -153,7 +153,7 @@ impl Pil {
     /// One tick of the image with this sample.
     ///
     /// # Errors
-    /// [`Overrun`] or [`Stopped`] (to be found by `downcast_ref`), or in one line why there was no answer.
+    /// [`Overrun`] or [`Stopped`] (see `downcast_ref`), or in one line why there was no answer.
     pub fn tick(&mut self, sample: &SensorFrame) -> Result<PilOutput> {
         self.exchange(&Request::Sample(*sample))
     }
@@ -161,7 +161,7 @@ impl Pil {
     /// Sends the image a pilot's request, before the next tick.
     ///
     /// # Errors
-    /// In one line, why it could not be handed over.
+    /// In one line, why it could not be sent.
     pub fn ask(&mut self, asked: commander::Request) -> Result<()> {
         self.qemu.send(&Request::Ask(asked).encode())
     }
@@ -183,7 +183,7 @@ impl Pil {
             bail!(Stopped { tick, cause });
         }
         if reply.tick != tick {
-            bail!("the image replies for tick {} where tick {tick} was asked for", reply.tick);
+            bail!("the image replies for tick {} and not for tick {tick}", reply.tick);
         }
         if reply.overruns != [0; 3] {
             bail!(Overrun { tick, counts: reply.overruns });
@@ -195,7 +195,7 @@ impl Pil {
     /// Ends the image.
     ///
     /// # Errors
-    /// It does not end, or not well.
+    /// It does not end in time, or with an error.
     pub fn finish(mut self) -> Result<()> {
         self.qemu.send(&Request::Exit.encode())?;
         self.qemu.wait()
@@ -244,7 +244,7 @@ pub fn compare(desktop: &InnerTask, pil: &PilOutput) -> Result<(), Difference> {
     Ok(())
 }
 
-/// Everything that must be the same, with its name; in the order in which one follows from the other.
+/// The fields to compare, with their names, in the order in which they are computed.
 fn fields(output: &PilOutput) -> impl Iterator<Item = (&'static str, f32)> {
     nav_fields(&output.nav).into_iter().chain(control_fields(output))
 }

@@ -1,9 +1,8 @@
 //! Flying in real time for a ground station: how simulated time keeps pace with the wall clock.
 //!
-//! Owns the wall clock, which nobody else reads. The vehicle is told of time only by being ticked; `speed` says
-//! how often that is, never what a tick does. A process that was held up catches up, but only so far: what it
-//! missed beyond that is left out rather than flown in a rush. Typed lines are carried out
-//! between ticks.
+//! Owns the wall clock; only the link and its stations read it too, for time-outs. The vehicle knows time by its ticks
+//! alone: `speed` sets how many there are per second, never what a tick does. After a delay of the process, at most 0.1
+//! s is caught up; the rest of the ticks is dropped. Typed lines are executed between ticks.
 
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -20,22 +19,22 @@ use crate::console::{Control, Line, Session};
 use crate::link::UdpLink;
 use crate::stations::{LOST_AFTER, News};
 
-/// Simulated seconds per second that may be asked for.
+/// Allowed simulated seconds per second.
 pub const SPEEDS: RangeInclusive<f64> = 0.01..=1000.0;
 
 /// A vehicle in its world.
 pub trait Vehicle {
-    /// One tick of everything. `received` has come from the ground station since the last tick; what is returned
-    /// goes to it as one datagram, so it consists of whole messages.
+    /// One tick of vehicle and world. `received` holds the bytes from the ground station since the last tick; the
+    /// returned bytes are whole messages and are sent as one datagram.
     fn tick(&mut self, received: &[u8]) -> Option<TxBytes>;
 
-    /// Does what a typed line says. What is returned is for whoever runs the loop.
+    /// Executes a typed line. The loop handles the returned control.
     fn enter(&mut self, line: &str) -> Option<Control>;
 
-    /// Takes notice of a ground station that comes or goes.
+    /// A ground station was heard for the first time, or was lost.
     fn notice(&mut self, news: &News);
 
-    /// What it has said since the last call.
+    /// The lines to print since the last call.
     fn take_lines(&mut self) -> Vec<Line>;
 }
 
@@ -67,7 +66,7 @@ pub struct Pacing {
     pub speed: f64,
 }
 
-/// How long was flown.
+/// Duration of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flown {
     /// Simulated, s.
@@ -76,18 +75,18 @@ pub struct Flown {
     pub wall_s: f64,
 }
 
-/// What the firmware can take between two jobs, spread over the ticks between them.
+/// Capacity of the firmware's receive buffer between two of its jobs, spread over the ticks between them.
 const BYTES_PER_TICK: usize = RX_CAPACITY / GROUND.period as usize;
-/// More than this waits in the socket.
+/// Bytes beyond this wait in the socket.
 const INBOX_MAX: usize = 16 * RX_CAPACITY;
-/// Ticks between two looks at the socket when behind.
+/// Ticks between two reads of the socket when behind the wall clock.
 const BATCH: u64 = 100;
-/// Between two looks at the clock when on time.
+/// Pause between two reads of the clock when on time.
 const NAP: Duration = Duration::from_millis(1);
-/// Wall time that is caught up at most, s.
+/// Greatest delay that is caught up, s of wall time.
 const CATCH_UP_S: f64 = 0.1;
 
-/// Flies until `stop` says so, or a line asks for the end.
+/// Flies until `stop` returns true, or a line ends the program.
 ///
 /// # Errors
 /// A speed outside of [`SPEEDS`].
@@ -145,17 +144,17 @@ struct Pacer {
     speed: f64,
     /// Ticks flown.
     done: u64,
-    /// Ticks left out.
+    /// Ticks dropped.
     skipped: u64,
 }
 
 impl Pacer {
-    /// From a time on, at a speed.
+    /// Starts at a time, with a speed.
     fn starting(start: Instant, speed: f64) -> Self {
         Self { start, speed, done: 0, skipped: 0 }
     }
 
-    /// Ticks to fly by `now`. What is too far behind is left out for good.
+    /// Ticks to fly until `now`. Ticks beyond [`CATCH_UP_S`] are dropped.
     fn due(&mut self, now: Instant) -> u64 {
         let ticks_a_second = self.speed / TICK_S_EXACT;
         let target = (now.saturating_duration_since(self.start).as_secs_f64() * ticks_a_second) as u64;
@@ -304,7 +303,7 @@ mod tests {
         assert_eq!(pacer.due(at(50)), 0);
         assert_eq!(pacer.due(at(10_000)), 200);
         pacer.done += 200;
-        assert_eq!(pacer.due(at(10_000)), 0, "the rest is left out");
+        assert_eq!(pacer.due(at(10_000)), 0, "the rest is dropped");
         assert_eq!(pacer.due(at(10_001)), 2);
     }
 

@@ -1,6 +1,6 @@
-//! Who is heard over the link: ground stations come, and are lost when they fall silent.
+//! The ground stations that are heard over the link, and lost when they fall silent.
 //!
-//! By the wall clock, in which ground stations live: they send a heartbeat a second, however fast the simulation runs.
+//! Measured by the wall clock: ground stations send one heartbeat per second of it, however fast the simulation runs.
 
 use std::net::SocketAddr;
 use std::time::{Duration, Instant};
@@ -10,7 +10,7 @@ pub const LOST_AFTER: Duration = Duration::from_secs(5);
 /// More are not kept, so that a port scan cannot make the list grow.
 const STATIONS_MAX: usize = 16;
 
-/// A change among those who are heard.
+/// A change among the ground stations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum News {
     /// Heard for the first time, or again.
@@ -34,8 +34,8 @@ struct Station {
     address: SocketAddr,
     system: u8,
     heard: Instant,
-    /// Whether that it is there has been told.
-    told: bool,
+    /// Whether its appearance was reported.
+    reported: bool,
 }
 
 /// The ground stations that are heard.
@@ -51,14 +51,14 @@ impl Stations {
         if let Some(station) = self.all.iter_mut().find(|station| station.address == address) {
             station.heard = now;
         } else if self.all.len() < STATIONS_MAX {
-            self.all.push(Station { address, system, heard: now, told: false });
+            self.all.push(Station { address, system, heard: now, reported: false });
         }
     }
 
-    /// The next change that has not been told, if there is any.
+    /// The next change that was not reported yet, if any.
     pub fn news(&mut self, now: Instant) -> Option<News> {
-        if let Some(new) = self.all.iter_mut().find(|station| !station.told) {
-            new.told = true;
+        if let Some(new) = self.all.iter_mut().find(|station| !station.reported) {
+            new.reported = true;
             return Some(News::Heard { address: new.address, system: new.system });
         }
         let lost = self.all.iter().position(|station| now.saturating_duration_since(station.heard) > LOST_AFTER)?;
@@ -67,7 +67,7 @@ impl Stations {
     }
 }
 
-/// The MAVLink system that has sent a frame: its number's place depends on the version, which the first byte says.
+/// The MAVLink system that has sent a frame. Where its number is depends on the version, given by the first byte.
 fn sender(datagram: &[u8]) -> Option<u8> {
     match datagram.first()? {
         0xfd => datagram.get(5).copied(),

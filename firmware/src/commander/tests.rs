@@ -41,7 +41,7 @@ fn volts(voltage_v: f32, input: &CommanderInput) -> CommanderInput {
     CommanderInput { battery: Some(BatterySample { voltage_v, current_a: 10.0 }), ..input.clone() }
 }
 
-/// A commander in a state, airborne if it is a flying state, and the clock.
+/// A commander in a state, airborne if it is a flying state, and its clock.
 struct Bench {
     commander: Commander,
     tick: Tick,
@@ -184,7 +184,7 @@ fn diagram() -> BTreeSet<(String, String, String)> {
 }
 
 #[test]
-fn the_diagram_is_what_the_code_does() {
+fn the_diagram_shows_the_transitions_of_the_code() {
     let mut found = BTreeSet::new();
     for state in states() {
         for (cause, end) in outcomes(state) {
@@ -196,7 +196,7 @@ fn the_diagram_is_what_the_code_does() {
     drawn.retain(|(from, _, to)| from != to);
     let missing: Vec<_> = drawn.difference(&found).collect();
     let extra: Vec<_> = found.difference(&drawn).collect();
-    assert!(missing.is_empty() && extra.is_empty(), "drawn, not done: {missing:?}\ndone, not drawn: {extra:?}");
+    assert!(missing.is_empty() && extra.is_empty(), "only in the diagram: {missing:?}\nonly in the code: {extra:?}");
 }
 
 #[test]
@@ -243,7 +243,7 @@ fn a_request_that_the_state_does_not_allow_is_refused_with_the_reason() {
         assert_eq!(disarmed.ask(request, &standing()), No(Refusal::Disarmed));
         assert_eq!(idle.ask(request, &standing()), No(Refusal::OnGround));
     }
-    assert_eq!(idle.ask(Request::Land, &standing()), Outcome::Accepted, "it has");
+    assert_eq!(idle.ask(Request::Land, &standing()), Outcome::Accepted, "accepted before lift-off");
     let mut elsewhere = standing();
     elsewhere.nav.position.x = 3.0;
     assert_eq!(idle.ask(Request::Follow, &elsewhere), No(Refusal::NotAtStart));
@@ -289,7 +289,7 @@ fn a_velocity_expires_after_a_second_unless_it_is_repeated() {
 }
 
 #[test]
-fn a_loss_starts_the_descent_that_remains_possible_and_is_reported_once() {
+fn a_loss_starts_a_descent_on_the_remaining_states_and_is_reported_once() {
     let health = |f: &dyn Fn(&mut NavHealth)| {
         let mut health = NavHealth::ALL;
         f(&mut health);
@@ -321,7 +321,7 @@ fn a_loss_starts_the_descent_that_remains_possible_and_is_reported_once() {
 }
 
 #[test]
-fn a_loss_that_gets_worse_is_reported_and_one_that_ends_leaves_the_decision_to_the_pilot() {
+fn a_worse_loss_is_reported_and_after_its_end_the_mode_stays_until_the_pilot_changes_it() {
     let mut bench = Bench::new(State::Follow { since: 0 });
     let position = CommanderInput { health: NavHealth { position: false, ..NavHealth::ALL }, ..hovering() };
     let mut velocity = position.clone();
@@ -345,7 +345,7 @@ fn missing_samples_stop_the_rotors() {
 }
 
 #[test]
-fn a_rotor_lost_gives_up_the_heading_and_keeps_to_what_is_known() {
+fn a_failed_rotor_starts_a_descent_without_yaw_control_on_the_known_states() {
     let mut bench = Bench::new(State::GoTo { position: Vector3::zeros(), yaw: 0.0 });
     let failed = CommanderInput { failed_rotor: Some(3), ..hovering() };
     assert_eq!(bench.run(1.0, &failed), [Event::RotorFailed { rotor: 3 }]);
@@ -361,12 +361,12 @@ fn a_rotor_lost_gives_up_the_heading_and_keeps_to_what_is_known() {
 #[test]
 fn a_low_battery_returns_once_and_a_critical_one_lands() {
     let mut bench = Bench::new(State::Hold);
-    assert_eq!(bench.run(1.9, &volts(12.0, &hovering())), [], "a dip is none");
+    assert_eq!(bench.run(1.9, &volts(12.0, &hovering())), [], "a short dip is ignored");
     bench.run(0.1, &volts(15.0, &hovering()));
     assert_eq!(bench.run(3.0, &volts(13.5, &hovering())), [Event::BatteryLow]);
     assert_eq!(name(&bench.commander.state), "Return");
     bench.ask(Request::Hold, &volts(13.5, &hovering()));
-    assert_eq!(bench.run(5.0, &volts(13.5, &hovering())), [], "the pilot has decided");
+    assert_eq!(bench.run(5.0, &volts(13.5, &hovering())), [], "the pilot's request stands");
     assert_eq!(bench.run(3.0, &volts(12.5, &hovering())), [Event::BatteryCritical]);
     assert_eq!(bench.commander.state, State::Land);
     let mut unwatched = Bench::new(State::Hold);
@@ -394,7 +394,7 @@ fn a_return_climbs_goes_home_and_lands() {
 }
 
 #[test]
-fn touchdown_is_little_thrust_without_falling_and_only_while_descending() {
+fn touchdown_is_detected_by_little_thrust_without_falling_and_only_in_descent() {
     let weight = FlightConfig::default().airframe.weight_n();
     let with = |thrust: f32, sink: f32| {
         let mut input = CommanderInput { thrust_n: thrust * weight, ..hovering() };
@@ -418,11 +418,11 @@ fn touchdown_is_little_thrust_without_falling_and_only_while_descending() {
     let blind = CommanderInput { health: NavHealth::NONE, ..with(0.3, 0.0) };
     let mut bench = Bench::new(State::Hold);
     bench.run(20.0, &blind);
-    assert!(matches!(bench.commander.state, State::Descent { .. }), "without a height nobody knows");
+    assert!(matches!(bench.commander.state, State::Descent { .. }), "without a height it cannot be detected");
 }
 
 #[test]
-fn before_lift_off_it_may_be_disarmed_and_after_it_not() {
+fn disarming_is_accepted_before_lift_off_and_refused_after_it() {
     let mut bench = Bench::new(State::Idle { disarm_at: None });
     bench.ask(TAKE_OFF, &standing());
     assert!(bench.step(&standing()).landed);

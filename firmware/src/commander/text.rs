@@ -13,7 +13,7 @@ impl Mode {
             Self::Hold => "hold",
             Self::GoTo => "go-to",
             Self::Velocity => "velocity",
-            Self::Follow => "follow",
+            Self::Follow => "trajectory",
             Self::Return => "return",
             Self::Land => "land",
             Self::Descent => "descent",

@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn a_step_of_yaw_torque_is_had_at_once_with_the_reaction_and_kept_without() {
-        // U4 follows what is asked for with τ′ = 8 ms; the body feels U4 + T U̇4, T = 128 ms.
+        // U4 follows its command with τ′ = 8 ms; the body feels U4 + T U̇4, T = 128 ms.
         let (lead, answer, h) = (0.128_f32, 0.008_f32, 1e-4_f32);
         let inversion = YawInversion::new(lead, answer);
         let (mut yaw, wanted) = (0.0_f32, 0.3_f32);

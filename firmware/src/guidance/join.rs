@@ -1,15 +1,15 @@
-//! The path that joins a trajectory from rest: one Bézier curve, smooth down to snap where it meets it.
+//! The path that joins a trajectory from rest: a Bézier curve, continuous up to the snap where it meets the trajectory.
 //!
-//! Its first control points follow from the start (position, rest, a given acceleration), its last five from the
-//! trajectory's position to snap at the meeting point, so the vehicle is handed over without a jerk. The points
-//! in between shape it; a planner chooses them together with the duration (`sim-host plan`).
+//! The start fixes its first three control points (position, zero velocity, a given acceleration). The trajectory's
+//! derivatives at the junction, position to snap, fix the last five. The points between shape the curve; a planner
+//! chooses them together with the duration (`sim-host plan`).
 
 use nalgebra::Vector3;
 
 use crate::signals::{FlatReference, TICK_S, Tick};
 use crate::validate::ConfigError;
 
-/// Greatest number of shaping points.
+/// Greatest number of control points between start and end.
 pub const MIDDLE_POINTS: usize = 8;
 
 /// Control points fixed by the start, and by the end.
@@ -17,13 +17,13 @@ const START_POINTS: usize = 3;
 const END_POINTS: usize = 5;
 const POINTS: usize = START_POINTS + MIDDLE_POINTS + END_POINTS;
 
-/// How to join: the choices a planner has made.
+/// A planned joining path.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct JoinPlan {
     /// Duration of the path, s; rounded to whole ticks.
     pub duration_s: f32,
-    /// Acceleration at the start, m/s². It must be one the vehicle has at rest and level: along z.
+    /// Acceleration at the start, m/s². Along z, because the vehicle is level there.
     #[cfg_attr(feature = "serde", serde(default))]
     pub start_acceleration_m_s2: [f32; 3],
     /// Control points between those that the start and the end fix, m.
@@ -37,12 +37,12 @@ impl JoinPlan {
         (self.duration_s / TICK_S + 0.5) as Tick
     }
 
-    /// Refuses a plan that is not made of finite numbers or takes no time.
+    /// Refuses a plan with NaN or an infinite value, or shorter than ten ticks.
     ///
     /// # Errors
-    /// The culprit's name.
+    /// The field's name.
     pub fn validate(&self) -> Result<(), ConfigError> {
-        // Ten ticks, rounded, at least.
+        // Rounds to ten ticks.
         ConfigError::require_within("join.duration_s", self.duration_s, 9.5 * TICK_S, 1e9)?;
         if !self.start_acceleration_m_s2.iter().all(|v| v.is_finite()) {
             return Err(ConfigError::NonFinite("join.start_acceleration_m_s2".into()));
@@ -54,7 +54,7 @@ impl JoinPlan {
     }
 }
 
-/// A Bézier curve in time.
+/// A Bézier curve of position over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JoinPath {
     duration: Tick,
@@ -81,7 +81,7 @@ impl JoinPath {
         let too_many =
             || ConfigError::OutOfRange { field: "join.middle_m".into(), low: 0.0, high: MIDDLE_POINTS as f32 };
         let mut push = |p: Vector3<f32>| points.push(p).map_err(|_| too_many());
-        // At rest P1 = P0; the second difference is the start's acceleration.
+        // Zero velocity: P1 = P0. The second difference is the acceleration.
         push(start)?;
         push(start)?;
         push(start + Vector3::from(plan.start_acceleration_m_s2) * u2)?;
@@ -99,7 +99,7 @@ impl JoinPath {
         Ok(Self { duration, points, yaw: end.yaw })
     }
 
-    /// The curve from rest at `start` to `end` that nobody has shaped, `duration` ticks long.
+    /// The curve from rest at `start` to `end` without points between, `duration` ticks long.
     ///
     /// # Errors
     /// None: its points fit.

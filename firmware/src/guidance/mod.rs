@@ -1,9 +1,8 @@
-//! Guidance: where the vehicle ought to be, with four derivatives, as a function of flight time.
+//! Guidance: the reference position and its first four derivatives as functions of flight time.
 //!
-//! Owns the reference trajectories and the path that joins one from rest; [`setpoint`] makes the reference of a vehicle
-//! that is told where to go while it flies. Evaluated by the outer partition for
-//! the tick at which its output takes effect. Time is a tick count, so a reference is as exact after an hour as
-//! after a second.
+//! Owns the reference trajectories and the path that joins one from rest; [`setpoint`] generates the reference online
+//! for a vehicle that is commanded in flight. The outer partition evaluates the reference for the tick at which its
+//! output takes effect. Time is a tick count, so a reference is as exact after an hour as after a second.
 
 mod join;
 pub mod setpoint;
@@ -26,20 +25,23 @@ use crate::validate::ConfigError;
     derive(serde::Serialize, serde::Deserialize),
     serde(rename_all = "kebab-case", deny_unknown_fields)
 )]
-#[expect(clippy::large_enum_variant, reason = "a vehicle has one, and nowhere else to keep a path's points")]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a vehicle has one, and without an allocator the points have to be stored in it"
+)]
 pub enum Trajectory {
-    /// Stand still.
+    /// A constant position.
     Hold {
-        /// Where, m.
+        /// Position, m.
         position_m: [f32; 3],
         /// Heading ψd, rad.
         yaw_rad: f32,
     },
-    /// Stand still at one place, then, all at once, at another.
+    /// A step from one position to another.
     Step {
-        /// Place before the step, m.
+        /// Position before the step, m.
         from_m: [f32; 3],
-        /// Place after the step, m.
+        /// Position after the step, m.
         to_m: [f32; 3],
         /// Flight time of the step, s.
         at_s: f32,
@@ -59,7 +61,7 @@ pub enum Trajectory {
         /// Heading ψd, rad.
         yaw_rad: f32,
     },
-    /// A lying eight about a centre: `(a sin ωt, b sin 2ωt, 0)`.
+    /// A horizontal figure eight about a centre: `(a sin ωt, b sin 2ωt, 0)`.
     FigureEight {
         /// Centre, m.
         center_m: [f32; 3],
@@ -70,7 +72,7 @@ pub enum Trajectory {
         /// Heading ψd, rad.
         yaw_rad: f32,
     },
-    /// A path of any shape, which the desktop fits to waypoints or to a file.
+    /// A spline that the desktop fits to waypoints or to a file.
     Spline(Spline),
 }
 
@@ -79,7 +81,7 @@ impl Trajectory {
     pub const PAPER_HELIX: Self =
         Self::Helix { amplitude_m: [4.0, 5.0], rate_rad_s: 1.0, base_m: 2.0, climb_m_s: 1.0, yaw_rad: 0.0 };
 
-    /// Refuses a trajectory that is not made of finite numbers.
+    /// Refuses a trajectory with NaN or an infinite value.
     ///
     /// # Errors
     /// The trajectory's name.
@@ -108,7 +110,7 @@ impl Trajectory {
     }
 }
 
-/// A wave `amplitude·(sin, cos)(angle)` with derivatives: entry k is the k-th derivative of the sine.
+/// sin and cos of an angle that grows at a constant rate, and their time derivatives: entry k is the k-th derivative.
 #[derive(Clone, Copy)]
 struct Wave {
     sine: f32,
@@ -122,17 +124,17 @@ impl Wave {
         Self { sine, cosine, rate }
     }
 
-    /// sin with four derivatives, times `amplitude`.
+    /// `amplitude`·sin and its first four derivatives.
     fn sine(self, amplitude: f32) -> [f32; 5] {
         self.derivatives(amplitude, self.sine, self.cosine)
     }
 
-    /// cos with four derivatives, times `amplitude`.
+    /// `amplitude`·cos and its first four derivatives.
     fn cosine(self, amplitude: f32) -> [f32; 5] {
         self.derivatives(amplitude, self.cosine, -self.sine)
     }
 
-    /// f, f′, −f, −f′, f, each with its power of ω.
+    /// f, f′, −f, −f′, f, each times its power of ω.
     fn derivatives(self, amplitude: f32, value: f32, slope: f32) -> [f32; 5] {
         let w = self.rate;
         let w2 = w * w;
@@ -146,7 +148,7 @@ impl Wave {
     }
 }
 
-/// Puts three axes' derivatives together.
+/// Combines the derivatives of the three axes.
 fn flat(x: [f32; 5], y: [f32; 5], z: [f32; 5], yaw: f32) -> FlatReference {
     let vector = |k: usize| Vector3::new(x[k], y[k], z[k]);
     FlatReference {
@@ -184,16 +186,16 @@ pub struct Guidance {
     tick_s: f32,
     ticks_per_ms: u32,
     join: Option<JoinPath>,
-    /// The path from elsewhere, in place of the configured one.
+    /// The joining path from another position, in place of the configured one.
     detour: Option<JoinPath>,
     trajectory: Trajectory,
 }
 
 impl Guidance {
-    /// Makes a trajectory ready and plans the path to it from rest at `start`.
+    /// Prepares a trajectory, and the path that joins it from rest at `start`.
     ///
     /// # Errors
-    /// What of the trajectory or the plan is out of its range.
+    /// The field of the trajectory or the plan that is out of range.
     pub fn new(trajectory: Trajectory, plan: Option<&JoinPlan>, start: Vector3<f32>) -> Result<Self, ConfigError> {
         let mut guidance = Self::with_tick(trajectory, TICK_S_EXACT)?;
         if let Some(plan) = plan {
@@ -207,7 +209,7 @@ impl Guidance {
     /// A trajectory alone, with ticks of another length than the inner loop's (s).
     ///
     /// # Errors
-    /// What of the trajectory is out of its range.
+    /// The field of the trajectory that is out of range.
     pub fn with_tick(trajectory: Trajectory, tick_s: f64) -> Result<Self, ConfigError> {
         trajectory.validate()?;
         let rate = match trajectory {
@@ -224,7 +226,7 @@ impl Guidance {
         })
     }
 
-    /// What to fly `ticks` after the start of the flight: the joining path first, then the trajectory.
+    /// The reference `ticks` after the start of the flight: the joining path first, then the trajectory.
     pub fn at(&self, ticks: Tick) -> FlatReference {
         match self.detour.as_ref().or(self.join.as_ref()) {
             Some(join) if ticks < join.duration_ticks() => join.at(ticks),
@@ -232,8 +234,8 @@ impl Guidance {
         }
     }
 
-    /// Where, and with which heading, to be at rest before the flight's clock starts in the air: where the joining path
-    /// begins, but for one that begins on the ground not lower than where it ends.
+    /// Position and heading at which a vehicle in the air waits at rest before the flight's clock starts: the start of
+    /// the joining path. If that is on the ground, the height is at least that of the path's end.
     pub fn entry(&self, start: Start) -> (Vector3<f32>, f32) {
         let first = self.at(0);
         let mut entry = first.position;
@@ -245,10 +247,10 @@ impl Guidance {
         (entry, first.yaw)
     }
 
-    /// The clock is about to start for a vehicle at rest in the air: it joins from there, in as much time as from the
-    /// configured start. Where there is no joining path, it begins with the trajectory.
+    /// Plans the joining path from another position, for a vehicle at rest in the air before the clock starts. It takes
+    /// as long as the configured one. Without a joining path in the configuration, nothing changes.
     pub fn join_from(&mut self, place: &Vector3<f32>) {
-        /// The configured path may have been planned with care: it is flown if it begins here.
+        /// The configured path may have been optimised: it is flown if it begins here.
         const SAME_PLACE_M: f32 = 0.02;
         let Some(join) = &self.join else { return };
         let same = (join.at(0).position - place).norm_squared() < SAME_PLACE_M * SAME_PLACE_M;
@@ -256,12 +258,12 @@ impl Guidance {
         self.detour = if same { None } else { JoinPath::plain(join.duration_ticks(), *place, &end).ok() };
     }
 
-    /// The configured path is flown again.
+    /// Returns to the configured joining path.
     pub fn join_from_start(&mut self) {
         self.detour = None;
     }
 
-    /// The trajectory itself.
+    /// The reference on the trajectory, without the joining path.
     pub fn trajectory_at(&self, ticks: Tick) -> FlatReference {
         let t = ticks as f32 * self.tick_s;
         match self.trajectory {

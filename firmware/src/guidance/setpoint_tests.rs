@@ -1,4 +1,4 @@
-//! The guarantees of the generator: limits, continuity, straight lines, no overshoot, and arrival in time.
+//! Properties of the reference generator: limits, continuity, straight lines, no overshoot, arrival time.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -44,7 +44,7 @@ fn horizontal(v: &Vector3<f32>) -> f32 {
     v.xy().norm()
 }
 
-/// What no reference may exceed that has begun within the limits: 1 % more than they are, for rounding.
+/// Checks the limits, with 1 % for rounding. They hold for references that begin within them.
 fn assert_within_limits(r: &FlatReference) {
     let most = |value: f32, limit: f32, name: &str| assert!(value <= 1.01 * limit + 1e-5, "{name}: {value}");
     most(horizontal(&r.velocity), LIMITS.cruise_m_s, "speed");
@@ -58,16 +58,16 @@ fn assert_within_limits(r: &FlatReference) {
     most(math::abs(r.yaw_acceleration), LIMITS.yaw_acceleration_rad_s2, "yaw acceleration");
 }
 
-/// Each derivative is that of the one before, from one step to the next.
+/// Checks that each derivative integrates to the previous one over a step.
 fn assert_continuous(before: &FlatReference, after: &FlatReference) {
     let way = before.velocity * STEP_S + before.acceleration * (0.5 * STEP_S * STEP_S);
-    // The last step of the course and f32 at 100 m.
+    // Truncation over a step, and the resolution of f32 at 100 m.
     assert!((after.position - before.position - way).norm() < 8e-5, "position: {before:?} {after:?}");
     let faster = after.velocity - before.velocity - before.acceleration * STEP_S;
     assert!(faster.norm() < 2e-5, "velocity: {faster}");
     let change = after.acceleration - before.acceleration - before.jerk * STEP_S;
     assert!(change.norm() < 2e-5, "acceleration: {change}");
-    // Snap leaps, within ±2 a (h/τ's second derivative), so that the jerk goes on.
+    // The snap jumps, within ±2 a (h/τ's second derivative); the jerk is continuous.
     let jerk = (after.jerk - before.jerk).norm();
     assert!(jerk < 0.07 * LIMITS.jerk_m_s3, "jerk: {jerk}");
     let turned = math::wrap_angle(after.yaw - before.yaw);
@@ -88,7 +88,7 @@ fn fastest(distance: f32, v: f32, a: f32, j: f32) -> f32 {
 }
 
 #[test]
-fn it_arrives_without_overshoot_and_nearly_as_fast_as_can_be() {
+fn it_arrives_without_overshoot_in_nearly_the_shortest_time() {
     for (distance, factor) in [(0.5, 1.75), (2.0, 1.5), (5.0, 1.4), (20.0, 1.25), (100.0, 1.1)] {
         let mut setpoint = standing([0.0; 3]);
         let mut arrival = None;
@@ -134,12 +134,12 @@ fn it_brakes_where_the_limits_allow_and_stays_there() {
         setpoint.advance(&go);
     }
     let moving = setpoint.reference();
-    assert!(math::abs(moving.velocity.x - 5.0) < 1e-3, "the limit, not the 9 m/s asked for");
+    assert!(math::abs(moving.velocity.x - 5.0) < 1e-3, "the limit, not the commanded 9 m/s");
     for _ in 0..steps(6.0) {
         assert_within_limits(&setpoint.advance(&stop));
     }
     let stopped = setpoint.reference();
-    // v²/2a, and what the lags are behind.
+    // v²/2a, and the distance flown within the filter's lag.
     let way = stopped.position.x - moving.position.x;
     assert!((25.0 / 6.0..25.0 / 6.0 + 2.5 + 0.1).contains(&way), "{way}");
     assert!(stopped.velocity.norm() < 1e-4 && math::abs(stopped.yaw_rate) < 1e-4);
@@ -150,7 +150,7 @@ fn it_brakes_where_the_limits_allow_and_stays_there() {
 }
 
 #[test]
-fn it_goes_on_from_a_trajectory_without_a_leap() {
+fn it_continues_from_a_trajectory_without_a_jump() {
     let slow =
         Trajectory::FigureEight { center_m: [0.0, 0.0, 5.0], amplitude_m: [2.0, 1.0], rate_rad_s: 0.8, yaw_rad: 3.0 };
     for trajectory in [slow, Trajectory::PAPER_HELIX] {
@@ -173,7 +173,7 @@ fn it_goes_on_from_a_trajectory_without_a_leap() {
 }
 
 #[test]
-fn heading_goes_the_short_way_around() {
+fn the_heading_turns_the_shorter_way() {
     let mut setpoint = Setpoint::new(&LIMITS);
     setpoint.start(&FlatReference::standing(Vector3::zeros(), 3.0));
     for _ in 0..steps(3.0) {
@@ -184,7 +184,7 @@ fn heading_goes_the_short_way_around() {
 }
 
 #[test]
-fn a_height_is_reached_at_its_own_speed_and_sideways_it_stops() {
+fn a_climb_keeps_its_commanded_speed_and_stops_horizontally() {
     let mut setpoint = standing([0.0; 3]);
     for _ in 0..steps(3.0) {
         setpoint.advance(&Target::Velocity { velocity: Vector3::new(3.0, 0.0, 0.0), yaw_rate: 0.0 });
@@ -199,7 +199,7 @@ fn a_height_is_reached_at_its_own_speed_and_sideways_it_stops() {
 }
 
 #[test]
-fn what_is_put_elsewhere_keeps_its_motion() {
+fn a_shift_of_position_keeps_the_motion() {
     let mut setpoint = standing([0.0; 3]);
     for _ in 0..steps(1.0) {
         setpoint.advance(&Target::Velocity { velocity: Vector3::new(3.0, 0.0, -1.0), yaw_rate: 0.0 });

@@ -59,7 +59,7 @@ fn parse(mut bytes: &[u8], sequence: &mut u8) -> Vec<MavMessage> {
     messages
 }
 
-/// A ground partition at work.
+/// A ground partition and its inputs.
 struct Bench {
     ground: Ground,
     tick: Tick,
@@ -129,7 +129,7 @@ fn count(messages: &[MavMessage], id: u32) -> usize {
 }
 
 #[test]
-fn rates_are_those_of_the_table_and_never_more_than_fits() {
+fn messages_are_sent_at_the_rates_of_the_table_within_the_link_budget() {
     let mut bench = Bench::new();
     bench.input.health.timing = Some(LoopTiming { inner_hz: 1000, outer_hz: 250, inner_period_us: (999, 1001) });
     let messages = bench.jobs(1000);
@@ -242,7 +242,7 @@ fn unsupported_commands_are_answered_in_both_forms_and_versions() {
 }
 
 #[test]
-fn what_is_for_others_is_ignored() {
+fn commands_to_other_systems_are_ignored() {
     let mut bench = Bench::silent();
     for target in [(2, 1), (1, 2), (2, 0), (255, 190), (0, 2)] {
         assert_eq!(bench.result_of(&command_to(target, NAV_WAYPOINT, 0.0, 0.0)), None, "{target:?}");
@@ -271,7 +271,7 @@ fn every_message_of_the_table_comes_on_request() {
 }
 
 #[test]
-fn the_version_names_only_what_is_there() {
+fn the_version_lists_only_supported_capabilities() {
     let messages = Bench::silent().job(&command(520, 1.0, 0.0));
     let version = messages.iter().find_map(|m| if let MavMessage::AUTOPILOT_VERSION(m) = m { Some(m) } else { None });
     let version = version.expect("sent");
@@ -280,7 +280,7 @@ fn the_version_names_only_what_is_there() {
 }
 
 #[test]
-fn intervals_can_be_set_turned_off_and_given_back() {
+fn intervals_can_be_set_disabled_and_restored() {
     let mut bench = Bench::new();
     for (interval_us, expected) in [(10_000.0, 100), (1.0, 100), (100_000.0, 10), (-1.0, 0), (0.0, 20)] {
         let result = bench.result_of(&command(SET_INTERVAL, 30.0, interval_us));
@@ -357,8 +357,8 @@ fn signed_frames_are_read_and_unknown_flags_are_not() {
 }
 
 #[test]
-fn a_command_inside_another_message_is_not_carried_out() {
-    // A message that is not understood here, with a whole frame as its payload, as in a file transfer.
+fn a_command_inside_another_message_is_not_executed() {
+    // An unsupported message whose payload is a whole frame, as in a file transfer.
     let inner = command(ARM, 0.0, 21196.0);
     let mut outer = vec![0xfd, inner.len() as u8, 0, 0, 0, 255, 190, 110, 0, 0];
     outer.extend(&inner);
@@ -370,7 +370,7 @@ fn a_command_inside_another_message_is_not_carried_out() {
 }
 
 #[test]
-fn a_command_after_half_a_frame_is_carried_out_in_time() {
+fn a_command_after_half_a_frame_is_executed_in_time() {
     let mut bench = Bench::silent();
     let mut bytes = vec![0xfd, 64, 0, 0, 0, 255, 190, 76, 0, 0, 1, 2, 3];
     bytes.extend(command(NAV_WAYPOINT, 0.0, 0.0));
@@ -380,7 +380,7 @@ fn a_command_after_half_a_frame_is_carried_out_in_time() {
 }
 
 #[test]
-fn fields_to_come_are_ignored_and_absurd_lengths_are_no_frame() {
+fn extension_fields_are_ignored_and_impossible_lengths_are_no_frame() {
     let with_length = |length: u8| {
         let mut bytes = vec![0xfd, length, 0, 0, 0, 255, 190, 75, 0, 0];
         let int = COMMAND_INT_DATA { target_system: 1, command: NAV_WAYPOINT, ..COMMAND_INT_DATA::DEFAULT };
@@ -454,7 +454,7 @@ proptest! {
     }
 }
 
-/// Bytes with more start markers of frames than chance gives.
+/// Random bytes, with frame start markers more frequent than at random.
 fn any_byte() -> impl Strategy<Value = u8> {
     prop_oneof![4 => any::<u8>(), 1 => Just(0xfd), 1 => Just(0xfe), 1 => Just(76), 1 => Just(0), 1 => Just(1)]
 }

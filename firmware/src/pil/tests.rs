@@ -19,7 +19,7 @@ fn attitude(mut number: impl FnMut() -> f32) -> UnitQuaternion<f32> {
     UnitQuaternion::new_unchecked(Quaternion::new(number(), number(), number(), number()))
 }
 
-/// Every sample, of words that a source gives.
+/// A frame with every sample, its words from a source.
 fn measurements(mut word: impl FnMut() -> u32) -> Measurements {
     let imu = ImuSample { at: word(), gyro: vector(&mut word), accel: vector(&mut word) };
     let mag = MagSample { at: word(), field_ut: vector(&mut word) };
@@ -51,7 +51,7 @@ fn vector(word: &mut impl FnMut() -> u32) -> Vector3<f32> {
     [word(), word(), word()].map(f32::from_bits).into()
 }
 
-/// Compared as bytes too: what holds a NaN is not equal to itself.
+/// Compares the bytes too, because a value with a NaN is not equal to itself.
 fn assert_survives(request: &Request) {
     let bytes = request.encode();
     let decoded = Request::decode(&bytes).expect("a request");
@@ -63,7 +63,7 @@ fn assert_survives(request: &Request) {
 }
 
 #[test]
-fn a_request_survives_its_bytes() {
+fn a_request_is_decoded_as_it_was_encoded() {
     let mut nav = nav(|| 0.3);
     nav.velocity = [f32::NAN, -0.0, f32::MIN_POSITIVE / 2.0].into();
     for request in [Request::Sample(SensorFrame::Motion(nav)), Request::Missing, Request::Exit] {
@@ -73,8 +73,8 @@ fn a_request_survives_its_bytes() {
 }
 
 #[test]
-fn every_number_of_a_measurement_crosses_with_its_bits() {
-    // Signalling NaNs, each with a payload of its own.
+fn every_value_of_a_measurement_keeps_its_bit_pattern() {
+    // Signalling NaNs, each with a different payload.
     let first = 0x7fa0_0000;
     let mut next = first;
     let all = measurements(|| {
@@ -85,7 +85,7 @@ fn every_number_of_a_measurement_crosses_with_its_bits() {
     assert_survives(&request);
     let bytes = request.encode();
     let words: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
-    // But for the one that has become `has_fix`.
+    // Except the word that encodes `has_fix`.
     let missing: Vec<u32> = (first + 1..=next).filter(|word| !words.contains(word)).collect();
     assert_eq!(missing.len(), 1, "{missing:x?}");
     assert_eq!(REQUEST_BYTES, 164);
@@ -121,7 +121,7 @@ proptest! {
 }
 
 #[test]
-fn a_reply_survives_its_bytes() {
+fn a_reply_is_decoded_as_it_was_encoded() {
     let [thrust_n, roll_n_m, pitch_n_m, yaw_n_m] = numbers(2.0);
     let mut number = 20.0;
     let reply = Reply {
@@ -147,7 +147,7 @@ fn a_reply_survives_its_bytes() {
     assert_eq!(Reply::decode(&[9; REPLY_BYTES]), None);
 }
 
-/// Every option there, and every list full.
+/// With every option present and every list full.
 #[cfg(feature = "pil-wire")]
 fn longest_config() -> crate::config::FlightConfig {
     use crate::guidance::{JoinPlan, Spline, Trajectory};
@@ -167,7 +167,7 @@ fn longest_config() -> crate::config::FlightConfig {
 
 #[cfg(feature = "pil-wire")]
 #[test]
-fn a_hello_survives_its_bytes_and_a_bad_one_is_refused() {
+fn a_hello_is_decoded_as_it_was_encoded_and_an_invalid_one_is_refused() {
     let hello = Hello {
         config: longest_config(),
         busy: BusyWait { outer_us: 1, commander_us: 2, ground_us: 3 },
@@ -175,7 +175,7 @@ fn a_hello_survives_its_bytes_and_a_bad_one_is_refused() {
     };
     let bytes = hello.encode().expect("fits");
     let length = u32::from_le_bytes([bytes[4], bytes[5], bytes[6], bytes[7]]);
-    assert!(length as usize + 8 < HELLO_BYTES - 512, "room for settings to come: {length} bytes");
+    assert!(length as usize + 8 < HELLO_BYTES - 512, "leaves room for further settings: {length} bytes");
     assert_eq!(Hello::decode(&bytes), Ok(hello));
     let mut other = bytes;
     other[0] ^= 1;
@@ -190,7 +190,7 @@ fn a_hello_survives_its_bytes_and_a_bad_one_is_refused() {
 
 #[cfg(feature = "pil-wire")]
 #[test]
-fn a_long_reason_is_cut() {
+fn a_long_reason_is_truncated() {
     let answer = Answer::refused(&core::iter::repeat_n('x', 200).collect::<String>());
     assert_eq!(Answer::decode(&answer.encode()), Some(answer.clone()));
     assert!(matches!(answer, Answer::Refused(text) if text.len() == REPLY_BYTES - 4));
@@ -198,7 +198,7 @@ fn a_long_reason_is_cut() {
 }
 
 #[test]
-fn what_a_pilot_asks_for_survives_its_bytes() {
+fn a_pilots_request_is_decoded_as_it_was_encoded() {
     let [x, y, z, w] = numbers(-1.5);
     for asked in [
         commander::Request::Arm { force: true },

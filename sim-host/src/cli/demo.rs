@@ -16,7 +16,7 @@ const NEXT: &str = "next, each after `cargo run --release --`:
   serve                                  fly it yourself: type `help`, or connect a ground station";
 
 pub(super) fn run() -> Result<()> {
-    interrupt::listen()?;
+    interrupt::listen();
     let paint = Paint::for_stdout();
     for name in ["outdoor-tour", "paper-disturbed"] {
         let folder = Path::new("runs").join(name);

@@ -334,7 +334,24 @@ pub fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return refuse(&error),
     };
-    let result = match cli.command {
+    let result = interrupt::handle_signals().and_then(|()| execute(cli.command));
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        // What was flown has been reported.
+        Err(error) if error.is::<Interrupted>() => ExitCode::from(interrupt::exit_code()),
+        Err(error) => {
+            complain(&one_line(&error));
+            ExitCode::from(if error.is::<run::SomeFailed>() || pil::is_finding(&error) || error.is::<assess::Unmet>() {
+                1
+            } else {
+                2
+            })
+        }
+    }
+}
+
+fn execute(command: Option<Command>) -> Result<()> {
+    match command {
         None => demo::run(),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Scenarios { json }) => scenarios::run(json),
@@ -348,19 +365,6 @@ pub fn main() -> ExitCode {
         Some(Command::Paper { out, json }) => paper::run(&out, json),
         Some(Command::Plan { which, seed, flights }) => plan::run(&which, seed, flights),
         Some(Command::Tune(args)) => tune::run(&args),
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        // What was flown has been reported.
-        Err(error) if error.is::<Interrupted>() => ExitCode::from(interrupt::EXIT_CODE),
-        Err(error) => {
-            complain(&one_line(&error));
-            ExitCode::from(if error.is::<run::SomeFailed>() || pil::is_finding(&error) || error.is::<assess::Unmet>() {
-                1
-            } else {
-                2
-            })
-        }
     }
 }
 

@@ -30,7 +30,7 @@ pub(super) fn run(args: &PilArgs) -> Result<()> {
     let pil = Pil::start(&options)?;
 
     let bar = Progress::new(scenario.file.duration_s, !args.json);
-    interrupt::listen()?;
+    interrupt::listen();
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
     let (summary, wall_s) = match &staged {
         Some(staged) => {

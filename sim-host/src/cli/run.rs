@@ -15,7 +15,7 @@ use crate::words::counted;
 pub(super) fn run(args: &RunArgs) -> Result<()> {
     let scenario = args.which.load()?;
     super::note_idle_seeds(&scenario, args.seeds.is_some() || args.seed.is_some_and(|seed| seed != 1));
-    interrupt::listen()?;
+    interrupt::listen();
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
     match args.seeds {
         Some(seeds) => many(args, &scenario, seeds, staged),

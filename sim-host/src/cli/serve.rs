@@ -20,7 +20,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let mut session = Session::new(flight);
     let mut link = UdpLink::bind(args.listen, &args.peers)?;
     eprint!("{}", greeting(&scenario, link.local_address()?, &args.peers));
-    interrupt::listen()?;
+    interrupt::listen();
     let mut terminal = Stdio::new();
     let flown = serve(&mut session, &mut link, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
     drop(terminal);

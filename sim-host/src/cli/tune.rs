@@ -3,11 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use indicatif::ProgressBar;
 use sha2::{Digest as _, Sha256};
 
 use super::TuneArgs;
+use crate::report::out::cannot_write;
 use crate::report::{OutFolder, plots, progress, truth};
 use crate::tune::{Iteration, Journal, Parameter, Run, Settings, State, Tune, require_optimisers};
 use crate::words::counted;
@@ -125,7 +126,8 @@ fn table(state: &State, particles: usize) -> String {
 /// Writes a file in one step, so that an interruption leaves the old one or the new one.
 fn replace(path: &Path, text: &str) -> Result<()> {
     let beside = path.with_extension("new");
-    fs::write(&beside, text)
-        .and_then(|()| fs::rename(&beside, path))
-        .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))
+    fs::write(&beside, text).and_then(|()| fs::rename(&beside, path)).map_err(|error| {
+        let _ = fs::remove_file(&beside);
+        cannot_write(path, error)
+    })
 }

@@ -1,8 +1,8 @@
-//! What is told of a flight as it happens: seen from the outside of the vehicle, tick by tick.
+//! Events of a flight, reported as they happen.
 //!
-//! The words are the firmware's own where it has any ([`Mode::name`], [`Event::text`], [`Refusal::reason`]). Touchdowns are
-//! the plant's truth. Looks 50 times a second, when the commander's output has come into effect; only a touchdown needs
-//! each tick.
+//! The texts are the firmware's where it has them ([`Mode::name`], [`Event::text`], [`Refusal::reason`]). Touchdowns
+//! are taken from the plant's true motion in every tick; everything else 50 times per second, when the commander's
+//! output takes effect.
 
 use firmware::commander::{Event, Mode, Refusal};
 use firmware::schedule::COMMANDER;
@@ -22,12 +22,12 @@ pub(super) fn is_due(next_tick: Tick) -> bool {
     next_tick.wrapping_sub(1) % COMMANDER.period == COMMANDER.offset % COMMANDER.period
 }
 
-/// Something that comes and goes is told once it has lasted, ticks.
+/// A state that may flicker is reported after it has lasted this long, ticks.
 const LASTED: Tick = 500;
-/// A vehicle that does not know that it is on the ground is told of after this, s.
+/// A touchdown that the vehicle has not detected is reported after this time, s.
 const UNAWARE_AFTER_S: f64 = 5.0;
 
-/// A value that is told once it has lasted.
+/// A value that is reported after it has lasted [`LASTED`].
 #[derive(Clone, Debug)]
 struct Steady<T> {
     told: Option<T>,
@@ -39,7 +39,7 @@ impl<T: Copy + PartialEq> Steady<T> {
         Self { told: None, seen: None }
     }
 
-    /// The value now; returned if it is to be told.
+    /// Takes the present value; returns it if it is to be reported.
     fn see(&mut self, tick: Tick, value: T) -> Option<T> {
         let since = match self.seen {
             Some((seen, since)) if seen == value => since,
@@ -51,7 +51,7 @@ impl<T: Copy + PartialEq> Steady<T> {
     }
 }
 
-/// Sees what happens.
+/// Compares a flight with its state at the last look.
 #[derive(Clone, Debug)]
 pub struct Watch {
     armed: bool,
@@ -61,16 +61,16 @@ pub struct Watch {
     position: Steady<bool>,
     /// Whether it was told that the position is unknown, and not yet that it is known again.
     lost: bool,
-    /// Where it was armed, m: the truth.
+    /// True position where it was armed, m.
     home: Vector3<f64>,
     touchdown: Option<Touchdown>,
-    /// The last one, and where, until it has been told.
+    /// The last touchdown and its place, until it is reported.
     contact: Option<(Contact, Vector3<f64>)>,
     looked_at: Tick,
 }
 
 impl Watch {
-    /// Of a flight as it is now.
+    /// Starts from the present state of a flight.
     pub fn new(flight: &Flight<RigidBody>) -> Self {
         let commander = flight.autopilot.inner.commander_output();
         Self {
@@ -87,7 +87,7 @@ impl Watch {
         }
     }
 
-    /// After a tick: a touchdown is seen.
+    /// Looks for a touchdown after a tick.
     pub fn step(&mut self, flight: &Flight<RigidBody>) {
         let Some(touchdown) = &mut self.touchdown else { return };
         let motion = flight.plant().motion();
@@ -99,7 +99,7 @@ impl Watch {
         }
     }
 
-    /// Tells what has changed since the last look.
+    /// Reports what has changed since the last look.
     pub fn look(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
         self.look_at_faults(flight, tell);
         if let Some(event) = flight.autopilot.inner.commander_output().event {
@@ -111,7 +111,7 @@ impl Watch {
         self.looked_at = flight.next_tick();
     }
 
-    /// Faults that have begun or ended by themselves.
+    /// Reports faults that have begun, or have ended at their time.
     fn look_at_faults(&self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
         let Some(suite) = flight.sensors() else { return };
         let tick = |seconds: f64| (seconds / TICK_S_EXACT).round() as Tick;
@@ -173,7 +173,7 @@ impl Watch {
         (self.armed, self.mode) = (armed, mode);
     }
 
-    /// Whether it may be armed, and in the air whether it knows where it is.
+    /// Reports whether it can be armed; while armed, whether it knows its position.
     fn look_at_health(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
         let (tick, vehicle) = (flight.next_tick(), &flight.autopilot.inner);
         let commander = vehicle.commander_output();
@@ -203,12 +203,12 @@ fn position_text(lost: &mut bool, known: bool, armed: bool) -> Option<&'static s
     }
 }
 
-/// Looks for the next touchdown, where there is a ground.
+/// A detector of the next touchdown, if there is a ground.
 fn touchdown(flight: &Flight<RigidBody>) -> Option<Touchdown> {
     flight.plant().ground().cloned().map(Touchdown::new)
 }
 
-/// What the firmware says of what has failed.
+/// The firmware's text for a failure, as the console prints it.
 fn failsafe(event: Event) -> String {
     let text = event.text();
     let mut letters = text.chars();

@@ -1,15 +1,15 @@
-//! A line that the console says.
+//! A line that the console prints.
 
 use core::fmt;
 
-/// What a line is about, by which a terminal colours it.
+/// Kind of a line, which sets its colour on a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
-    /// An answer, or something that was to be expected.
+    /// An answer, or an expected event.
     Plain,
     /// Something went well: ready, landed.
     Good,
-    /// A refused command, or a line that cannot be read.
+    /// A refused command, or an invalid line.
     Refused,
     /// Something has failed.
     Alarm,
@@ -18,9 +18,9 @@ pub enum Tone {
 /// A line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Simulated time, s; none for a line of a list.
+    /// Simulated time, s; `None` for a line of help.
     pub t_s: Option<f64>,
-    /// What it is about.
+    /// Its kind.
     pub tone: Tone,
     /// One line of text, without its end.
     pub text: String,

@@ -1,9 +1,9 @@
-//! The console of `serve`: typed commands in, answers and events out, a line each.
+//! The console of `serve`: one line per command, answer and event.
 //!
-//! [`parse`] makes a line into a command, by the table that help is written from. A [`Session`] hands it to the vehicle
-//! through the door for programs on board, and answers once the commander has decided. [`events`] tells what happens by
-//! itself or at a ground station's wish. Lines come in between ticks and take effect with the next; a flight that gets
-//! none is the flight without a console, bit for bit. [`terminal`] is where lines are typed and printed.
+//! [`parse`] reads a line, by the table from which help is written too. A [`Session`] passes the request to the
+//! vehicle, as programs on board do, and answers once the commander has decided. [`events`] reports what happens in
+//! between, by itself or commanded by a ground station. Lines are read between ticks and take effect in the next tick;
+//! without any, the flight is bit for bit the one without a console. [`terminal`] reads and prints.
 
 pub mod events;
 pub mod line;

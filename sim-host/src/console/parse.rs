@@ -1,9 +1,10 @@
-//! From a typed line to a command. One table names the commands, explains them and reads their arguments, so that help
-//! and parser cannot differ.
+//! Reads typed lines. One table has the names, arguments and explanations of the commands, so that help and parser
+//! agree.
 
+use core::fmt;
 use core::ops::RangeInclusive;
 
-use anyhow::{Result, bail, ensure};
+use anyhow::{Error, Result, anyhow, bail, ensure};
 use firmware::commander::{FARTHEST_M, FASTEST_M_S, Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M};
 use firmware::signals::Tick;
 
@@ -17,22 +18,22 @@ use crate::serve::SPEEDS;
 pub enum Command {
     /// Explain the commands, or one of them.
     Help(Option<&'static Entry>),
-    /// Say how the vehicle is.
+    /// Print the vehicle's state.
     Status,
-    /// Ask the commander for something.
+    /// Send a request to the commander.
     Request(Request),
-    /// Go to a place (m) with a heading (°); what is `None` stays as it is.
+    /// Go to a place (m) with a heading (°); `None` keeps the present value.
     GoTo {
         /// x, y, z, m.
         place: [Option<f64>; 3],
         /// ψ, °.
         yaw_deg: Option<f64>,
     },
-    /// Say what the steady wind is.
+    /// Print the steady wind.
     Wind,
     /// Set the steady wind: the velocity of the air, m/s.
     SetWind([f64; 3]),
-    /// Make something fail.
+    /// Start a fault.
     Fault(Fault),
     /// List the faults.
     Faults,
@@ -44,19 +45,29 @@ pub enum Command {
     Quit,
 }
 
-/// A command in the table.
+/// A row of the table of commands.
 #[derive(Debug)]
 pub struct Entry {
-    /// Its name first, then what else it is called.
+    /// Its name, then its other names.
     names: &'static [&'static str],
-    /// What may follow the name.
+    /// Its arguments, as help shows them.
     arguments: &'static str,
     /// What it does.
     summary: &'static str,
     /// More about it, for `help COMMAND`.
     details: &'static str,
-    /// Reads what follows the name, at a tick.
-    read: fn(&[&str], Tick) -> Result<Command>,
+    reads: Reads,
+}
+
+/// How the arguments of a command are read.
+#[derive(Debug)]
+enum Reads {
+    /// There are none.
+    Nothing(Command),
+    /// `force`, or none.
+    Force(fn(bool) -> Request),
+    /// By a function of the arguments and the present tick.
+    With(fn(&[&str], Tick) -> Result<Command>),
 }
 
 impl PartialEq for Entry {
@@ -66,6 +77,27 @@ impl PartialEq for Entry {
 }
 
 impl Entry {
+    const fn new(names: &'static [&'static str], arguments: &'static str, summary: &'static str, reads: Reads) -> Self {
+        Self { names, arguments, summary, details: "", reads }
+    }
+
+    const fn with_details(self, details: &'static str) -> Self {
+        Self { details, ..self }
+    }
+
+    /// Reads the arguments.
+    fn read(&self, words: &[&str], now: Tick) -> Result<Command> {
+        let read = match &self.reads {
+            Reads::Nothing(command) => alone(words).map(|()| command.clone()),
+            Reads::Force(request) => forced(words).map(|force| Command::Request(request(force))),
+            Reads::With(read) => read(words, now),
+        };
+        read.map_err(|error| match error.downcast::<Misuse>() {
+            Ok(misuse) => anyhow!("{}: {misuse}: type `{}`", self.name(), self.usage()),
+            Err(error) => error.context(self.name()),
+        })
+    }
+
     /// Its name.
     pub fn name(&self) -> &'static str {
         self.names.first().copied().unwrap_or_default()
@@ -98,148 +130,97 @@ impl Entry {
 
 /// All commands, in the order in which help lists them.
 pub const COMMANDS: &[Entry] = &[
-    Entry {
-        names: &["help", "?"],
-        arguments: "[COMMAND]",
-        summary: "list the commands, or explain one",
-        details: "",
-        read: help,
-    },
-    Entry {
-        names: &["status"],
-        arguments: "",
-        summary: "mode, position, battery, wind and faults now",
-        details: "Position and velocity are the vehicle's own estimate",
-        read: |words, _| alone(words, Command::Status),
-    },
-    Entry {
-        names: &["arm"],
-        arguments: "[force]",
-        summary: "let the rotors idle; `force` skips the checks",
-        details: "",
-        read: |words, _| Ok(Command::Request(Request::Arm { force: forced(words)? })),
-    },
-    Entry {
-        names: &["disarm"],
-        arguments: "[force]",
-        summary: "stop the rotors on the ground; `force` also in the air",
-        details: "",
-        read: |words, _| Ok(Command::Request(Request::Disarm { force: forced(words)? })),
-    },
-    Entry {
-        names: &["takeoff", "take-off"],
-        arguments: "[HEIGHT]",
-        summary: "climb by HEIGHT (m; 2.5) and hold",
-        details: "It has to be armed and on the ground; HEIGHT is between 0.3 and 100 m",
-        read: take_off,
-    },
-    Entry {
-        names: &["goto", "go-to", "reposition"],
-        arguments: "NORTH WEST UP [YAW]",
-        summary: "fly to a place in the local frame (m; yaw in °) and hold",
-        details: "The frame begins where z = 0 of the world is: `up` is negative below it. YAW counts from north to \
-                  west: 90 looks west, -90 east. What is left out stays as it is, so `goto north=5 yaw=0` will do",
-        read: go_to,
-    },
-    Entry {
-        names: &["velocity"],
-        arguments: "NORTH WEST UP [YAW_RATE]",
-        summary: "fly with a velocity (m/s; yaw rate in °/s) until the next command",
-        details: "`hold` ends it",
-        read: velocity,
-    },
-    Entry {
-        names: &["hold", "loiter", "brake"],
-        arguments: "",
-        summary: "brake and stay",
-        details: "",
-        read: |words, _| alone(words, Command::Request(Request::Hold)),
-    },
-    Entry {
-        names: &["trajectory", "follow", "mission", "start"],
-        arguments: "",
-        summary: "fly the scenario's trajectory",
-        details: "From the ground, armed, it takes off by itself if it stands where the trajectory begins",
-        read: |words, _| alone(words, Command::Request(Request::Follow)),
-    },
-    Entry {
-        names: &["return", "rtl"],
-        arguments: "",
-        summary: "climb, fly to where it was armed, and land",
-        details: "",
-        read: |words, _| alone(words, Command::Request(Request::Return)),
-    },
-    Entry {
-        names: &["land"],
-        arguments: "",
-        summary: "land here; disarms by itself",
-        details: "",
-        read: |words, _| alone(words, Command::Request(Request::Land)),
-    },
-    Entry {
-        names: &["kill", "terminate"],
-        arguments: "",
-        summary: "stop the rotors at once, also in the air",
-        details: "",
-        read: |words, _| alone(words, Command::Request(Request::Disarm { force: true })),
-    },
-    Entry {
-        names: &["wind"],
-        arguments: "[NORTH WEST [UP]]",
-        summary: "set the steady wind (m/s, where the air moves to), or say what it is",
-        details: "Or as forecasts have it, `wind speed=5 from=270`: from the west (degrees clockwise from north). \
-                  Turbulence and gusts of the scenario stay",
-        read: wind,
-    },
-    Entry {
-        names: &["fault", "failure"],
-        arguments: "[SENSOR] KIND [KEY=VALUE]...",
-        summary: "make a sensor, a rotor or the battery fail",
-        details: "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5` (rotor 1), \
-                  `fault collapse factor=0.8`; from now on for good, or `from_s=` and `to_s=` (s). The keys are those of \
-                  `[[fault]]` in docs/simulation.md",
-        read: |words, now| Ok(Command::Fault(failures::parse(words.iter().copied(), now)?)),
-    },
-    Entry {
-        names: &["faults"],
-        arguments: "",
-        summary: "list the faults that act, and those to come",
-        details: "",
-        read: |words, _| alone(words, Command::Faults),
-    },
-    Entry {
-        names: &["clear"],
-        arguments: "",
-        summary: "end all faults, those of the scenario too",
-        details: "",
-        read: |words, _| alone(words, Command::Clear),
-    },
-    Entry {
-        names: &["speed"],
-        arguments: "X",
-        summary: "fly at X times real time",
-        details: "X is between 0.01 and 1000",
-        read: speed,
-    },
-    Entry {
-        names: &["quit", "exit"],
-        arguments: "",
-        summary: "end the program",
-        details: "",
-        read: |words, _| alone(words, Command::Quit),
-    },
+    Entry::new(&["help", "?"], "[COMMAND]", "list the commands, or explain one", Reads::With(help)),
+    Entry::new(&["status"], "", "mode, position, battery, wind and faults now", Reads::Nothing(Command::Status))
+        .with_details("Position and velocity are the vehicle's own estimate"),
+    Entry::new(
+        &["arm"],
+        "[force]",
+        "let the rotors idle; `force` skips the checks",
+        Reads::Force(|force| Request::Arm { force }),
+    ),
+    Entry::new(
+        &["disarm"],
+        "[force]",
+        "stop the rotors on the ground; `force` also in the air",
+        Reads::Force(|force| Request::Disarm { force }),
+    ),
+    Entry::new(&["takeoff", "take-off"], "[HEIGHT]", "climb by HEIGHT (m; 2.5) and hold", Reads::With(take_off))
+        .with_details("It has to be armed and on the ground; HEIGHT is between 0.3 and 100 m"),
+    Entry::new(
+        &["goto", "go-to", "reposition"],
+        "NORTH WEST UP [YAW]",
+        "fly to a place in the local frame (m; yaw in °) and hold",
+        Reads::With(go_to),
+    )
+    .with_details(
+        "The frame begins where z = 0 of the world is: `up` is negative below it. YAW counts from north to \
+         west: 90 looks west, -90 east. By name, what is left out stays as it is: `goto north=5 yaw=0`",
+    ),
+    Entry::new(
+        &["velocity"],
+        "NORTH WEST UP [YAW_RATE]",
+        "fly with a velocity (m/s; yaw rate in °/s) until the next command",
+        Reads::With(velocity),
+    )
+    .with_details("By name, what is left out is 0: `velocity up=1`. `hold` ends it"),
+    Entry::new(&["hold", "loiter", "brake"], "", "brake and stay", Reads::Nothing(Command::Request(Request::Hold))),
+    Entry::new(
+        &["trajectory", "follow", "mission", "start"],
+        "",
+        "fly the scenario's trajectory",
+        Reads::Nothing(Command::Request(Request::Follow)),
+    )
+    .with_details("From the ground, armed, it takes off by itself if it stands where the trajectory begins"),
+    Entry::new(
+        &["return", "rtl"],
+        "",
+        "climb, fly to where it was armed, and land",
+        Reads::Nothing(Command::Request(Request::Return)),
+    ),
+    Entry::new(&["land"], "", "land here; disarms by itself", Reads::Nothing(Command::Request(Request::Land))),
+    Entry::new(
+        &["kill", "terminate"],
+        "",
+        "stop the rotors at once, also in the air",
+        Reads::Nothing(Command::Request(Request::Disarm { force: true })),
+    ),
+    Entry::new(
+        &["wind"],
+        "[NORTH WEST [UP]]",
+        "set the steady wind (m/s, where the air moves to), or say what it is",
+        Reads::With(wind),
+    )
+    .with_details(
+        "Or as forecasts have it, `wind speed=5 from=270`: from the west (degrees clockwise from north). \
+         Turbulence and gusts of the scenario stay",
+    ),
+    Entry::new(
+        &["fault", "failure"],
+        "[SENSOR] KIND [KEY=VALUE]...",
+        "make a sensor, a rotor or the battery fail",
+        Reads::With(|words, now| Ok(Command::Fault(failures::parse(words.iter().copied(), now)?))),
+    )
+    .with_details(
+        "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5` (rotor 1), \
+         `fault collapse factor=0.8`; from now on for good, or `from_s=` and `to_s=` (s). The keys are those of \
+         `[[fault]]` in docs/simulation.md",
+    ),
+    Entry::new(&["faults"], "", "list the faults that act, and those to come", Reads::Nothing(Command::Faults)),
+    Entry::new(&["clear"], "", "end all faults, those of the scenario too", Reads::Nothing(Command::Clear)),
+    Entry::new(&["speed"], "X", "fly at X times real time", Reads::With(speed))
+        .with_details("X is between 0.01 and 1000"),
+    Entry::new(&["quit", "exit"], "", "end the program", Reads::Nothing(Command::Quit)),
 ];
 
-/// Reads a line at a tick; an empty line and a comment (`#`) ask for nothing.
+/// Reads a line at a tick; `None` for an empty line and a comment (`#`).
 ///
 /// # Errors
-/// In one line, what is wrong with it and what to type instead.
+/// One line with the mistake and what to type instead.
 pub fn parse(line: &str, now: Tick) -> Result<Option<Command>> {
     let words: Vec<&str> = line.split_whitespace().take_while(|word| !word.starts_with('#')).collect();
     let Some((name, arguments)) = words.split_first() else { return Ok(None) };
-    let entry = entry(name)?;
-    let command = (entry.read)(arguments, now).map_err(|error| error.context(entry.name()))?;
-    Ok(Some(command))
+    entry(name)?.read(arguments, now).map(Some)
 }
 
 /// The command of a name, whatever its case.
@@ -255,30 +236,44 @@ fn entry(name: &str) -> Result<&'static Entry> {
     }
 }
 
+/// Too many arguments, or too few; answered with the command's usage.
+#[derive(Debug)]
+struct Misuse(String);
+
+impl fmt::Display for Misuse {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl core::error::Error for Misuse {}
+
+fn too_much(word: &str) -> Error {
+    Misuse(format!("`{word}` is too much")).into()
+}
+
 fn help(words: &[&str], _: Tick) -> Result<Command> {
     match words {
         [] => Ok(Command::Help(None)),
         [name] => Ok(Command::Help(Some(entry(name)?))),
-        [_, rest, ..] => bail!("`{rest}` is too much"),
+        [_, rest, ..] => Err(too_much(rest)),
     }
 }
 
-fn alone(words: &[&str], command: Command) -> Result<Command> {
-    match words {
-        [] => Ok(command),
-        [rest, ..] => bail!("`{rest}` is too much: it takes no arguments"),
-    }
+fn alone(words: &[&str]) -> Result<()> {
+    words.first().map_or(Ok(()), |word| Err(too_much(word)))
 }
 
 fn forced(words: &[&str]) -> Result<bool> {
     match words {
         [] => Ok(false),
         ["force"] => Ok(true),
+        ["force", rest, ..] => Err(too_much(rest)),
         [other, ..] => bail!("`{other}` is unknown here: only `force` may follow"),
     }
 }
 
-/// A number that a command takes.
+/// A numeric argument.
 struct Number {
     key: &'static str,
     unit: &'static str,
@@ -301,8 +296,9 @@ impl Number {
     }
 }
 
-/// Reads numbers in their order, by `key=value`, or first so and then so.
-fn numbers<const N: usize>(words: &[&str], known: &[Number; N]) -> Result<[Option<f64>; N]> {
+/// Reads numbers by position or as `key=value`. If any is given by position, or if there are none, the first `needed`
+/// are required.
+fn numbers<const N: usize>(words: &[&str], needed: usize, known: &[Number; N]) -> Result<[Option<f64>; N]> {
     let mut values = [None; N];
     for (place, word) in words.iter().enumerate() {
         let (place, text) = match word.split_once('=') {
@@ -314,23 +310,36 @@ fn numbers<const N: usize>(words: &[&str], known: &[Number; N]) -> Result<[Optio
         let Some((number, value)) = found else {
             match word.split_once('=') {
                 Some((key, _)) => bail!("there is no `{key}`: {}", did_you_mean(key, &keys())),
-                None => bail!("`{word}` is too much: {} at most", keys().join(", ")),
+                None => return Err(too_much(word)),
             }
         };
         ensure!(value.is_none(), "{} is given twice", number.key.to_uppercase());
         *value = Some(number.read(text)?);
     }
+    if words.is_empty() || words.iter().any(|word| !word.contains('=')) {
+        none_missing(&known[..needed], &values)?;
+    }
     Ok(values)
+}
+
+fn none_missing(needed: &[Number], values: &[Option<f64>]) -> Result<()> {
+    let missing = needed.iter().zip(values).filter(|(_, value)| value.is_none());
+    let names: Vec<String> = missing.map(|(number, _)| number.key.to_uppercase()).collect();
+    match names.as_slice() {
+        [] => Ok(()),
+        [name] => Err(Misuse(format!("{name} is missing")).into()),
+        [names @ .., last] => Err(Misuse(format!("{} and {last} are missing", names.join(", "))).into()),
+    }
 }
 
 fn take_off(words: &[&str], _: Tick) -> Result<Command> {
     let (low, high) = (round(*TAKE_OFF_HEIGHTS_M.start()), round(*TAKE_OFF_HEIGHTS_M.end()));
-    let [height] = numbers(words, &[Number { key: "height", unit: " m", range: low..=high }])?;
+    let [height] = numbers(words, 0, &[Number { key: "height", unit: " m", range: low..=high }])?;
     let height_m = height.map_or(TAKE_OFF_HEIGHT_M, |height| height as f32);
     Ok(Command::Request(Request::TakeOff { height_m }))
 }
 
-/// A constant of the firmware with the decimals that it was written with.
+/// A constant of the firmware, rounded to the decimals in its source.
 fn round(value: f32) -> f64 {
     (f64::from(value) * 1e3).round() / 1e3
 }
@@ -339,9 +348,9 @@ fn go_to(words: &[&str], _: Tick) -> Result<Command> {
     let far = f64::from(FARTHEST_M);
     let [north, west, up, yaw_deg] = numbers(
         words,
+        3,
         &[number("north", " m", far), number("west", " m", far), number("up", " m", far), number("yaw", "°", 360.0)],
     )?;
-    ensure!(!words.is_empty(), "say where: NORTH WEST UP in m");
     Ok(Command::GoTo { place: [north, west, up], yaw_deg })
 }
 
@@ -349,6 +358,7 @@ fn velocity(words: &[&str], _: Tick) -> Result<Command> {
     let fast = f64::from(FASTEST_M_S);
     let [north, west, up, yaw_rate] = numbers(
         words,
+        3,
         &[
             number("north", " m/s", fast),
             number("west", " m/s", fast),
@@ -356,7 +366,6 @@ fn velocity(words: &[&str], _: Tick) -> Result<Command> {
             number("yaw_rate", "°/s", 360.0),
         ],
     )?;
-    ensure!(!words.is_empty(), "say which: NORTH WEST UP in m/s");
     let velocity_m_s = [north, west, up].map(|value| value.unwrap_or(0.0) as f32);
     let yaw_rate_rad_s = yaw_rate.unwrap_or(0.0).to_radians() as f32;
     Ok(Command::Request(Request::Velocity { velocity_m_s, yaw_rate_rad_s }))
@@ -366,6 +375,7 @@ fn wind(words: &[&str], _: Tick) -> Result<Command> {
     const MOST_M_S: f64 = 50.0;
     let [north, west, up, speed, from] = numbers(
         words,
+        0,
         &[
             number("north", " m/s", MOST_M_S),
             number("west", " m/s", MOST_M_S),
@@ -389,11 +399,11 @@ fn blowing(speed_m_s: f64, from_deg: f64) -> [f64; 3] {
 }
 
 fn speed(words: &[&str], _: Tick) -> Result<Command> {
-    let [speed] = numbers(words, &[Number { key: "x", unit: "", range: SPEEDS }])?;
-    speed.map_or_else(|| bail!("say X, how many times real time"), |speed| Ok(Command::Speed(speed)))
+    let [speed] = numbers(words, 1, &[Number { key: "x", unit: "", range: SPEEDS }])?;
+    Ok(Command::Speed(speed.unwrap_or(1.0)))
 }
 
-/// The longest text by which a started word goes on in all names of commands that begin with it.
+/// The rest of the command's name if only one begins with the word.
 pub fn completion(word: &str) -> Option<&'static str> {
     let mut names = COMMANDS.iter().map(Entry::name).filter(|name| name.starts_with(word));
     let name = names.next()?;

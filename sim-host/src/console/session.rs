@@ -20,12 +20,12 @@ use crate::report::timeline::fault_name;
 use crate::sensors::Fault;
 use crate::sil::Flight;
 
-/// What a line asks of whoever runs the session.
+/// A line's instruction to the loop that runs the session.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Control {
-    /// Another pace: simulated seconds per second.
+    /// A new speed: simulated seconds per second.
     Speed(f64),
-    /// The end.
+    /// End the program.
     Quit,
 }
 
@@ -33,29 +33,29 @@ pub enum Control {
 #[derive(Clone, Copy, Debug)]
 struct Asked {
     request: Request,
-    /// Whether the vehicle has it.
+    /// Whether the vehicle has received it.
     sent: bool,
-    /// Whether its answer is of interest.
+    /// Whether its answer is not printed.
     quiet: bool,
 }
 
-/// A vehicle that takes lines and tells what happens.
+/// A flight that executes lines and reports events.
 #[derive(Debug)]
 pub struct Session {
     flight: Flight<RigidBody>,
     watch: Watch,
-    /// Requests in their order; one at a time is with the commander.
+    /// Requests in their order; the commander gets one at a time.
     asked: VecDeque<Asked>,
-    /// A velocity that is to go on, and when it was requested last.
+    /// The velocity to repeat, and the tick of its last request.
     velocity: Option<(Request, Tick)>,
     said: Vec<Line>,
 }
 
-/// A velocity is requested again after so many ticks: five times as often as the vehicle needs.
+/// Ticks after which a velocity is repeated: five times as often as the vehicle needs.
 const VELOCITY_AGAIN: Tick = 200;
 
 impl Session {
-    /// Of a flight before its next tick.
+    /// Starts a session on a flight, before its next tick.
     pub fn new(mut flight: Flight<RigidBody>) -> Self {
         let injectable = failures::injectable(flight.sensors(), flight.plant().battery().is_some());
         flight.autopilot.inner.allow_failures(injectable);
@@ -73,7 +73,7 @@ impl Session {
         f64::from(self.flight.next_tick()) * TICK_S_EXACT
     }
 
-    /// What has been said since the last call, the oldest first.
+    /// The lines since the last call, the oldest first.
     pub fn take_lines(&mut self) -> Vec<Line> {
         core::mem::take(&mut self.said)
     }
@@ -82,12 +82,13 @@ impl Session {
         self.said.push(Line { t_s: Some(self.time_s()), tone, text });
     }
 
-    fn list(&mut self, text: String) {
+    /// Prints a line of help, without a time.
+    fn explain(&mut self, text: String) {
         self.said.push(Line { t_s: None, tone: Tone::Plain, text });
     }
 
-    /// One tick of everything. `received` has come from ground stations since the last tick; what is returned goes to
-    /// them as one datagram.
+    /// One tick of vehicle and world. `received` holds the bytes from ground stations since the last tick; the returned
+    /// bytes are sent to them as one datagram.
     pub fn tick(&mut self, received: &[u8]) -> Option<TxBytes> {
         self.flight.autopilot.inner.receive(received);
         self.flight.step(&mut ());
@@ -100,11 +101,11 @@ impl Session {
         vehicle.has_transmit().then(|| vehicle.take_transmit())
     }
 
-    /// Makes fail what a ground station has been told fails.
+    /// Applies the failures that were accepted from ground stations.
     fn take_failures(&mut self) {
         for failure in self.flight.autopilot.inner.take_failures() {
             if failure.manner == Manner::Well {
-                self.say(Tone::Plain, format!("ground station: {:?} well again", failure.unit).to_lowercase());
+                self.say(Tone::Plain, format!("ground station: {:?} works again", failure.unit).to_lowercase());
             }
             for (slot, fault) in failures::of(&failure, self.flight.next_tick()) {
                 // The firmware is allowed failures on sensors alone, where this cannot fail.
@@ -113,7 +114,7 @@ impl Session {
         }
     }
 
-    /// What the commander has decided, and what has changed.
+    /// Reports the commander's decisions, and what has changed.
     fn look(&mut self) {
         let t_s = Some(self.time_s());
         for reply in self.flight.autopilot.inner.commander_output().replies.clone() {
@@ -125,7 +126,7 @@ impl Session {
         self.send();
     }
 
-    /// The commander's answer to a request of anybody's.
+    /// Reports the commander's answer to a request, whoever has sent it.
     fn hear(&mut self, reply: &Reply) {
         let request = reply.command.request;
         let who = match reply.command.origin {
@@ -151,7 +152,7 @@ impl Session {
         self.say(tone, format!("{who}{}: {outcome}", describe(&request)));
     }
 
-    /// Requests a velocity again, until the vehicle does something else.
+    /// Repeats the velocity until the vehicle leaves the mode.
     fn go_on_with_velocity(&mut self) {
         let Some((request, since)) = self.velocity else { return };
         if self.flight.autopilot.inner.commander_output().mode != Mode::Velocity {
@@ -162,7 +163,7 @@ impl Session {
         }
     }
 
-    /// Hands the next request to the commander, if none is on its way.
+    /// Sends the next request to the commander, unless it has one already.
     fn send(&mut self) {
         if self.asked.iter().any(|asked| asked.sent) {
             return;
@@ -176,7 +177,7 @@ impl Session {
     fn ask(&mut self, request: Request) {
         let asked = Asked { request, sent: false, quiet: false };
         if request == (Request::Disarm { force: true }) {
-            // Does not wait its turn, nor for what was to follow.
+            // Overtakes the waiting requests and drops them.
             self.asked.retain(|asked| asked.sent);
             let sent = self.flight.autopilot.inner.request(request).is_ok();
             self.asked.push_front(Asked { sent, ..asked });
@@ -186,8 +187,7 @@ impl Session {
         }
     }
 
-    /// Does what a line says, and answers: now, or once the commander has decided. A line that cannot be read does
-    /// nothing but be answered.
+    /// Executes a line, and answers at once or when the commander has decided. An invalid line only gets an answer.
     pub fn enter(&mut self, line: &str) -> Option<Control> {
         let done = parse::parse(line, self.flight.next_tick());
         match done.and_then(|command| command.map_or(Ok(None), |command| self.carry_out(&command))) {
@@ -202,7 +202,7 @@ impl Session {
     fn carry_out(&mut self, command: &Command) -> Result<Option<Control>> {
         match command {
             Command::Help(None) => self.list_commands(),
-            Command::Help(Some(entry)) => self.say(Tone::Plain, entry.help()),
+            Command::Help(Some(entry)) => self.explain(entry.help()),
             Command::Status => self.say(Tone::Plain, self.status()),
             Command::Request(request) => self.ask(*request),
             Command::GoTo { place, yaw_deg } => self.ask(self.go_to(*place, *yaw_deg)?),
@@ -226,11 +226,11 @@ impl Session {
     fn list_commands(&mut self) {
         let width = COMMANDS.iter().map(|entry| entry.usage().len()).max().unwrap_or(0);
         for entry in COMMANDS {
-            self.list(format!("{:width$}  {}", entry.usage(), entry.summary()));
+            self.explain(format!("{:width$}  {}", entry.usage(), entry.summary()));
         }
     }
 
-    /// A place, where what is left out is as it is now by the vehicle's own estimate.
+    /// The request for a place; missing coordinates are taken from the vehicle's estimate.
     fn go_to(&self, place: [Option<f64>; 3], yaw_deg: Option<f64>) -> Result<Request> {
         let nav = self.flight.autopilot.inner.nav();
         let mut position_m: [f32; 3] = nav.position.into();
@@ -254,7 +254,7 @@ impl Session {
         self.say(Tone::Plain, format!("{what}: north {north:.1}, west {west:.1}, up {up:.1} m/s"));
     }
 
-    /// A fault that begins at once is told by its beginning.
+    /// Starts a fault. One that begins at once is reported by [`Watch`], as scheduled ones are.
     fn inject(&mut self, fault: &Fault) -> Result<()> {
         let now_s = self.time_s();
         let fault = Fault { from_s: fault.from_s.max(now_s), ..*fault };
@@ -272,7 +272,7 @@ impl Session {
             self.say(Tone::Plain, "no faults".to_owned());
         }
         for line in lines {
-            self.list(line);
+            self.say(Tone::Plain, line);
         }
     }
 
@@ -324,7 +324,7 @@ impl Session {
     }
 }
 
-/// What rounds to zero is no negative zero.
+/// Rounds to 0.1, without negative zeros.
 fn shown(value: Vector3<f64>) -> [f64; 3] {
     [value.x, value.y, value.z].map(|value| (value * 10.0).round() / 10.0 + 0.0)
 }
@@ -351,7 +351,7 @@ fn describe(request: &Request) -> String {
     }
 }
 
-/// The commander's reason, and what helps.
+/// The commander's reason, and a remedy.
 fn refused(refusal: Refusal) -> String {
     let remedy = match refusal {
         Refusal::Disarmed => "; `arm` first",

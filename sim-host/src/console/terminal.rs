@@ -1,7 +1,7 @@
-//! Where lines are typed and printed: a terminal, or pipes.
+//! Reads typed lines and prints: on a terminal, or through pipes.
 //!
-//! On a terminal the typed line is kept below what is printed, so that neither tears the other apart: the terminal's own
-//! echo and line editing are switched off, and `Editor` takes their place. With pipes, whole lines go in and out.
+//! On a terminal the typed line stays below the printed ones: the terminal's own echo and line editing are switched
+//! off, and `Editor` takes their place. Pipes carry whole lines.
 
 use std::io::{IsTerminal as _, Read as _, Write as _};
 use std::sync::mpsc::{Receiver, channel};
@@ -10,10 +10,11 @@ use rustix::termios::{LocalModes, OptionalActions, Termios, tcgetattr, tcsetattr
 
 use super::line::{Line, Tone};
 use super::parse::completion;
+use crate::report::paint::{Colour, Paint, stdout_takes_escapes};
 
-/// Where lines come from, and where they go.
+/// Source of typed lines and destination of printed ones.
 pub trait Terminal {
-    /// The next line that has been typed, without waiting for one.
+    /// The next typed line, if any; does not wait.
     fn next_line(&mut self) -> Option<String>;
 
     /// Prints a line at once.
@@ -25,23 +26,21 @@ pub trait Terminal {
 pub struct Stdio {
     typed: Receiver<Vec<u8>>,
     editor: Editor,
-    /// How the terminal was; none with pipes.
+    /// The terminal's settings before; `None` with pipes.
     before: Option<Termios>,
-    colour: bool,
+    paint: Paint,
 }
 
-/// What stands before the line being typed.
+/// Prompt before the typed line.
 const PROMPT: &str = "> ";
 
 impl Stdio {
-    /// Starts to read standard input, in a thread of its own.
+    /// Starts to read standard input in a thread.
     pub fn new() -> Self {
-        let is_terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
-        let is_dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
-        let before = if is_terminal && !is_dumb { without_echo() } else { None };
-        let no_colour = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-        let colour = std::io::stdout().is_terminal() && !is_dumb && !no_colour;
-        let mut stdio = Self { typed: read_in_thread(), editor: Editor::default(), before, colour };
+        let is_terminal = std::io::stdin().is_terminal() && stdout_takes_escapes();
+        let before = if is_terminal { without_echo() } else { None };
+        let paint = Paint::for_stdout();
+        let mut stdio = Self { typed: read_in_thread(), editor: Editor::default(), before, paint };
         stdio.show_typed();
         stdio
     }
@@ -85,7 +84,7 @@ impl Terminal for Stdio {
 
     fn print(&mut self, line: &Line) {
         let start = if self.before.is_some() { "\r\x1b[K" } else { "" };
-        let text = if self.colour { coloured(line) } else { line.to_string() };
+        let text = self.paint.line(colour(line.tone), &line.to_string());
         if writeln!(std::io::stdout(), "{start}{text}").is_err() {
             // As in `sim-host serve | head`: nobody is there to read any more.
             crate::interrupt::request();
@@ -103,7 +102,7 @@ impl Drop for Stdio {
     }
 }
 
-/// Switches off the terminal's echo and line editing; returns how it was.
+/// Switches off the terminal's echo and line editing; returns its settings before.
 fn without_echo() -> Option<Termios> {
     let before = tcgetattr(std::io::stdin()).ok()?;
     let mut without = before.clone();
@@ -112,7 +111,7 @@ fn without_echo() -> Option<Termios> {
     Some(before)
 }
 
-/// Bytes of standard input as they come.
+/// Reads standard input in a thread; the receiver gets the bytes as they arrive.
 fn read_in_thread() -> Receiver<Vec<u8>> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || {
@@ -128,29 +127,28 @@ fn read_in_thread() -> Receiver<Vec<u8>> {
     receiver
 }
 
-fn coloured(line: &Line) -> String {
-    let code = match line.tone {
-        Tone::Plain => return line.to_string(),
-        Tone::Good => 32,
-        Tone::Refused => 33,
-        Tone::Alarm => 31,
-    };
-    format!("\x1b[{code}m{line}\x1b[0m")
+const fn colour(tone: Tone) -> Colour {
+    match tone {
+        Tone::Plain => Colour::None,
+        Tone::Good => Colour::Green,
+        Tone::Refused => Colour::Yellow,
+        Tone::Alarm => Colour::Red,
+    }
 }
 
 /// A line being typed: its letters, and those entered before.
 #[derive(Debug, Default)]
 struct Editor {
     typed: Vec<u8>,
-    /// Whole lines that nobody has taken yet.
+    /// Entered lines that were not taken yet.
     lines: std::collections::VecDeque<String>,
     history: Vec<String>,
-    /// Which of the history is shown, counted from the newest.
+    /// Entry of the history on display, counted from the newest; 0 for none.
     back: usize,
     escape: Escape,
 }
 
-/// How far a key's escape sequence has come.
+/// State within a key's escape sequence.
 #[derive(Debug, Default, PartialEq)]
 enum Escape {
     #[default]
@@ -159,7 +157,7 @@ enum Escape {
     Control,
 }
 
-/// Longer lines are cut.
+/// Longest line, bytes; longer ones are truncated.
 const LINE_MAX: usize = 1000;
 
 impl Editor {
@@ -175,7 +173,7 @@ impl Editor {
         self.lines.pop_front()
     }
 
-    /// A byte from the keyboard.
+    /// Takes a byte from the keyboard.
     fn feed(&mut self, byte: u8) {
         const BACKSPACE: u8 = 0x08;
         const DELETE: u8 = 0x7f;
@@ -207,7 +205,7 @@ impl Editor {
         self.lines.push_back(line);
     }
 
-    /// The rest of a cursor key: up and down go through the history, others do nothing.
+    /// A further byte of a control sequence: the up and down keys go through the history, others do nothing.
     fn control(&mut self, byte: u8) {
         // Digits and semicolons stand before the letter that ends it.
         if !(0x40..=0x7e).contains(&byte) {
@@ -230,7 +228,7 @@ impl Editor {
         }
     }
 
-    /// A letter, which may be several bytes.
+    /// Erases a letter, which may be several bytes.
     fn erase(&mut self) {
         while self.typed.pop().is_some_and(|byte| byte & 0xc0 == 0x80) {}
     }

@@ -26,19 +26,15 @@ impl Directory {
         let text = path.to_str().unwrap_or(" ");
         ensure!(
             !text.contains(|c: char| c.is_whitespace() || c == ',') && text.len() < 240,
-            "the folder for temporary files, {}, has a name that QEMU cannot take: set TMPDIR",
+            "QEMU cannot take the name of the folder for temporary files, {}: set TMPDIR to one without spaces and commas",
             path.display()
         );
         let made = DirBuilder::new().mode(0o700).create(&path);
-        made.with_context(|| format!("{} cannot be made", path.display()))?;
+        made.with_context(|| format!("cannot create {}", path.display()))?;
         let directory = Self { path };
-        // The program and not the call, which macOS has under another name.
+        // The program, because macOS has the system call under another name.
         let status = Command::new("mkfifo").arg(directory.towards_image()).arg(directory.out_of_image()).status();
-        ensure!(
-            status.context("`mkfifo` cannot be run")?.success(),
-            "`mkfifo` has failed in {}",
-            directory.path.display()
-        );
+        ensure!(status.context("cannot run `mkfifo`")?.success(), "`mkfifo` failed in {}", directory.path.display());
         Ok(directory)
     }
 
@@ -57,7 +53,7 @@ impl Directory {
 
 impl Drop for Directory {
     fn drop(&mut self) {
-        // Left behind it does no harm, and there is nobody to tell.
+        // A folder that stays does no harm.
         let _ = std::fs::remove_dir_all(&self.path);
     }
 }
@@ -68,17 +64,17 @@ fn open(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
 
 /// The reading end; the writer may come later.
 pub(super) fn open_to_read(path: &Path) -> Result<File> {
-    open(path, OpenOptions::new().read(true)).with_context(|| format!("{} cannot be opened", path.display()))
+    open(path, OpenOptions::new().read(true)).with_context(|| format!("cannot open {}", path.display()))
 }
 
-/// The writing end, as soon as there is a reader; `alive` may say why there never will be one.
+/// The writing end, as soon as there is a reader. `alive` fails if there never will be one.
 pub(super) fn open_to_write(path: &Path, timeout: Duration, mut alive: impl FnMut() -> Result<()>) -> Result<File> {
     let end = Instant::now() + timeout;
     loop {
         match open(path, OpenOptions::new().write(true)) {
             Ok(file) => return Ok(file),
             Err(error) if error.raw_os_error() == Some(rustix::io::Errno::NXIO.raw_os_error()) => {}
-            Err(error) => return Err(error).with_context(|| format!("{} cannot be opened", path.display())),
+            Err(error) => return Err(error).with_context(|| format!("cannot open {}", path.display())),
         }
         alive()?;
         if Instant::now() > end {
@@ -88,7 +84,7 @@ pub(super) fn open_to_write(path: &Path, timeout: Duration, mut alive: impl FnMu
     }
 }
 
-/// Writes all of it, or fails after `timeout`.
+/// Writes all bytes, or fails after `timeout`.
 pub(super) fn write(file: &mut File, mut bytes: &[u8], timeout: Duration) -> io::Result<()> {
     while !bytes.is_empty() {
         match file.write(bytes) {
@@ -101,7 +97,7 @@ pub(super) fn write(file: &mut File, mut bytes: &[u8], timeout: Duration) -> io:
     Ok(())
 }
 
-/// Fills the buffer, or fails after `timeout`. [`ErrorKind::UnexpectedEof`] if the writer has gone.
+/// Fills the buffer, or fails after `timeout`. [`ErrorKind::UnexpectedEof`] if the writer has closed its end.
 pub(super) fn read(file: &mut File, mut buffer: &mut [u8], timeout: Duration) -> io::Result<()> {
     while !buffer.is_empty() {
         match file.read(buffer) {
@@ -149,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn a_writer_that_has_gone_is_an_end() {
+    fn a_closed_writing_end_is_the_end_of_the_file() {
         let directory = Directory::create().expect("a folder");
         let mut reader = open_to_read(&directory.out_of_image()).expect("does not wait");
         drop(open_to_write(&directory.out_of_image(), SHORT, || Ok(())).expect("there is a reader"));

@@ -52,19 +52,19 @@ impl Qemu {
                 Ok(status) => anyhow!("{PROGRAM} has ended ({status}){}", self.process.complaint()),
                 Err(error) => error,
             },
-            _ => anyhow::Error::new(error).context("the pipe to the image has failed"),
+            _ => anyhow::Error::new(error).context("the pipe to the image failed"),
         }
     }
 
-    /// Until it ends of itself.
+    /// Waits until it ends by itself.
     pub(super) fn wait(mut self) -> Result<()> {
         let status = self.process.end(self.timeout)?;
-        ensure!(status.success(), "{PROGRAM} has ended badly ({status}){}", self.process.complaint());
+        ensure!(status.success(), "{PROGRAM} has failed ({status}){}", self.process.complaint());
         Ok(())
     }
 }
 
-/// Whether a file begins as an ELF file does. QEMU boots anything, and complains in many lines.
+/// Whether a file begins like an ELF file. QEMU would boot any file, and fail with many lines of text.
 fn is_elf(path: &Path) -> bool {
     let mut start = [0; 4];
     File::open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok() && start == *b"\x7fELF"
@@ -94,7 +94,7 @@ impl Process {
             Err(error) if error.kind() == ErrorKind::NotFound => bail!(
                 "{PROGRAM} is not installed: `apt install qemu-system-arm` (Debian) or `brew install qemu` (macOS)"
             ),
-            Err(error) => Err(error).with_context(|| format!("{PROGRAM} cannot be started")),
+            Err(error) => Err(error).with_context(|| format!("cannot start {PROGRAM}")),
         }
     }
 
@@ -117,11 +117,11 @@ impl Process {
         }
     }
 
-    /// The last line that it wrote as an error, once it has ended.
+    /// The last line on its standard error, once it has ended.
     fn complaint(&mut self) -> String {
         let mut text = String::new();
         if let Some(stderr) = &mut self.child.stderr {
-            // What cannot be read is not said.
+            // Without it, the exit status has to do.
             let _ = stderr.read_to_string(&mut text);
         }
         text.lines().last().map(|line| format!(": {line}")).unwrap_or_default()
@@ -130,7 +130,7 @@ impl Process {
 
 impl Drop for Process {
     fn drop(&mut self) {
-        // It may have ended already.
+        // Fails if it has ended already.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

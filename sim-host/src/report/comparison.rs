@@ -1,11 +1,11 @@
 //! A comparison as people and scripts read it: tables for the terminal and for a document, JSON, a CSV row a flight.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 
+use super::out::write_file;
 use crate::compare::{Cell, Comparison, Figure, FlightScore, LostCell, Medians, Overall};
 use crate::statistics::{Estimate, FOR_AN_INTERVAL};
 use crate::words::counted;
@@ -43,9 +43,7 @@ pub fn write(comparison: &Comparison, folder: &Path) -> Result<()> {
     for (name, text) in
         [("compare.json", json), ("compare.csv", csv(&comparison.flights)), ("compare.md", markdown(comparison))]
     {
-        let path = folder.join(name);
-        fs::write(&path, text)
-            .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))?;
+        write_file(&folder.join(name), text)?;
     }
     Ok(())
 }

@@ -4,12 +4,13 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use firmware::commander::Mode;
 use firmware::estimator::update::Verdict;
 use firmware::signals::{NavHealth, NavState, Tick};
 use nalgebra::Vector3;
 
+use super::out::{cannot_write, create_file};
 use crate::assess::consistency::{SOURCES, kind};
 use crate::plant::Motion;
 use crate::record::Navigation;
@@ -104,9 +105,7 @@ impl EstimateWriter<BufWriter<File>> {
     /// # Errors
     /// When the file cannot be created; the message names it.
     pub fn create(path: &Path) -> Result<Self> {
-        let file = File::create(path).with_context(|| {
-            format!("cannot create {}: choose a folder you can write to with --out", path.display())
-        })?;
+        let file = create_file(path)?;
         Ok(Self::new(BufWriter::new(file), path.to_owned()))
     }
 }
@@ -136,7 +135,7 @@ impl<W: Write> EstimateWriter<W> {
     /// The first I/O error of the whole flight; the message names the file.
     pub fn finish(mut self) -> Result<()> {
         let flushed = self.out.flush();
-        self.outcome.and(flushed).with_context(|| format!("cannot write {}: is the disk full?", self.name.display()))
+        self.outcome.and(flushed).map_err(|error| cannot_write(&self.name, error))
     }
 }
 
@@ -250,6 +249,6 @@ pub(super) mod tests {
         let mut writer = EstimateWriter::new(Full, "estimate.csv".into());
         writer.write(&belief(0.0));
         let error = format!("{:#}", writer.finish().expect_err("the disk was full"));
-        assert!(error.contains("estimate.csv") && error.contains("disk full"), "{error}");
+        assert!(error.contains("estimate.csv") && error.contains("free some space"), "{error}");
     }
 }

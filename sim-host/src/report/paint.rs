@@ -19,6 +19,19 @@ pub struct Paint {
     on: bool,
 }
 
+/// Colour of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colour {
+    /// The terminal's own.
+    None,
+    /// Something has failed.
+    Red,
+    /// Something went well.
+    Green,
+    /// Something was refused.
+    Yellow,
+}
+
 impl Paint {
     /// None: for files and pipes.
     pub const PLAIN: Self = Self { on: false };
@@ -26,8 +39,17 @@ impl Paint {
     /// For standard output: none unless it is a terminal, nor if `NO_COLOR` is set or `TERM` is `dumb`.
     pub fn for_stdout() -> Self {
         let wanted = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
-        let able = std::env::var_os("TERM").is_some_and(|term| term != "dumb");
-        Self { on: wanted && able && std::io::stdout().is_terminal() }
+        Self { on: wanted && stdout_takes_escapes() }
+    }
+
+    /// A whole line in one colour.
+    pub fn line(self, colour: Colour, text: &str) -> String {
+        match colour {
+            Colour::None => text.to_owned(),
+            Colour::Red => self.paint("31", text),
+            Colour::Green => self.paint("32", text),
+            Colour::Yellow => self.paint("33", text),
+        }
     }
 
     /// Bold: green for what is well, yellow for what was flown but not as it should be, red for what failed.
@@ -55,6 +77,11 @@ impl Paint {
     }
 }
 
+/// Whether standard output is a terminal that knows escape sequences: `TERM` is set, and not `dumb`.
+pub fn stdout_takes_escapes() -> bool {
+    std::env::var_os("TERM").is_some_and(|term| term != "dumb") && std::io::stdout().is_terminal()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,6 +92,8 @@ mod tests {
         assert_eq!(paint.verdict("well", Verdict::Good), "\x1b[1;32mwell\x1b[0m");
         assert_eq!(paint.verdict("so so", Verdict::Off), "\x1b[1;33mso so\x1b[0m");
         assert_eq!(paint.dim("a\n\nb\n"), "\x1b[2ma\x1b[0m\n\n\x1b[2mb\x1b[0m\n");
+        assert_eq!(paint.line(Colour::Yellow, "refused"), "\x1b[33mrefused\x1b[0m");
+        assert_eq!((paint.line(Colour::None, "a"), Paint::PLAIN.line(Colour::Red, "b")), ("a".into(), "b".into()));
         assert_eq!(Paint::PLAIN.verdict("well", Verdict::Failed) + &Paint::PLAIN.dim("a\n"), "wella\n");
     }
 }

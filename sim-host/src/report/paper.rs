@@ -1,11 +1,11 @@
 //! The paper's study as people and scripts read it: blocks for the terminal, a table for a document, JSON.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 
+use super::out::write_file;
 use crate::paper::{Line, Study};
 
 /// Letters of a line on the terminal.
@@ -20,9 +20,7 @@ const INDENT: &str = "    ";
 pub fn write(study: &Study, folder: &Path) -> Result<()> {
     let json = serde_json::to_string_pretty(study)? + "\n";
     for (name, text) in [("paper.json", json), ("paper.md", markdown(study))] {
-        let path = folder.join(name);
-        fs::write(&path, text)
-            .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))?;
+        write_file(&folder.join(name), text)?;
     }
     Ok(())
 }

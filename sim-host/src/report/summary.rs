@@ -1,15 +1,15 @@
 //! A flight in one object: what `--json` prints and `summary.json` keeps. The keys are an interface that people
 //! script against; [`Summary`]'s fields are those keys, in order.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use serde::Serialize;
 
 use super::measures::finite;
 use super::metrics::{Axes, AxisFigures, ControlEffort, EndErrors, Metrics, Recovery, TiltFigures, WIDE_BAND};
 use super::mission::Mission;
+use super::out::write_file;
 use super::sensed::Sensed;
 use super::timeline::{Course, Leg, Timeline, order_text};
 use super::touchdown::Crash;
@@ -256,8 +256,7 @@ impl Summary {
     /// When the file cannot be written; the message names it.
     pub fn write(&self, folder: &Path) -> Result<PathBuf> {
         let path = folder.join("summary.json");
-        fs::write(&path, self.to_file_text())
-            .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))?;
+        write_file(&path, self.to_file_text())?;
         Ok(path)
     }
 }

@@ -249,7 +249,6 @@ impl TimelineRecorder {
             Mode::Idle => ("armed", None, false),
             Mode::GoTo => ("go-to", Some(self.legs_given()), true),
             Mode::Follow if matches!(commander.directive, Directive::GoTo { .. }) => ("join", None, true),
-            Mode::Follow => ("trajectory", None, true),
             mode @ (Mode::Descent | Mode::MotorOut) => (mode.name(), None, false),
             mode => (mode.name(), None, true),
         }

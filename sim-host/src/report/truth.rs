@@ -9,9 +9,10 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use sha2::{Digest, Sha256};
 
+use super::out::{cannot_write, create_file};
 use crate::record::{Recorder, Row};
 
 /// Number of columns.
@@ -82,9 +83,7 @@ impl TruthWriter<File> {
     /// # Errors
     /// When the file cannot be created; the message names it.
     pub fn create(path: &Path) -> Result<Self> {
-        let file = File::create(path).with_context(|| {
-            format!("cannot create {}: choose a folder you can write to with --out", path.display())
-        })?;
+        let file = create_file(path)?;
         Ok(Self::named(file, path.to_owned()))
     }
 }
@@ -116,9 +115,7 @@ impl<W: Write> TruthWriter<W> {
     pub fn finish(mut self) -> Result<String> {
         self.pass_block();
         let flushed = self.out.flush();
-        self.outcome
-            .and(flushed)
-            .with_context(|| format!("cannot write {}: is the disk full?", self.name.display()))?;
+        self.outcome.and(flushed).map_err(|error| cannot_write(&self.name, error))?;
         Ok(hex(&self.hash.finalize()))
     }
 
@@ -331,6 +328,6 @@ mod tests {
             writer.record(&row);
         }
         let error = format!("{:#}", writer.finish().expect_err("the disk was full"));
-        assert!(error.contains("truth.csv") && error.contains("disk full"), "{error}");
+        assert!(error.contains("truth.csv") && error.contains("free some space"), "{error}");
     }
 }

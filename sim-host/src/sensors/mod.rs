@@ -116,6 +116,7 @@ impl<M: Model> Fitted<M> {
 /// The sensors of a flight.
 #[derive(Clone, Debug)]
 pub struct Suite {
+    file: SuiteFile,
     imu: Fitted<InertialUnit>,
     mag: Option<Fitted<Magnetometer>>,
     baro: Option<Fitted<Barometer>>,
@@ -133,6 +134,7 @@ impl Suite {
     /// A valid suite at a home, under a schedule of faults and a seed.
     pub fn new(suite: &SuiteFile, home: &Home, faults: &[Fault], seed: u64) -> Self {
         Self {
+            file: suite.clone(),
             imu: Fitted::new(InertialUnit::new(&suite.imu, seed)),
             mag: suite.mag.as_ref().map(|spec| Fitted::new(Magnetometer::new(spec, home, seed))),
             baro: suite.baro.as_ref().map(|spec| Fitted::new(Barometer::new(spec, home, seed))),
@@ -202,14 +204,7 @@ impl Suite {
 
     /// Whether the suite has a sensor.
     pub fn has(&self, sensor: Sensor) -> bool {
-        match sensor {
-            Sensor::Imu | Sensor::Gyro | Sensor::Accel => true,
-            Sensor::Mag => self.mag.is_some(),
-            Sensor::Baro => self.baro.is_some(),
-            Sensor::Gnss => self.gnss.is_some(),
-            Sensor::Pose => self.pose.is_some(),
-            Sensor::Battery => self.battery.is_some(),
-        }
+        self.file.has(sensor)
     }
 
     /// The faults to apply to rotors and battery at a tick, if they have changed. `None` until faults have been started

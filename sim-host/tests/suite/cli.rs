@@ -2,58 +2,10 @@
 
 use std::fs;
 use std::net::UdpSocket;
-use std::path::PathBuf;
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
-/// A folder of its own, in which the program runs: it needs nothing beside it.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("glissade-{}-cli-{name}", std::process::id()));
-        fs::create_dir_all(&path).expect("the temporary folder can be written");
-        Self(path)
-    }
-
-    fn run(&self, arguments: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_sim-host"))
-            .args(arguments)
-            .current_dir(&self.0)
-            .output()
-            .expect("the program starts")
-    }
-
-    fn file(&self, name: &str, text: &str) -> String {
-        let path = self.0.join(name);
-        fs::write(&path, text).expect("the temporary folder can be written");
-        path.to_str().expect("a plain path").to_owned()
-    }
-
-    fn succeeds(&self, arguments: &[&str]) -> String {
-        let output = self.run(arguments);
-        assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).expect("UTF-8")
-    }
-
-    /// One line on standard error that holds `culprit`, nothing on standard output, exit code 2.
-    fn refuses(&self, arguments: &[&str], culprit: &str) {
-        let output = self.run(arguments);
-        let complaint = String::from_utf8(output.stderr).expect("UTF-8");
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {complaint}");
-        assert_eq!(complaint.lines().count(), 1, "{arguments:?}: {complaint}");
-        assert!(complaint.contains(culprit), "{arguments:?}: {complaint}");
-        assert!(!complaint.contains("panicked"), "{arguments:?}: {complaint}");
-        assert!(output.stdout.is_empty(), "{arguments:?}");
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
+use crate::common::folder::Folder;
 
 const HELIX: &str = include_str!("../../scenarios/helix.toml");
 const AIRFRAME: &str = include_str!("../../airframes/paper.toml");
@@ -61,36 +13,36 @@ const AIRFRAME: &str = include_str!("../../airframes/paper.toml");
 #[test]
 fn unknown_names_are_refused() {
     let folder = Folder::new("names");
-    folder.refuses(&["run", "helicks"], "helicks");
-    folder.refuses(&["run", "helix", "--set", "airframe=papper"], "papper");
-    folder.refuses(&["serve", "padd"], "padd");
-    folder.refuses(&["plan", "helicks"], "helicks");
-    folder.refuses(&["run", "helix", "--colour"], "--colour");
-    folder.refuses(&["run"], "SCENARIO");
-    folder.refuses(&["fly", "helix"], "fly");
-    folder.refuses(&["run", "helix", "extra"], "extra");
+    folder.refuses(&["run", "helicks"], &["helicks"]);
+    folder.refuses(&["run", "helix", "--set", "airframe=papper"], &["papper"]);
+    folder.refuses(&["serve", "padd"], &["padd"]);
+    folder.refuses(&["plan", "helicks"], &["helicks"]);
+    folder.refuses(&["run", "helix", "--colour"], &["--colour"]);
+    folder.refuses(&["run"], &["SCENARIO"]);
+    folder.refuses(&["fly", "helix"], &["fly"]);
+    folder.refuses(&["run", "helix", "extra"], &["extra"]);
 }
 
 #[test]
 fn bad_values_of_options_are_refused() {
     let folder = Folder::new("options");
     for bad in ["8..1", "1", "one..two", "1..99999999999"] {
-        folder.refuses(&["run", "helix", "--seeds", bad], "--seeds");
+        folder.refuses(&["run", "helix", "--seeds", bad], &["--seeds"]);
     }
-    folder.refuses(&["run", "helix", "--seed", "-1"], "-1");
-    folder.refuses(&["run", "helix", "--seed", "1", "--seeds", "1..2"], "--seed");
-    folder.refuses(&["run", "helix", "--seeds", "1..2", "--jobs", "0"], "--jobs");
-    folder.refuses(&["run", "helix", "--seeds", "1..2", "--jobs", "many"], "--jobs");
-    folder.refuses(&["run", "helix", "--set", "duration_s"], "duration_s");
-    folder.refuses(&["run", "helix", "--set", "colour=1"], "colour");
-    folder.refuses(&["run", "helix", "--set", "duration_s=-1"], "duration_s");
-    folder.refuses(&["run", "helix", "--set", "duration_s=nan"], "duration_s");
-    folder.refuses(&["run", "helix", "--set", "airframe.mass_kg=-1"], "mass_kg");
-    folder.refuses(&["serve", "--listen", "nowhere"], "--listen");
-    folder.refuses(&["serve", "--speed", "0"], "speed");
-    folder.refuses(&["serve", "paper-ideal"], "paper-ideal");
-    folder.refuses(&["bench", "--runs", "0"], "--runs");
-    folder.refuses(&["bench", "--seconds", "nan"], "--seconds");
+    folder.refuses(&["run", "helix", "--seed", "-1"], &["-1"]);
+    folder.refuses(&["run", "helix", "--seed", "1", "--seeds", "1..2"], &["--seed"]);
+    folder.refuses(&["run", "helix", "--seeds", "1..2", "--jobs", "0"], &["--jobs"]);
+    folder.refuses(&["run", "helix", "--seeds", "1..2", "--jobs", "many"], &["--jobs"]);
+    folder.refuses(&["run", "helix", "--set", "duration_s"], &["duration_s"]);
+    folder.refuses(&["run", "helix", "--set", "colour=1"], &["colour"]);
+    folder.refuses(&["run", "helix", "--set", "duration_s=-1"], &["duration_s"]);
+    folder.refuses(&["run", "helix", "--set", "duration_s=nan"], &["duration_s"]);
+    folder.refuses(&["run", "helix", "--set", "airframe.mass_kg=-1"], &["mass_kg"]);
+    folder.refuses(&["serve", "--listen", "nowhere"], &["--listen"]);
+    folder.refuses(&["serve", "--speed", "0"], &["speed"]);
+    folder.refuses(&["serve", "paper-ideal"], &["paper-ideal"]);
+    folder.refuses(&["bench", "--runs", "0"], &["--runs"]);
+    folder.refuses(&["bench", "--seconds", "nan"], &["--seconds"]);
 }
 
 /// helix.toml with `from` replaced, which must be there.
@@ -121,15 +73,15 @@ fn spoilt_scenario_files_are_refused() {
     ];
     for (name, text, culprit) in cases {
         let path = folder.file(&format!("{name}.toml"), &text);
-        folder.refuses(&["run", &path], culprit);
-        folder.refuses(&["run", &path], name);
+        folder.refuses(&["run", &path], &[culprit]);
+        folder.refuses(&["run", &path], &[name]);
     }
     fs::write(folder.0.join("bytes.toml"), [0xff, 0xfe, 0x00]).expect("can be written");
-    folder.refuses(&["run", "./bytes.toml"], "bytes.toml");
-    folder.refuses(&["run", "./gone.toml"], "gone.toml");
+    folder.refuses(&["run", "./bytes.toml"], &["bytes.toml"]);
+    folder.refuses(&["run", "./gone.toml"], &["gone.toml"]);
     let directory = folder.0.join("folder.toml");
     fs::create_dir(&directory).expect("can be made");
-    folder.refuses(&["run", "./folder.toml"], "folder.toml");
+    folder.refuses(&["run", "./folder.toml"], &["folder.toml"]);
 }
 
 #[test]
@@ -148,24 +100,24 @@ fn spoilt_airframe_files_are_refused() {
     ];
     for (from, to, culprit) in cases {
         assert!(AIRFRAME.contains(from), "{from}");
-        let airframe = folder.file("airframe.toml", &AIRFRAME.replacen(from, to, 1));
-        let scenario = folder.file("scenario.toml", &spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
-        folder.refuses(&["run", &scenario], culprit);
+        let airframe = folder.file("airframe.toml", AIRFRAME.replacen(from, to, 1));
+        let scenario = folder.file("scenario.toml", spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
+        folder.refuses(&["run", &scenario], &[culprit]);
     }
     // Four rotors that all push the same way cannot yaw independently of thrust.
-    let airframe = folder.file("airframe.toml", &AIRFRAME.replace("= -33e-6", "= 33e-6"));
-    let scenario = folder.file("scenario.toml", &spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
-    folder.refuses(&["run", &scenario], "rotors");
+    let airframe = folder.file("airframe.toml", AIRFRAME.replace("= -33e-6", "= 33e-6"));
+    let scenario = folder.file("scenario.toml", spoilt("plant =", &format!("airframe = '{airframe}'\nplant =")));
+    folder.refuses(&["run", &scenario], &["rotors"]);
 }
 
 #[test]
 fn an_output_that_cannot_be_written_is_named() {
     let folder = Folder::new("out");
     folder.file("taken", "");
-    folder.refuses(&["run", "helix", "--set", "duration_s=1", "--out", "taken"], "taken");
-    folder.refuses(&["run", "helix", "--set", "duration_s=1", "--out", "taken/below"], "taken");
+    folder.refuses(&["run", "helix", "--set", "duration_s=1", "--out", "taken"], &["taken"]);
+    folder.refuses(&["run", "helix", "--set", "duration_s=1", "--out", "taken/below"], &["taken"]);
     fs::create_dir_all(folder.0.join("here/truth.csv")).expect("can be made");
-    folder.refuses(&["run", "helix", "--set", "duration_s=1", "--out", "here"], "truth.csv");
+    folder.refuses(&["run", "helix", "--set", "duration_s=1", "--out", "here"], &["truth.csv"]);
 }
 
 #[test]
@@ -173,7 +125,7 @@ fn a_busy_port_is_named() {
     let folder = Folder::new("port");
     let socket = UdpSocket::bind("127.0.0.1:0").expect("a free port");
     let address = socket.local_addr().expect("bound").to_string();
-    folder.refuses(&["serve", "--listen", &address], &address);
+    folder.refuses(&["serve", "--listen", &address], &[&address]);
 }
 
 const NULLABLE: [&str; 5] = ["settle_5cm_s", "settle_2mm_s", "rms_m", "max_m", "overshoot"];
@@ -213,7 +165,7 @@ fn json_is_one_object_or_one_array_with_the_documented_keys() {
 fn a_file_s_path_and_settings_work_from_any_folder() {
     let folder = Folder::new("path");
     folder.file("mine.toml", HELIX);
-    folder.file("heavy.toml", &AIRFRAME.replace("0.823", "1.0"));
+    folder.file("heavy.toml", AIRFRAME.replace("0.823", "1.0"));
     let text = folder.succeeds(&["run", "./mine.toml", "--set", "duration_s=2", "--out", "out/deep", "--json"]);
     let summary: Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(summary["duration_s"], 2.0);
@@ -306,8 +258,8 @@ fn tuning(softness: f64) -> String {
 fn compared(name: &str) -> Folder {
     let folder = Folder::new(name);
     folder.file("matrix.toml", MATRIX);
-    folder.file("stiff.toml", &tuning(1.0));
-    folder.file("soft.toml", &tuning(2.0));
+    folder.file("stiff.toml", tuning(1.0));
+    folder.file("soft.toml", tuning(2.0));
     folder
 }
 
@@ -359,13 +311,13 @@ fn a_comparison_can_be_narrowed() {
 #[test]
 fn a_comparison_of_what_is_not_there_is_refused() {
     let folder = compared("refused");
-    folder.refuses(&["compare", "x600"], "x600");
-    folder.refuses(&["compare", "matrix.toml", "--controllers", "stiff.toml,x500-lqr"], "x500-lqr");
-    folder.refuses(&["compare", "matrix.toml", "--controllers", "gone.toml"], "gone.toml");
-    folder.refuses(&["compare", "matrix.toml", "--scenarios", "hovver"], "hovver");
-    folder.refuses(&["compare", "matrix.toml", "--disturbances", "gusts,rain"], "rain");
-    folder.refuses(&["compare", "matrix.toml", "--jobs", "0"], "--jobs");
-    folder.refuses(&["compare", "matrix.toml", "--seeds", "2..1"], "--seeds");
+    folder.refuses(&["compare", "x600"], &["x600"]);
+    folder.refuses(&["compare", "matrix.toml", "--controllers", "stiff.toml,x500-lqr"], &["x500-lqr"]);
+    folder.refuses(&["compare", "matrix.toml", "--controllers", "gone.toml"], &["gone.toml"]);
+    folder.refuses(&["compare", "matrix.toml", "--scenarios", "hovver"], &["hovver"]);
+    folder.refuses(&["compare", "matrix.toml", "--disturbances", "gusts,rain"], &["rain"]);
+    folder.refuses(&["compare", "matrix.toml", "--jobs", "0"], &["--jobs"]);
+    folder.refuses(&["compare", "matrix.toml", "--seeds", "2..1"], &["--seeds"]);
     for (from, to, culprit) in [
         ("1..4", "100..101", "training_seeds"),
         ("101..106", "106", "seeds"),
@@ -377,7 +329,7 @@ fn a_comparison_of_what_is_not_there_is_refused() {
         ("summary", "colour = 1\nsummary", "colour"),
     ] {
         assert!(MATRIX.contains(from), "{from}");
-        folder.file("spoilt.toml", &MATRIX.replacen(from, to, 1));
-        folder.refuses(&["compare", "spoilt.toml"], culprit);
+        folder.file("spoilt.toml", MATRIX.replacen(from, to, 1));
+        folder.refuses(&["compare", "spoilt.toml"], &[culprit]);
     }
 }

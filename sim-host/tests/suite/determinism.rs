@@ -1,28 +1,14 @@
 //! One flight, bit for bit: the same seed gives the same bytes, at any number of threads; and what truth.csv says obeys
 //! the rigid-body equations, integrated again by a model written here.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use nalgebra::{Quaternion, Vector3};
 
+use crate::common::folder::Folder;
+
 type V = Vector3<f64>;
-
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("glissade-{}-{name}", std::process::id()));
-        std::fs::create_dir_all(&path).expect("the temporary folder can be written");
-        Self(path)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
 
 /// Runs `sim-host run` and returns its standard output.
 fn run(arguments: &[&str], out: &Path) -> String {

@@ -1,55 +1,21 @@
 //! How flights end, and what they leave: verdicts by the truth, folders that are whole, and Ctrl-C.
 
 use std::fs;
-use std::path::PathBuf;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command};
 use std::time::Duration;
 
 use serde_json::Value;
 
-/// A folder of its own, in which the program runs.
-struct Folder(PathBuf);
+use crate::common::folder::Folder;
 
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("glissade-{}-endings-{name}", std::process::id()));
-        fs::create_dir_all(&path).expect("the temporary folder can be written");
-        Self(path)
+/// Starts a flight of a day, and waits until its truth.csv grows. No other run has begun in that folder.
+fn flying(folder: &Folder, out: &str) -> Child {
+    let child = folder.command(&["run", "day", "--out", out]).spawn().expect("the program starts");
+    let truth = folder.0.join(format!(".{out}.1.partial/new/truth.csv"));
+    while fs::metadata(&truth).map_or(0, |file| file.len()) < 1_000_000 {
+        std::thread::sleep(Duration::from_millis(5));
     }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sim-host"));
-        command.args(arguments).current_dir(&self.0).stdout(Stdio::piped()).stderr(Stdio::piped());
-        command
-    }
-
-    fn run(&self, arguments: &[&str]) -> Output {
-        self.command(arguments).output().expect("the program starts")
-    }
-
-    fn json(&self, arguments: &[&str]) -> Value {
-        serde_json::from_slice(&self.run(arguments).stdout).expect("JSON")
-    }
-
-    fn text(&self, arguments: &[&str]) -> String {
-        String::from_utf8(self.run(arguments).stdout).expect("UTF-8")
-    }
-
-    /// Starts a flight of a day, and waits until its truth.csv grows.
-    fn flying(&self, out: &str) -> Child {
-        let child = self.command(&["run", "day", "--out", out]).spawn().expect("the program starts");
-        let truth = self.0.join(format!(".{out}.partial/truth.csv"));
-        while fs::metadata(&truth).map_or(0, |file| file.len()) < 1_000_000 {
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        child
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
+    child
 }
 
 #[test]
@@ -140,21 +106,26 @@ fn a_killed_run_leaves_the_folder_of_the_flight_before() {
     let folder = Folder::new("killed");
     folder.json(&["run", "step", "--set", "duration_s=1", "--out", "out", "--json"]);
     let whole = fs::read(folder.0.join("out/truth.csv")).expect("it is there");
-    let mut child = folder.flying("out");
+    let mut child = flying(&folder, "out");
     child.kill().and_then(|()| child.wait()).expect("it can be killed");
     assert!(fs::read(folder.0.join("out/truth.csv")).expect("it is still there") == whole);
     folder.json(&["run", "step", "--set", "duration_s=2", "--out", "out", "--json"]);
     assert_eq!(fs::read_to_string(folder.0.join("out/truth.csv")).expect("it is there").lines().count(), 1 + 2000);
-    assert!(!folder.0.join(".out.partial").exists() && !folder.0.join("out/estimate.csv").exists());
+    assert_eq!(folder.names(), ["out"]);
+    assert!(!folder.0.join("out/estimate.csv").exists());
 }
 
-#[cfg(unix)]
+/// Sends a signal to the program.
+fn signal(child: &Child, name: &str) {
+    let status = Command::new("kill").args([format!("-{name}"), child.id().to_string()]).status();
+    assert!(status.expect("kill is there").success());
+}
+
 #[test]
 fn an_interrupted_flight_keeps_what_was_flown() {
     let folder = Folder::new("interrupted");
-    let child = folder.flying("out");
-    let pid = child.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &pid]).status().expect("kill is there").success());
+    let child = flying(&folder, "out");
+    signal(&child, "INT");
     let output = child.wait_with_output().expect("it ends");
     assert_eq!(output.status.code(), Some(130));
     let text = String::from_utf8(output.stdout).expect("UTF-8");
@@ -166,4 +137,43 @@ fn an_interrupted_flight_keeps_what_was_flown() {
     let rows = truth.lines().count() - 1;
     assert_eq!(Some(rows as f64 / 1e3), summary["duration_s"].as_f64());
     assert!(truth.ends_with('\n'), "the last row is whole");
+}
+
+#[test]
+fn a_flight_ended_by_the_system_says_so_in_its_exit_code() {
+    let folder = Folder::new("terminated");
+    let child = flying(&folder, "out");
+    signal(&child, "TERM");
+    // 128 + SIGTERM.
+    assert_eq!(child.wait_with_output().expect("it ends").status.code(), Some(143));
+    assert_eq!(folder.names(), ["out"]);
+}
+
+#[test]
+fn a_command_that_reports_nothing_half_done_leaves_nothing() {
+    let folder = Folder::new("study");
+    let child = folder.command(&["compare", "x500", "--out", "out"]).spawn().expect("the program starts");
+    while folder.names().is_empty() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    signal(&child, "INT");
+    assert_eq!(child.wait_with_output().expect("it ends").status.code(), Some(130));
+    assert_eq!(folder.names(), [""; 0]);
+}
+
+#[test]
+fn two_flights_into_one_folder_leave_one_of_them_whole() {
+    let folder = Folder::new("two");
+    let fly = |seconds: &str| {
+        let duration = format!("duration_s={seconds}");
+        folder.command(&["run", "step", "--set", &duration, "--out", "out", "--json"]).spawn().expect("it starts")
+    };
+    let ends: Vec<_> =
+        [fly("20"), fly("21")].into_iter().map(|child| child.wait_with_output().expect("it ends")).collect();
+    assert!(ends.iter().all(|output| output.status.success()), "{ends:?}");
+    assert_eq!(folder.names(), ["out"]);
+    let summary: Value =
+        serde_json::from_slice(&fs::read(folder.0.join("out/summary.json")).expect("it is there")).expect("JSON");
+    let rows = fs::read_to_string(folder.0.join("out/truth.csv")).expect("it is there").lines().count() - 1;
+    assert_eq!(Some(rows as f64 / 1e3), summary["duration_s"].as_f64());
 }

@@ -4,65 +4,13 @@
 mod arguments;
 
 use std::fs;
-use std::path::PathBuf;
-use std::process::{Command, Output};
 
-/// A folder of its own, in which the program runs.
-struct Folder(PathBuf);
+use crate::common::folder::Folder;
 
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("glissade-{}-messages-{name}", std::process::id()));
-        fs::create_dir_all(&path).expect("the temporary folder can be written");
-        Self(path)
-    }
-
-    fn file(&self, name: &str, text: impl AsRef<[u8]>) {
-        fs::write(self.0.join(name), text).expect("the temporary folder can be written");
-    }
-
-    fn run(&self, arguments: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_sim-host"))
-            .args(arguments)
-            .current_dir(&self.0)
-            .output()
-            .expect("the program starts")
-    }
-
-    /// One line on standard error that holds every one of `parts`, nothing on standard output, exit code 2.
-    fn refuses(&self, arguments: &[&str], parts: &[&str]) {
-        let output = self.run(arguments);
-        let line = String::from_utf8(output.stderr).expect("UTF-8");
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {line}");
-        assert_eq!(line.lines().count(), 1, "{arguments:?}: {line}");
-        assert!(line.starts_with("sim-host: ") && output.stdout.is_empty(), "{arguments:?}: {line}");
-        for part in parts {
-            assert!(line.contains(part), "{arguments:?}: {part} is not in: {line}");
-        }
-        for never in ["panicked", ", ,", "``", "os error", "NaN"] {
-            assert!(!line.contains(never), "{arguments:?}: {never} is in: {line}");
-        }
-    }
-
-    /// A flight with settings, each after a `--set`.
-    fn refuses_settings(&self, scenario: &str, settings: &[&str], parts: &[&str]) {
-        let arguments = settings.iter().flat_map(|setting| ["--set", *setting]);
-        self.refuses(&["run", scenario].into_iter().chain(arguments).collect::<Vec<_>>(), parts);
-    }
-
-    /// What a run that succeeds prints on standard output and standard error.
-    fn prints(&self, arguments: &[&str]) -> (String, String) {
-        let output = self.run(arguments);
-        let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).expect("UTF-8"));
-        assert!(output.status.success(), "{arguments:?}: {err}");
-        (out, err)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
+/// A flight with settings, each after a `--set`.
+fn refuses_settings(folder: &Folder, scenario: &str, settings: &[&str], parts: &[&str]) {
+    let arguments = settings.iter().flat_map(|setting| ["--set", *setting]);
+    folder.refuses(&["run", scenario].into_iter().chain(arguments).collect::<Vec<_>>(), parts);
 }
 
 #[test]
@@ -183,7 +131,7 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("x500-hover", "fault.0.from_s=3", &["`fault` has no entries", "as a whole"]),
         ("x500-hover", "command=[{order=\"take-of\"}]", &["`command.0.order`", "did you mean `take-off`?"]),
     ] {
-        folder.refuses_settings(scenario, &[setting], parts);
+        refuses_settings(&folder, scenario, &[setting], parts);
     }
 }
 
@@ -203,7 +151,7 @@ fn a_fault_that_cannot_be_is_named_with_its_key() {
         ),
         ("kind=\"rotor\",indx=2,effectiveness=0.5", &["`fault.0.indx` is no key", "did you mean `index`?"]),
     ] {
-        folder.refuses_settings("x500-hover", &[&format!("fault=[{{{fault},from_s=1}}]")], parts);
+        refuses_settings(&folder, "x500-hover", &[&format!("fault=[{{{fault},from_s=1}}]")], parts);
     }
 }
 
@@ -233,10 +181,10 @@ fn settings_of_gains_are_laid_over_the_tuning_that_flies() {
         (&["tuning=x500-pid", "control.x.lambda=3"], &["tuning `x500-pid`", "`pid`, not of `smc`", "`pid.…`"]),
         (&["tuning=x500-pid", "pid.yaw_weight=3"], &["`pid.yaw_weight` must be between 0 and 1, not 3"]),
     ] {
-        folder.refuses_settings("x500-hover", settings, parts);
+        refuses_settings(&folder, "x500-hover", settings, parts);
     }
-    folder.refuses_settings("helix", &["tuning=x500-pid"], &["`tuning` and `control`", "keep one"]);
-    folder.refuses_settings("helix", &["pid.yaw_weight=0.3"], &["scenario `helix`", "`smc`, not of `pid`"]);
+    refuses_settings(&folder, "helix", &["tuning=x500-pid"], &["`tuning` and `control`", "keep one"]);
+    refuses_settings(&folder, "helix", &["pid.yaw_weight=0.3"], &["scenario `helix`", "`smc`, not of `pid`"]);
 }
 
 #[test]
@@ -246,7 +194,7 @@ fn an_axis_by_its_bounds_has_the_keys_of_its_bounds() {
         format!("control.x={{answer_s=0.1,disturbance={disturbance},disturbance_rate=5.0,authority=10.0}}")
     };
     folder.prints(&["run", "helix", "--set", "duration_s=0.1", "--set", &bounds(3.0)]);
-    let refuses = |settings: &[&str], parts: &[&str]| folder.refuses_settings("helix", settings, parts);
+    let refuses = |settings: &[&str], parts: &[&str]| refuses_settings(&folder, "helix", settings, parts);
     refuses(
         &[&bounds(3.0), "control.x.lambda=3"],
         &["`control.x.lambda`", "answer_s, disturbance", "leave out `answer_s`"],
@@ -317,7 +265,8 @@ fn a_file_is_named_with_the_line_of_the_key() {
         folder.refuses(&["run", "bad.toml"], parts);
     }
     folder.file("gains.toml", "summary = \"\"\n[smc]\ntilt_max_rad = 1.0\n[smc.x]\nlambda = -1.0\n");
-    folder.refuses_settings(
+    refuses_settings(
+        &folder,
         "x500-hover",
         &["tuning=gains.toml"],
         &["tuning `gains.toml`, line 4", "`smc.x.gain` is missing"],
@@ -355,10 +304,10 @@ fn what_might_never_end_is_not_read() {
     folder.refuses(&["run", "fifo.toml"], &["scenario file `fifo.toml`", cure]);
     folder.refuses(&["run", "/dev/zero"], &["scenario file `/dev/zero`", cure]);
     folder.refuses(&["compare", "/dev/zero"], &["matrix file `/dev/zero`", cure]);
-    folder.refuses_settings("x500-hover", &["tuning=fifo.toml"], &["tuning file `fifo.toml`", cure]);
+    refuses_settings(&folder, "x500-hover", &["tuning=fifo.toml"], &["tuning file `fifo.toml`", cure]);
     for file in ["fifo.csv", "/dev/zero"] {
         let trajectory = format!("trajectory={{csv={{file=\"{file}\"}}}}");
-        folder.refuses_settings("x500-hover", &[&trajectory], &["`trajectory.csv`", file, cure]);
+        refuses_settings(&folder, "x500-hover", &[&trajectory], &["`trajectory.csv`", file, cure]);
     }
     for command in [&["run", "helix"][..], &["analyse", "x500-hover"], &["paper"]] {
         folder.refuses(&[command, &["--out", "fifo"]].concat(), &["--out fifo", "it is no folder: name a folder"]);

@@ -5,30 +5,14 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use crate::common::folder::Folder;
 use anyhow::ensure;
 use firmware::control::sliding::ReachingLaw;
 use sim_host::controller::{Controller, TuningFile};
 use sim_host::tune::{Journal, Method, Parameter, Run, Scale, Settings, Space, State};
 
-/// A folder of its own.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("glissade-{}-tune-{name}", std::process::id()));
-        fs::create_dir_all(&path).expect("the temporary folder can be written");
-        Self(path)
-    }
-
-    fn journal(&self) -> PathBuf {
-        self.0.join("journal.csv")
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
+fn journal_path(folder: &Folder) -> PathBuf {
+    folder.0.join("journal.csv")
 }
 
 const NAMES: [&str; 3] = ["lambda", "gain", "horizon"];
@@ -77,7 +61,7 @@ fn go(settings: Settings, journal: Journal, jobs: usize) -> anyhow::Result<State
 fn a_search_finds_the_best_gains_and_the_tuning_file_holds_them() {
     for method in METHODS {
         let folder = Folder::new(&format!("optimum-{}", method.name()));
-        let journal = Journal::create(&folder.journal(), "optimum", &NAMES).expect("a file");
+        let journal = Journal::create(&journal_path(&folder), "optimum", &NAMES).expect("a file");
         let found = go(settings(method, 60), journal, 2).expect("searches");
         let text = space().tuning(&found.best_point, "found").expect("TOML");
         let tuning: TuningFile = toml::from_str(&text).expect("a tuning");
@@ -112,17 +96,17 @@ fn a_run_that_was_interrupted_goes_on_to_the_bit() {
 
         // Interrupted in the middle of a line of the journal, in the middle of an iteration.
         let cut: usize = whole_text.lines().take(2 + 12 * 4 + 5).map(|line| line.len() + 1).sum::<usize>() + 9;
-        fs::write(folder.journal(), &whole_text[..cut]).expect("a file");
+        fs::write(journal_path(&folder), &whole_text[..cut]).expect("a file");
         let flown = std::sync::atomic::AtomicUsize::new(0);
         let counted = |point: &[f64]| {
             flown.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
             cost(point)
         };
-        let journal = Journal::resume(&folder.journal(), "resume", &NAMES).expect("is this run's");
+        let journal = Journal::resume(&journal_path(&folder), "resume", &NAMES).expect("is this run's");
         let run = Run { settings: settings(method, 12), dimensions: NAMES.len(), cost: counted, journal };
         assert_eq!(run.go(|_| Ok(())).expect("searches"), whole, "{method:?}");
         assert_eq!(flown.into_inner(), 12 * 12 - (12 * 4 + 5), "what is known is not flown again");
-        assert_eq!(fs::read_to_string(folder.journal()).expect("the journal is there"), whole_text);
+        assert_eq!(fs::read_to_string(journal_path(&folder)).expect("the journal is there"), whole_text);
     }
 }
 
@@ -131,8 +115,8 @@ fn a_run_that_was_stopped_can_be_given_more_iterations() {
     let folder = Folder::new("more");
     let run =
         |iterations: usize, journal: Journal| go(settings(Method::Pso, iterations), journal, 2).expect("searches");
-    let first = run(5, Journal::create(&folder.journal(), "more", &NAMES).expect("a file"));
-    let more = run(9, Journal::resume(&folder.journal(), "more", &NAMES).expect("is this run's"));
+    let first = run(5, Journal::create(&journal_path(&folder), "more", &NAMES).expect("a file"));
+    let more = run(9, Journal::resume(&journal_path(&folder), "more", &NAMES).expect("is this run's"));
     assert_eq!(first.iterations, more.iterations[..5]);
     assert_eq!(more.iterations.len(), 9);
 }
@@ -140,7 +124,7 @@ fn a_run_that_was_stopped_can_be_given_more_iterations() {
 #[test]
 fn a_journal_of_another_run_is_refused() {
     let folder = Folder::new("other");
-    let path = folder.journal();
+    let path = journal_path(&folder);
     let refusal = |journal: anyhow::Result<Journal>| format!("{:#}", journal.expect_err("must be refused"));
     assert!(refusal(Journal::resume(&path, "a", &NAMES)).contains("journal.csv"));
     go(settings(Method::Pso, 2), Journal::create(&path, "a", &NAMES).expect("a file"), 1).expect("searches");
@@ -158,7 +142,7 @@ fn a_journal_of_another_run_is_refused() {
 #[test]
 fn an_observer_that_fails_ends_the_run() {
     let folder = Folder::new("observer");
-    let journal = Journal::create(&folder.journal(), "observer", &NAMES).expect("a file");
+    let journal = Journal::create(&journal_path(&folder), "observer", &NAMES).expect("a file");
     let run = Run { settings: settings(Method::Pso, 5), dimensions: NAMES.len(), cost, journal };
     let mut seen = 0;
     let error = run.go(|state| {

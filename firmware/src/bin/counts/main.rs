@@ -50,39 +50,39 @@ mod image {
         let counter = Counter::new(board.clock);
         match Flight::new(counter).map(Flight::fly) {
             // Flies nevertheless, for tools that count by the marks.
-            Ok(_) if !counter.is_exact() => println!("not counted: QEMU's clock needs -icount shift=10"),
+            Ok(_) if !counter.is_exact() => println!("cannot count: start QEMU with -icount shift=10"),
             Ok(counts) if report(&counts) => semihosting::process::exit(0),
             Ok(_) => {}
-            Err(error) => println!("no flight to count: {error}"),
+            Err(error) => println!("the flight cannot start: {error}"),
         }
         fault::end()
     }
 
     /// Prints the counts of a flight. True if the flight was valid and within its budgets.
     fn report(counts: &Counts) -> bool {
-        println!("instructions a call         calls    mean   max  budgets");
+        println!("instructions per call       calls    mean   max  budgets");
         let navigation = &counts.navigation;
         let rows = [
             ("attitude and mixer", &counts.attitude, Some(ATTITUDE)),
-            ("the same, no limit acting", &counts.attitude_within_limits, Some(ATTITUDE_WITHIN_LIMITS)),
+            ("the same, no limit active", &counts.attitude_within_limits, Some(ATTITUDE_WITHIN_LIMITS)),
             ("position and flatness", &counts.position, Some(POSITION)),
             ("guidance", &counts.guidance, None),
             ("mixer", &counts.mixer, None),
             ("mixer at a limit", &counts.mixer_saturated, None),
             ("state prediction", &navigation.prediction, Some(PREDICTION)),
-            ("filter of the gyroscope", &navigation.gyro_filter, None),
+            ("notches and low-pass", &navigation.gyro_filter, None),
             ("covariance prediction", &navigation.covariance, Some(COVARIANCE)),
-            ("correction by 3 numbers", &navigation.correction_3, Some(CORRECTION)),
-            ("correction by 1 number", &navigation.correction_1, Some(CORRECTION)),
+            ("correction, 3 components", &navigation.correction_3, Some(CORRECTION)),
+            ("correction, 1 component", &navigation.correction_1, Some(CORRECTION)),
             ("filter job", &navigation.job, None),
-            ("filter job with satellites", &navigation.job_with_gnss, None),
+            ("filter job with GNSS fix", &navigation.job_with_gnss, None),
         ];
         let mut good = true;
         for (name, tally, budget) in rows {
             good &= row(name, tally, budget);
         }
         let (flown, estimated) = (counts.final_error_m, counts.estimate_error_m);
-        println!("{flown:.3} m from its reference at the end, the estimate {estimated:.3} m from the truth");
+        println!("errors at the end: position {flown:.3} m, position estimate {estimated:.3} m");
         good && flown < TRACKED_WITHIN_M && estimated < ESTIMATED_WITHIN_M
     }
 

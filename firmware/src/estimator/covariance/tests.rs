@@ -4,7 +4,7 @@ use super::*;
 
 type Dense = SMatrix<f64, STATES, STATES>;
 
-/// A stream of numbers in −1..1 (xorshift).
+/// Pseudo-random values in −1..1 (xorshift).
 struct Numbers(u64);
 
 impl Numbers {
@@ -44,7 +44,7 @@ fn noise() -> StepNoise {
     }
 }
 
-/// F of the module's text, written out.
+/// F as in the module's documentation, as a full matrix.
 fn transition(m: &Motion) -> Dense {
     let mut f = Dense::identity();
     let (r, s) = (m.rotation.cast::<f64>() * f64::from(m.step_s), m.velocity_change.cast::<f64>());
@@ -55,7 +55,7 @@ fn transition(m: &Motion) -> Dense {
     f
 }
 
-/// A covariance with every entry different from zero.
+/// A covariance without zero entries.
 fn mixed(n: &mut Numbers) -> Covariance {
     let mut p = Covariance::diagonal(&ErrorState::from_fn(|i, _| 0.01 + 0.1 * i as f32));
     for _ in 0..60 {
@@ -100,7 +100,7 @@ fn assert_near(is: &Dense, ought: &Dense, tolerance: f64) {
 }
 
 #[test]
-fn a_step_is_f_p_f_transposed() {
+fn a_prediction_is_f_p_f_transposed() {
     let mut n = Numbers(7);
     for _ in 0..50 {
         let mut p = mixed(&mut n);
@@ -117,8 +117,8 @@ fn a_step_is_f_p_f_transposed() {
             },
         );
         let f = transition(&m);
-        // Composed of three shears, F is exact: velocity is moved with the attitude before the step, position with the
-        // velocity before it.
+        // As a product of three shears, F is exact: velocity uses the attitude before the step, position the velocity
+        // before it.
         assert_near(&dense(&p), &(f * before * f.transpose()), 1e-5);
     }
 }
@@ -140,7 +140,7 @@ fn a_correction_is_josephs_form() {
 }
 
 #[test]
-fn a_state_set_anew_is_independent_of_the_rest() {
+fn a_reset_state_is_uncorrelated_with_the_others() {
     let mut n = Numbers(3);
     let mut p = mixed(&mut n);
     let before = dense(&p);
@@ -159,9 +159,9 @@ fn a_state_set_anew_is_independent_of_the_rest() {
     }
 }
 
-/// Measurements far better and far worse than what is known, for as many steps as an hour has corrections of GNSS.
+/// Measurements far more and far less accurate than the estimate, as many as GNSS corrections in an hour.
 #[test]
-fn it_stays_positive() {
+fn it_stays_positive_definite() {
     let mut n = Numbers(5);
     let mut p = mixed(&mut n);
     for step in 0..40_000 {
@@ -172,7 +172,7 @@ fn it_stays_positive() {
         }
         if step % 500 == 0 {
             let dense = dense(&p);
-            // Scaled to unit variances: its eigenvalues are then pure numbers.
+            // Scaled to unit variances, so that its eigenvalues have no units.
             let scaled = Dense::from_fn(|i, j| dense[(i, j)] / (dense[(i, i)] * dense[(j, j)]).sqrt());
             let least = scaled.symmetric_eigen().eigenvalues.min();
             assert!(least > -1e-4, "{step}: {least}");

@@ -80,7 +80,7 @@ fn too_many_at_once_are_temporarily_rejected() {
 }
 
 #[test]
-fn the_whole_autopilot_hands_a_failure_out_with_its_acknowledgement() {
+fn the_whole_autopilot_passes_a_failure_to_the_board_in_the_tick_of_its_acknowledgement() {
     let mut autopilot = Autopilot::new(&FlightConfig::default()).expect("valid");
     autopilot.inner.allow_failures(gnss_and_motors());
     let sample = SensorFrame::Motion(NavState::at_rest());

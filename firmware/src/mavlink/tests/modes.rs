@@ -9,7 +9,7 @@ const TAKEOFF: u16 = 22;
 const SET_MODE: u16 = 176;
 
 #[test]
-fn modes_and_landed_states_are_those_that_px4s_clients_know() {
+fn modes_and_landed_states_are_encoded_as_px4_encodes_them() {
     let mut bench = Bench::new();
     bench.input.armed = true;
     bench.input.landed = false;

@@ -22,6 +22,7 @@ fn every_command_is_read() {
         ("takeoff height=0.3", request(Request::TakeOff { height_m: 0.3 })),
         ("goto 1 -2 3", goto([Some(1.0), Some(-2.0), Some(3.0)], None)),
         ("goto 1 -2 3 90", goto([Some(1.0), Some(-2.0), Some(3.0)], Some(90.0))),
+        ("goto 1 -2 up=3", goto([Some(1.0), Some(-2.0), Some(3.0)], None)),
         ("goto up=3 yaw=-90", goto([None, None, Some(3.0)], Some(-90.0))),
         ("velocity 1 0 0.5", request(Request::Velocity { velocity_m_s: [1.0, 0.0, 0.5], yaw_rate_rad_s: 0.0 })),
         ("hold", request(Request::Hold)),
@@ -63,24 +64,33 @@ fn mistakes_are_answered_in_a_line_that_says_what_to_type() {
         ("lnad", "unknown command `lnad`: did you mean `land`? `help` lists all"),
         ("xyzzy", "unknown command `xyzzy`: `help` lists all"),
         ("help lnad", "help: unknown command `lnad`: did you mean `land`? `help` lists all"),
-        ("help land now", "help: `now` is too much"),
-        ("status now", "status: `now` is too much: it takes no arguments"),
+        ("help land now", "help: `now` is too much: type `help [COMMAND]`"),
+        ("status now", "status: `now` is too much: type `status`"),
         ("arm now", "arm: `now` is unknown here: only `force` may follow"),
+        ("arm force force", "arm: `force` is too much: type `arm [force]`"),
         ("disarm 1", "disarm: `1` is unknown here: only `force` may follow"),
         ("takeoff 200", "takeoff: HEIGHT must be between 0.3 and 100 m, not 200"),
         ("takeoff 0", "takeoff: HEIGHT must be between 0.3 and 100 m, not 0"),
         ("takeoff nan", "takeoff: HEIGHT must be between 0.3 and 100 m, not nan"),
         ("takeoff high", "takeoff: HEIGHT must be a number, not `high`"),
-        ("takeoff 5 6", "takeoff: `6` is too much: height at most"),
-        ("goto", "goto: say where: NORTH WEST UP in m"),
+        ("takeoff 5 6", "takeoff: `6` is too much: type `takeoff [HEIGHT]`"),
+        ("goto", "goto: NORTH, WEST and UP are missing: type `goto NORTH WEST UP [YAW]`"),
+        ("goto 1", "goto: WEST and UP are missing: type `goto NORTH WEST UP [YAW]`"),
+        ("goto 1 2", "goto: UP is missing: type `goto NORTH WEST UP [YAW]`"),
+        ("goto 1 2 yaw=90", "goto: UP is missing: type `goto NORTH WEST UP [YAW]`"),
+        ("goto 1 2 up", "goto: UP must be a number, not `up`"),
+        ("goto 1 2 inf", "goto: UP must be between -10000 and 10000 m, not inf"),
+        ("goto 1 2 up=", "goto: UP must be a number, not ``"),
         ("goto nrth=5", "goto: there is no `nrth`: did you mean `north`?"),
         ("goto 1 2 3 400", "goto: YAW must be between -360 and 360°, not 400"),
         ("goto 1 2 1e9", "goto: UP must be between -10000 and 10000 m, not 1e9"),
         ("goto 1 2 3 north=4", "goto: NORTH is given twice"),
-        ("goto 1 2 3 4 5", "goto: `5` is too much: north, west, up, yaw at most"),
-        ("velocity", "velocity: say which: NORTH WEST UP in m/s"),
+        ("goto 1 2 3 4 5", "goto: `5` is too much: type `goto NORTH WEST UP [YAW]`"),
+        ("velocity", "velocity: NORTH, WEST and UP are missing: type `velocity NORTH WEST UP [YAW_RATE]`"),
+        ("velocity 1 2", "velocity: UP is missing: type `velocity NORTH WEST UP [YAW_RATE]`"),
+        ("velocity 1 2 3 4 5", "velocity: `5` is too much: type `velocity NORTH WEST UP [YAW_RATE]`"),
         ("velocity 1000", "velocity: NORTH must be between -100 and 100 m/s, not 1000"),
-        ("hold on", "hold: `on` is too much: it takes no arguments"),
+        ("hold on", "hold: `on` is too much: type `hold`"),
         ("wind 3", "wind: say NORTH WEST [UP], or speed= and from="),
         ("wind speed=3", "wind: say NORTH WEST [UP], or speed= and from="),
         ("wind 1 2 speed=3 from=4", "wind: say NORTH WEST [UP], or speed= and from="),
@@ -88,10 +98,20 @@ fn mistakes_are_answered_in_a_line_that_says_what_to_type() {
         ("fault", "fault: say how it fails: kind=off|stuck"),
         ("fault gns off", "fault: `gns` is no sensor and no kind of fault: did you mean `gnss`?"),
         ("fault gnss kind=of", "fault: there is no kind of fault `of`: did you mean `off`?"),
-        ("clear gnss", "clear: `gnss` is too much: it takes no arguments"),
-        ("speed", "speed: say X, how many times real time"),
+        ("trajectory 1", "trajectory: `1` is too much: type `trajectory`"),
+        ("return home", "return: `home` is too much: type `return`"),
+        ("land now", "land: `now` is too much: type `land`"),
+        ("kill -9", "kill: `-9` is too much: type `kill`"),
+        ("wind 1 2 3 4", "wind: say NORTH WEST [UP], or speed= and from="),
+        ("wind 1 2 3 4 5 6", "wind: `6` is too much: type `wind [NORTH WEST [UP]]`"),
+        ("wind north", "wind: NORTH must be a number, not `north`"),
+        ("faults all", "faults: `all` is too much: type `faults`"),
+        ("clear gnss", "clear: `gnss` is too much: type `clear`"),
+        ("speed", "speed: X is missing: type `speed X`"),
+        ("speed 1 2", "speed: `2` is too much: type `speed X`"),
+        ("speed fast", "speed: X must be a number, not `fast`"),
         ("speed 0", "speed: X must be between 0.01 and 1000, not 0"),
-        ("quit now", "quit: `now` is too much: it takes no arguments"),
+        ("quit now", "quit: `now` is too much: type `quit`"),
     ] {
         let error = format!("{:#}", parse(line, 0).expect_err(line));
         assert!(error.starts_with(answer) && !error.contains('\n'), "{line}: {error}");
@@ -116,7 +136,8 @@ fn names_are_unique_and_help_gives_the_ranges_that_are_checked() {
 #[test]
 fn the_manual_has_the_same_table() {
     let manual = include_str!("../../../../docs/serve.md");
-    let rows: Vec<&str> = manual.lines().filter(|line| line.starts_with("| `")).collect();
+    let section = manual.split("\n## ").find(|section| section.starts_with("Commands\n")).expect("it has commands");
+    let rows: Vec<&str> = section.lines().filter(|line| line.starts_with("| `")).collect();
     let table: Vec<String> =
         COMMANDS.iter().map(|entry| format!("| `{}` | {} |", entry.usage(), entry.summary())).collect();
     assert_eq!(rows, table);

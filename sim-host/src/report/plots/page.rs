@@ -1,13 +1,13 @@
 //! A figure: its heading and legend, and panels in a grid.
 
-use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 
 use super::panel::Panel;
 use super::style::{Key, Role, palette};
 use super::svg::{Anchor, Area, Font, Page, Stroke, text_width};
+use crate::report::out::write_file;
 
 /// Height of a figure's heading.
 pub(super) const HEADING: u32 = 44;
@@ -49,8 +49,7 @@ pub(super) fn save(
         draw_legend(&top, line, first + f64::from(LEGEND) * i as f64);
     }
     draw(&rest)?;
-    fs::write(path, page.finish(size))
-        .with_context(|| format!("cannot write {}: choose a folder you can write to with --out", path.display()))
+    write_file(path, page.finish(size))
 }
 
 /// Draws panels row by row into equal cells.

@@ -2,5 +2,6 @@
 
 pub(crate) mod fault;
 pub(crate) mod fingerprint;
+pub(crate) mod folder;
 pub(crate) mod image;
 pub(crate) mod load;

@@ -3,7 +3,7 @@
 use std::fs;
 use std::net::UdpSocket;
 
-use super::Folder;
+use crate::common::folder::Folder;
 
 #[test]
 fn ranges_of_seeds_and_numbers_of_threads_say_what_they_may_be() {
@@ -105,6 +105,11 @@ fn addresses_say_the_cure() {
         &["192.0.2.1", "no address of this machine", "127.0.0.1:14580"],
     );
     folder.refuses(&["serve", "--listen", "localhost:many"], &["--listen", "localhost:14580"]);
+    folder.refuses(&["serve", "--listen", ""], &["--listen", "address is missing: use 127.0.0.1:14580"]);
+    folder.refuses(
+        &["serve", "--listen", "localhost:14599", "--peer", "localhost:14599"],
+        &["--peer 127.0.0.1:14599 is where the vehicle itself listens", "127.0.0.1:14550"],
+    );
     folder.refuses(&["serve", "--peer", ":14550"], &["--peer", "host is missing", "127.0.0.1:14550"]);
     folder.refuses(&["serve", "--listen", "[::1]:0"], &["[::1]:0", "127.0.0.1:14550", "IPv6"]);
 }
