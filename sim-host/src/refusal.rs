@@ -8,14 +8,17 @@
 //!
 //! Which file it is about, and in which line, is added by whoever has read it ([`crate::files::Source`]).
 
-mod serde_errors;
+mod misfit;
+mod reader;
 
 use std::fmt::{self, Display};
 
 use anyhow::Result;
 use firmware::validate::ConfigError;
+use serde::de::DeserializeOwned;
+use toml::{Table, Value};
 
-pub(crate) use serde_errors::typed;
+use reader::Reader;
 
 /// Why a key is refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,6 +113,14 @@ impl From<ConfigError> for Refusal {
         };
         Self::new(field.to_string(), rule)
     }
+}
+
+/// A table as what it describes.
+///
+/// # Errors
+/// The dotted key, what it must be, and what was given.
+pub(crate) fn typed<T: DeserializeOwned>(table: Table) -> Result<T> {
+    T::deserialize(Reader(Value::Table(table))).map_err(|misfit| Refusal::from(misfit).into())
 }
 
 /// An f32 as the f64 with the same decimals: 0.05 and not 0.05000000074505806.

@@ -1,9 +1,9 @@
-//! What serde says of a value that does not fit, put as we put it.
+//! Why a value does not fit the type that it is read as: what serde says, put as we put it.
 
-use anyhow::Result;
-use serde::de::DeserializeOwned;
-use serde_path_to_error::{Path, Segment};
-use toml::{Table, Value};
+use std::fmt::{self, Display};
+
+use serde::de::{Error, Expected, Unexpected};
+use toml::Value;
 
 use super::{Refusal, nearest};
 use crate::words::counted;
@@ -11,77 +11,141 @@ use crate::words::counted;
 /// As many keys are listed; of a table that has more, the documentation tells.
 const LISTED: usize = 16;
 
-/// A table as what it describes.
-///
-/// # Errors
-/// The dotted key, what it must be, and what was given.
-pub(crate) fn typed<T: DeserializeOwned>(table: Table) -> Result<T> {
-    serde_path_to_error::deserialize(Value::Table(table))
-        .map_err(|error| refusal(&dotted(error.path()), error.inner().message()).into())
+/// Why a value does not fit, and where it stands.
+#[derive(Debug)]
+pub(super) struct Misfit {
+    /// The keys that lead to it, the last first.
+    keys: Vec<String>,
+    reason: Reason,
 }
 
-/// `control.x.lambda`, `fault.0.from_s`.
-fn dotted(path: &Path) -> String {
-    let name = |segment: &Segment| match segment {
-        Segment::Seq { index } => Some(index.to_string()),
-        Segment::Map { key } => Some(key.clone()),
-        Segment::Enum { variant } => Some(variant.clone()),
-        Segment::Unknown => None,
-    };
-    path.iter().filter_map(name).collect::<Vec<_>>().join(".")
+#[derive(Debug)]
+enum Reason {
+    Missing(&'static str),
+    UnknownKey(String, &'static [&'static str]),
+    UnknownChoice(String, &'static [&'static str]),
+    /// What it must be, and what was given; without that, whoever has the file looks it up.
+    Kind {
+        expected: String,
+        given: Option<String>,
+    },
+    Length {
+        expected: String,
+        count: usize,
+    },
+    Rule(&'static str),
+    /// A refusal of ours on its way through serde, or what only serde can tell.
+    Text(String),
+}
+
+impl From<Reason> for Misfit {
+    fn from(reason: Reason) -> Self {
+        Self { keys: Vec::new(), reason }
+    }
+}
+
+impl Misfit {
+    /// A rule that the value breaks.
+    pub(super) fn rule(rule: &'static str) -> Self {
+        Reason::Rule(rule).into()
+    }
+
+    /// A value of another kind than `expected`.
+    pub(super) fn wrong_kind(value: &Value, expected: &str) -> Self {
+        let given = match value {
+            Value::Table(_) => "a table".to_owned(),
+            Value::Array(_) => "an array".to_owned(),
+            other => other.to_string(),
+        };
+        Reason::Kind { expected: expected.to_owned(), given: Some(given) }.into()
+    }
+
+    /// The same, of a value that stands at `key`.
+    pub(super) fn below(mut self, key: String) -> Self {
+        self.keys.push(key);
+        self
+    }
+}
+
+impl Error for Misfit {
+    fn custom<T: Display>(message: T) -> Self {
+        Reason::Text(message.to_string()).into()
+    }
+
+    fn invalid_type(unexpected: Unexpected, expected: &dyn Expected) -> Self {
+        Reason::Kind { expected: plain(&expected.to_string()), given: given(unexpected) }.into()
+    }
+
+    fn invalid_value(unexpected: Unexpected, expected: &dyn Expected) -> Self {
+        Self::invalid_type(unexpected, expected)
+    }
+
+    fn invalid_length(count: usize, expected: &dyn Expected) -> Self {
+        Reason::Length { expected: expected.to_string(), count }.into()
+    }
+
+    fn unknown_variant(name: &str, known: &'static [&'static str]) -> Self {
+        Reason::UnknownChoice(name.to_owned(), known).into()
+    }
+
+    fn unknown_field(name: &str, known: &'static [&'static str]) -> Self {
+        Reason::UnknownKey(name.to_owned(), known).into()
+    }
+
+    fn missing_field(name: &'static str) -> Self {
+        Reason::Missing(name).into()
+    }
+}
+
+impl Display for Misfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        refusal(&self.path(), &self.reason).fmt(f)
+    }
+}
+
+impl std::error::Error for Misfit {}
+
+impl From<Misfit> for Refusal {
+    fn from(misfit: Misfit) -> Self {
+        refusal(&misfit.path(), &misfit.reason)
+    }
+}
+
+impl Misfit {
+    /// `control.x.lambda`, `fault.0.from_s`.
+    fn path(&self) -> String {
+        self.keys.iter().rev().map(String::as_str).collect::<Vec<_>>().join(".")
+    }
+}
+
+fn refusal(path: &str, reason: &Reason) -> Refusal {
+    match reason {
+        Reason::Missing(name) => Refusal::new(below(path, name), "is missing").remedy(format!("add `{name} = …`")),
+        Reason::UnknownKey(name, known) => unknown_key(path, name, known),
+        Reason::UnknownChoice(name, known) => unknown_choice(path, name, known),
+        Reason::Kind { expected, given } => {
+            let refusal = Refusal::new(path, format!("must be {expected}"));
+            given.iter().fold(refusal, Refusal::given)
+        }
+        Reason::Length { expected, count } => match expected.strip_prefix(ARRAY) {
+            Some(right) => Refusal::new(path, format!("must have {}", values(right))).given(count),
+            None => Refusal::new(path, format!("has too many values, {count}")),
+        },
+        Reason::Rule(rule) => Refusal::new(path, *rule),
+        Reason::Text(text) => ours(path, text.trim()),
+    }
+}
+
+/// A refusal of ours whose key is below this one, or written in full; another text as it is.
+fn ours(path: &str, text: &str) -> Refusal {
+    match text.strip_prefix('`').and_then(|rest| rest.split_once('`')) {
+        Some((key, rule)) => Refusal::new(in_full(path, key), in_full_within(path, rule.trim())),
+        None => Refusal::new(path, format!(": {}", text.replace('\n', " "))),
+    }
 }
 
 fn below(path: &str, key: &str) -> String {
     if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
-}
-
-/// The table in which a key of serde's stands: its path ends with a key that is unknown, and without one that is missing.
-fn without<'a>(path: &'a str, key: &str) -> &'a str {
-    if path == key { "" } else { path.strip_suffix(key).and_then(|rest| rest.strip_suffix('.')).unwrap_or(path) }
-}
-
-/// The first name between backticks, and what follows it.
-fn quoted(text: &str) -> Option<(&str, &str)> {
-    text.split_once('`')?.1.split_once('`')
-}
-
-fn refusal(path: &str, message: &str) -> Refusal {
-    let message = message.trim();
-    if message.starts_with('`')
-        && let Some((key, rule)) = quoted(message)
-    {
-        // A refusal of ours on its way through serde: its key is below this one, or written in full.
-        return Refusal::new(in_full(path, key), in_full_within(path, rule.trim()));
-    }
-    if let Some((name, _)) = message.strip_prefix("missing field ").and_then(quoted) {
-        return Refusal::new(below(path, name), "is missing").remedy(format!("add `{name} = …`"));
-    }
-    if let Some((name, rest)) = message.strip_prefix("unknown field ").and_then(quoted) {
-        return unknown_key(without(path, name), name, &all_quoted(rest));
-    }
-    if let Some((name, rest)) = message.strip_prefix("unknown variant ").and_then(quoted) {
-        return unknown_choice(path, name, &all_quoted(rest));
-    }
-    for prefix in ["invalid type: ", "invalid value: "] {
-        if let Some((given, expected)) = message.strip_prefix(prefix).and_then(|rest| rest.rsplit_once(", expected ")) {
-            let refusal = Refusal::new(path, format!("must be {}", plain(expected)));
-            // Whoever has the file looks the value up.
-            return if given == "unit variant" { refusal } else { refusal.given(unexpected(given)) };
-        }
-    }
-    if let Some(found) = message.strip_prefix("wanted exactly 1 element, ") {
-        let several = "must be one kind alone: keep one of its tables";
-        return Refusal::new(path, if found.starts_with("more") { several } else { "must name a kind, not {}" });
-    }
-    if let Some((count, expected)) =
-        message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "))
-    {
-        return match expected.strip_prefix("an array of length ") {
-            Some(right) => Refusal::new(path, format!("must have {}", values(right))).given(count),
-            None => Refusal::new(path, format!("has too many values, {count}")),
-        };
-    }
-    Refusal::new(path, format!(": {}", message.replace('\n', " ")))
 }
 
 /// A path without the indices of arrays.
@@ -104,15 +168,6 @@ fn in_full(path: &str, key: &str) -> String {
     }
     let relative = key.strip_prefix(&names).and_then(|rest| rest.strip_prefix('.')).unwrap_or(key);
     below(path, relative)
-}
-
-fn all_quoted(mut text: &str) -> Vec<&str> {
-    let mut all = Vec::new();
-    while let Some((name, rest)) = quoted(text) {
-        all.push(name);
-        text = rest;
-    }
-    all
 }
 
 fn unknown_key(path: &str, name: &str, known: &[&str]) -> Refusal {
@@ -143,42 +198,44 @@ fn plain(expected: &str) -> String {
         "a string" => "text in quotes".to_owned(),
         "a sequence" => "an array".to_owned(),
         "a map" => "a table".to_owned(),
-        "string only" => "the name of one of its kinds, or a table".to_owned(),
         other if other.starts_with("struct ") || other.starts_with("internally tagged") => "a table".to_owned(),
         other if other.contains("enum") || other.contains("variant") => "the name of one, or a table of one".to_owned(),
         other => array(other).unwrap_or_else(|| other.replace('\n', " ")),
     }
 }
 
+/// How serde begins what it expects of an array.
+const ARRAY: &str = "an array of length ";
+
 /// "an array of length 3" in plain words.
 fn array(expected: &str) -> Option<String> {
-    Some(format!("an array of {}", values(expected.strip_prefix("an array of length ")?)))
+    Some(format!("an array of {}", values(expected.strip_prefix(ARRAY)?)))
 }
 
 fn values(count: &str) -> String {
     count.parse().map_or_else(|_| count.to_owned(), |count: usize| counted(count, "value"))
 }
 
-/// The value that serde did not expect: "string \"fast\"", "integer `3`", "map".
-fn unexpected(given: &str) -> String {
-    match given {
-        "map" => "a table".to_owned(),
-        "sequence" => "an array".to_owned(),
-        other => {
-            let value = other.split_once(['`', '"']).map(|(_, value)| value.trim_end_matches(['`', '"']));
-            match value {
-                Some(value) if other.starts_with("string") => format!("\"{value}\""),
-                Some(value) => value.to_owned(),
-                None => other.to_owned(),
-            }
-        }
-    }
+/// The value that was given; none where serde knows only that it was a name.
+fn given(unexpected: Unexpected) -> Option<String> {
+    Some(match unexpected {
+        Unexpected::UnitVariant => return None,
+        Unexpected::Bool(value) => value.to_string(),
+        Unexpected::Signed(number) => number.to_string(),
+        Unexpected::Unsigned(number) => number.to_string(),
+        Unexpected::Float(number) => format!("{number:?}"),
+        Unexpected::Str(text) => format!("{text:?}"),
+        Unexpected::Map => "a table".to_owned(),
+        Unexpected::Seq => "an array".to_owned(),
+        other => other.to_string(),
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use serde::Deserialize;
 
+    use super::super::typed;
     use super::*;
 
     #[derive(Debug, Deserialize)]
@@ -231,7 +288,7 @@ mod tests {
 
     #[test]
     fn a_refusal_that_has_come_through_serde_keeps_its_key() {
-        let text = |path, message| refusal(path, message).to_string();
+        let text = |path, message: &str| refusal(path, &Reason::Text(message.to_owned())).to_string();
         assert_eq!(
             text("control.x", "`answer_s` must be above 0, not -1"),
             "`control.x.answer_s` must be above 0, not -1"
