@@ -197,9 +197,10 @@ impl Watch {
 /// is unknown; what was lost in the air is found again when it is, and not when the vehicle is armed the next time.
 fn position_text(lost: &mut bool, known: bool, armed: bool) -> Option<&'static str> {
     let was_lost = std::mem::replace(lost, !known && (*lost || armed));
-    match known {
-        true => was_lost.then_some("navigation: position known again"),
-        false => (armed && !was_lost).then_some("navigation: position unknown"),
+    if known {
+        was_lost.then_some("navigation: position known again")
+    } else {
+        (armed && !was_lost).then_some("navigation: position unknown")
     }
 }
 
