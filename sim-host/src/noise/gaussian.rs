@@ -1,8 +1,8 @@
 //! Random numbers: one counter-based stream per source, so that adding a source changes no other.
 
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::{Rng as _, SeedableRng as _};
 use nalgebra::Vector3;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng as _, SeedableRng as _};
 
 /// Source of a stream of random numbers. The discriminants determine the streams of a seed: do not reuse one.
 #[derive(Clone, Copy, Debug)]
@@ -42,9 +42,17 @@ pub(crate) enum Source {
 }
 
 /// The random stream of one source.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Stream {
     rng: ChaCha8Rng,
+}
+
+/// A copy that goes on as the original does. The generator cannot be cloned, lest a key be used twice by accident; its
+/// state can be taken.
+impl Clone for Stream {
+    fn clone(&self) -> Self {
+        Self { rng: ChaCha8Rng::deserialize_state(&self.rng.serialize_state()) }
+    }
 }
 
 impl Stream {
@@ -104,5 +112,16 @@ mod tests {
         let sum = (0..100_000)
             .fold(0_u64, |sum, _| stream.normal_vector().iter().fold(sum, |sum, v| sum.rotate_left(5) ^ v.to_bits()));
         assert_eq!(sum, 11_237_696_190_688_973_650);
+    }
+
+    #[test]
+    fn a_copy_goes_on_as_the_original_does() {
+        let mut stream = Stream::new(7, Source::Angle);
+        for drawn in 0..200 {
+            let (mut copy, mut original) = (stream.clone(), stream);
+            assert_eq!([(); 200].map(|()| copy.unit()), [(); 200].map(|()| original.unit()), "after {drawn}");
+            stream = Stream::new(7, Source::Angle);
+            (0..=drawn).for_each(|_| _ = stream.unit());
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Equivalent control makes ṡ = −K sw(s): the firmware's laws (f32), put into an independently written Eq. 2 (f64),
 //! must give each of the six surfaces exactly its reaching law, whatever the state, the gains and the shape.
 
+use chacha20::ChaCha8Rng;
 use firmware::airframe::Airframe;
 use firmware::control::attitude;
 use firmware::control::euler::EulerReference;
@@ -9,7 +10,6 @@ use firmware::control::sliding::{AxisGains, ReachingLaw, SlidingAxis};
 use firmware::signals::FlatReference;
 use nalgebra::Vector3;
 use rand::{RngExt as _, SeedableRng as _};
-use rand_chacha::ChaCha8Rng;
 
 type V = Vector3<f64>;
 
