@@ -174,12 +174,12 @@ pub(super) fn summarise(
 }
 
 /// Whether it is of interest when each axis settled: in the paper's cases, and where the flight began away from its
-/// reference or the reference jumped. An eight's corners are a question of errors.
+/// reference or the reference jumped. Corners of an eight or of a path through points are a question of errors.
 fn settles(scenario: &Scenario, metrics: &Metrics) -> bool {
     let file = &scenario.file;
     let was_away = metrics.axes().named().iter().any(|(_, axis)| axis.settle_5cm_s != Some(0.0));
     let repeats = matches!(file.trajectory, Trajectory::FigureEight { .. } | Trajectory::Spline(_));
-    file.group() == Group::Paper || (was_away && !repeats)
+    file.group() == Group::Paper || metrics.began_away() || (was_away && !repeats)
 }
 
 /// What a folder holds besides the flight: by which program, from what, and how to fly it again.

@@ -54,7 +54,8 @@ fn report(args: &RunArgs, text: &str, staged: Option<Staged>) -> Result<()> {
     let contents = staged.map(Staged::finish).transpose()?;
     match (contents, &args.out) {
         (Some(contents), Some(out)) if !args.json => super::say(&format!("{text}wrote {}: {contents}", out.display())),
-        _ => super::say(text),
+        _ if args.json => super::say(text),
+        _ => super::say(&format!("{text}figures             none without `--out DIR`, which also keeps truth.csv")),
     }
 }
 

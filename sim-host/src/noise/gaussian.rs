@@ -116,11 +116,11 @@ mod tests {
 
     #[test]
     fn a_copy_goes_on_as_the_original_does() {
-        let mut stream = Stream::new(7, Source::Angle);
+        let mut stream = Stream::new(7, Source::AngleOutput);
         for drawn in 0..200 {
             let (mut copy, mut original) = (stream.clone(), stream);
             assert_eq!([(); 200].map(|()| copy.unit()), [(); 200].map(|()| original.unit()), "after {drawn}");
-            stream = Stream::new(7, Source::Angle);
+            stream = Stream::new(7, Source::AngleOutput);
             (0..=drawn).for_each(|_| _ = stream.unit());
         }
     }

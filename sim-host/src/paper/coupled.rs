@@ -5,6 +5,7 @@ use firmware::control::sliding::{AxisGains, ReachingLaw};
 use super::Line;
 use super::claims::{ALTITUDE_ERROR, ALTITUDE_ERROR_M, AVERAGE_FOLLOWS};
 use super::flights::{Flights, Flown};
+use super::undisturbed::AVERAGE_FROM;
 
 pub(super) fn lines(flights: &Flights) -> Vec<Line> {
     let Flights { literal, literal_strong, literal_thin, literal_slow, helix, .. } = flights;
@@ -28,10 +29,10 @@ fn vehicle(flown: &Flown) -> String {
 }
 
 fn settled(flown: &Flown, why: String) -> Line {
-    let claim = format!("{}: all follow within 0.5 s", vehicle(flown));
-    Line::new(&claim, AVERAGE_FOLLOWS.source, flown, "x, y and z all within 5 cm from", "s").with(
+    let claim = format!("{}: {}", vehicle(flown), AVERAGE_FOLLOWS.what);
+    Line::new(&claim, AVERAGE_FOLLOWS.source, flown, AVERAGE_FROM, "s").with(
         Some(AVERAGE_FOLLOWS.time_s),
-        flown.all_settled(),
+        flown.mean_settled(),
         why,
     )
 }

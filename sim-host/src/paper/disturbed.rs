@@ -27,11 +27,12 @@ fn removed(flown: &Flown, what: &str, why: String) -> Line {
     Line::new(&claim, DISTURBANCE_REMOVED.source, flown, measure, "s").with(Some(DISTURBANCE_REMOVED.time_s), here, why)
 }
 
-/// Greatest errors while the disturbance acts, in words.
+/// Greatest errors while the disturbance acts and in the second before, in words.
 fn greatest(flown: &Flown) -> String {
     let acting = flown.scenario.file.disturbance.map_or((0.0, 0.0), |d| (d.from_s, d.to_s));
-    let (position, angle) = flown.greatest_errors_within(acting);
-    format!("the greatest errors while it acts are {:.2} mm and {:.4}°", 1e3 * position, angle.to_degrees())
+    let text = |(position, angle): (f64, f64)| format!("{:.2} mm and {:.4}°", 1e3 * position, angle.to_degrees());
+    let [during, before] = [acting, (acting.0 - 1.0, acting.0)].map(|time| text(flown.greatest_errors_within(time)));
+    format!("the greatest errors while it acts are {during}; in the second before they are {before}")
 }
 
 fn accelerations(flown: &Flown) -> Line {

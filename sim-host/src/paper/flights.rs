@@ -158,6 +158,11 @@ impl Flown {
         [axes.x, axes.y, axes.z].map(|axis| axis.settle_5cm_s.filter(|_| self.outcome.survived()))
     }
 
+    /// The mean of the three, s.
+    pub fn mean_settled(&self) -> Option<f64> {
+        self.settled().into_iter().try_fold(0.0, |sum, time| Some(sum + time? / 3.0))
+    }
+
     /// From when on all three are, s.
     pub fn all_settled(&self) -> Option<f64> {
         self.settled().into_iter().try_fold(0.0_f64, |last, time| Some(last.max(time?)))

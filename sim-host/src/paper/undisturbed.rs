@@ -14,6 +14,8 @@ use crate::report::metrics::errors;
 
 /// The usual band of a settling time: this fraction of the initial error, or of the greatest rate.
 const SETTLED: f64 = 0.02;
+/// What "follows on average" is measured by.
+pub(super) const AVERAGE_FROM: &str = "within 5 cm, mean of x, y, z, from";
 /// What "follows" is measured by.
 const WITHIN_5_CM: &str = "within 5 cm from";
 
@@ -165,11 +167,9 @@ fn helix(ideal: &Flown) -> Line {
 }
 
 fn average(ideal: &Flown) -> Line {
-    let settled = ideal.settled();
-    let mean = settled.into_iter().try_fold(0.0, |sum, time| Some(sum + time? / 3.0));
     let why = format!(
         "mean of x, y and z; the slowest is y, {:.3} s. What the paper averages it does not say.",
         ideal.all_settled().unwrap_or(f64::NAN)
     );
-    line(&AVERAGE_FOLLOWS, ideal, "within 5 cm, mean of x, y, z, from").with(Some(AVERAGE_FOLLOWS.time_s), mean, why)
+    line(&AVERAGE_FOLLOWS, ideal, AVERAGE_FROM).with(Some(AVERAGE_FOLLOWS.time_s), ideal.mean_settled(), why)
 }

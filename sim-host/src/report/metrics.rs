@@ -137,6 +137,11 @@ impl Axis {
         Self { initial: None, wide, narrow, tracking: Size::default(), beyond: 0.0 }
     }
 
+    /// Begins again with the next error: the reference has jumped.
+    fn restart(&mut self) {
+        (self.initial, self.beyond) = (None, 0.0);
+    }
+
     fn take(&mut self, t: f64, error: f64) {
         let initial = *self.initial.get_or_insert(error);
         self.beyond = self.beyond.max(-initial.signum() * error);
@@ -176,6 +181,11 @@ pub struct Metrics {
     chattering_after_4s: Variation,
     effort: [Size; 4],
     last_t: Option<f64>,
+    /// The reference of the row before, m.
+    reference: Option<[f64; 3]>,
+    jumped_s: Option<f64>,
+    /// Whether it was away from its reference in the first row.
+    began_away: bool,
 }
 
 impl Metrics {
@@ -190,6 +200,34 @@ impl Metrics {
             chattering_after_4s: Variation::from(TRACKING_FROM_S),
             effort: [Size::default(); 4],
             last_t: None,
+            reference: None,
+            jumped_s: None,
+            began_away: false,
+        }
+    }
+
+    /// When the reference last jumped by [`WIDE_BAND`] or more from a row to the next, s. Overshoot counts from there.
+    pub fn jumped_s(&self) -> Option<f64> {
+        self.jumped_s
+    }
+
+    /// Whether it began away from its reference, by [`WIDE_BAND`] or more in an axis.
+    pub fn began_away(&self) -> bool {
+        self.began_away
+    }
+
+    fn look_for_jump(&mut self, row: &Row) {
+        let [x, y, z, _] = row.reference;
+        let now = [x, y, z];
+        let Some(before) = self.reference.replace(now) else {
+            self.began_away = errors(row).iter().any(|error| error.abs() >= WIDE_BAND);
+            return;
+        };
+        for ((axis, now), before) in self.axes.iter_mut().zip(now).zip(before) {
+            if (now - before).abs() >= WIDE_BAND {
+                axis.restart();
+                self.jumped_s = Some(row.t);
+            }
         }
     }
 
@@ -256,6 +294,7 @@ impl Default for Metrics {
 impl Recorder for Metrics {
     fn record(&mut self, row: &Row) {
         self.last_t = Some(row.t);
+        self.look_for_jump(row);
         let errors = errors(row);
         for (axis, error) in self.axes.iter_mut().zip(errors) {
             axis.take(row.t, error);

@@ -178,6 +178,9 @@ pub struct Summary {
     /// How roll and pitch followed, where they are what is followed.
     #[serde(skip)]
     pub roll_and_pitch: Option<[AxisFigures; 2]>,
+    /// When its reference last jumped, s.
+    #[serde(skip)]
+    pub reference_jump_s: Option<f64>,
     /// Why it ended, with the details.
     #[serde(skip)]
     pub ended: End,
@@ -220,6 +223,7 @@ impl Summary {
             control_effort: metrics.control_effort(),
             attitude_error: metrics.tilt(),
             papers_helix: flight.papers_helix,
+            reference_jump_s: metrics.jumped_s().filter(|_| survived),
             sensed: None,
             told: None,
             recovery_s: recovery.map(|r| if survived { r } else { Recovery::default() }),

@@ -56,13 +56,25 @@ pub fn result(summary: &Summary) -> String {
             course::render(told, summary.sensed.as_ref())
         }
         _ if summary.ended == End::NeverFlew => String::new(),
-        _ if summary.roll_and_pitch.is_some() => attitude_table(summary),
-        _ if !summary.settles => error_table(summary),
-        _ => {
-            let recovery = summary.recovery_s.as_ref().map(recovery).unwrap_or_default();
-            settling_table(summary) + &bound(summary) + &recovery
-        }
+        _ => followed(summary),
     }
+}
+
+/// How the reference was followed, and what became of a disturbance.
+fn followed(summary: &Summary) -> String {
+    let table = match summary.roll_and_pitch {
+        Some(_) => attitude_table(summary),
+        None if !summary.settles => error_table(summary),
+        None => settling_table(summary) + &bound(summary),
+    };
+    let jump = summary.reference_jump_s.map(|t| {
+        format!("reference           jumps at {t:.3} s: overshoot counts from there, times from the beginning\n")
+    });
+    let short = (summary.survived && summary.axes.x.max_m.is_none()).then(|| {
+        "errors              count from 4 s on, and the flight has ended: set `duration_s` to more\n".to_owned()
+    });
+    let recovery = summary.recovery_s.as_ref().map(recovery);
+    [Some(table), jump, short, recovery].into_iter().flatten().collect()
 }
 
 /// How far each axis was off.
@@ -332,6 +344,17 @@ truth SHA-256       abababababababababababababababababababababababababababababab
         assert_eq!(heading(&off, Paint::PLAIN), expected);
         assert_eq!(verdict(&off).1, Verdict::Off);
         assert_eq!(verdict(&Summary::new(flight(true), &metrics())).1, Verdict::Good);
+    }
+
+    #[test]
+    fn a_jump_of_the_reference_and_errors_that_do_not_count_yet_are_told() {
+        let jumped = Summary { reference_jump_s: Some(1.0), ..Summary::new(flight(true), &metrics()) };
+        let text = render(&jumped, Paint::PLAIN);
+        let line = "reference           jumps at 1.000 s: overshoot counts from there, times from the beginning\n";
+        assert!(text.contains(line), "{text}");
+        let short = Summary::new(Flight { settles: false, ..flight(true) }, &Metrics::new());
+        let text = render(&short, Paint::PLAIN);
+        assert!(text.contains("errors              count from 4 s on, and the flight has ended"), "{text}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, ensure};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 
 use crate::files::read_regular;
 
@@ -77,7 +77,11 @@ fn columns_of(line: usize, header: &str) -> Result<Vec<&str>> {
             "line {line}: columns are separated by {name}: separate them by commas, and write decimals with a point"
         );
     }
-    Ok(header.trim_start_matches('#').split(',').map(str::trim).collect())
+    let names: Vec<&str> = header.trim_start_matches('#').split(',').map(str::trim).collect();
+    if let Some(other) = names.iter().find(|name| name.starts_with("yaw") && **name != YAW) {
+        bail!("line {line}: column `{other}`: yaw is given in radians, as `{YAW}`");
+    }
+    Ok(names)
 }
 
 /// Refuses a row of more values than there are columns: decimals with a comma would be taken for two.
@@ -154,6 +158,7 @@ mod tests {
         let header = "t_s,x_m,y_m,z_m,yaw_rad\n0,0,0,2,0\n";
         for (text, error) in [
             (String::new(), "it is empty: the first line names the columns"),
+            ("t_s,x_m,y_m,z_m,yaw_deg\n".to_owned(), "line 1: column `yaw_deg`: yaw is given in radians, as `yaw_rad`"),
             (
                 "t,x,y,z\n".to_owned(),
                 "line 1: no column `t_s` in `t,x,y,z`: it must have t_s, x_m, y_m, z_m, and may have yaw_rad",

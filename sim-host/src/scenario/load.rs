@@ -163,9 +163,12 @@ impl Scenario {
             ([tuning], None) => tuning.typed::<TuningFile>()?.controller,
             ([], Some(control)) => Controller::Smc(control.clone()),
             ([], None) => {
-                let rule = "is missing";
-                let remedy = "name a tuning file, or give gains under `[control]`";
-                return Err(Refusal::new("tuning", rule).remedy(remedy).into());
+                let remedy = format!(
+                    "the airframe `{}` brings no gains: fly another (`airframe = \"x500\"`), or name some (`tuning = \
+                     \"x500-smc\"`, or a file of yours), or give `[control]`",
+                    file.airframe
+                );
+                return Err(Refusal::new("tuning", "is missing").remedy(remedy).into());
             }
             _ => bail!(BOTH),
         };
@@ -213,7 +216,7 @@ pub fn tuning(name: &str) -> Result<TuningFile> {
     read(name, "tuning", &TUNINGS)
 }
 
-const BOTH: &str = "`tuning` and `control` both say what flies: keep one";
+const BOTH: &str = "`tuning` and `control` both say what flies: keep one, in a copy of the scenario's file";
 
 /// Lays settings of gains over the scenario's own, or over those of its tuning, which is given back then.
 fn gains(own: &mut Layer, settings: &[(&Setting, &str)]) -> Result<Option<Layer>> {

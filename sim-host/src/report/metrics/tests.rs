@@ -85,6 +85,22 @@ fn overshoot_needs_something_to_overshoot() {
 }
 
 #[test]
+fn overshoot_counts_from_the_last_jump_of_the_reference() {
+    // A step to 5 m at 1 s, reached at once and passed by 0.5 m after another second.
+    let position = |t: f64| if t < 1.5 { 0.0 } else { 5.5 };
+    let reference = |t: f64| if t < 1.0 { 0.0 } else { 5.0 };
+    let row = |t| Row { position: [position(t), 0.0, 0.0], reference: [reference(t), 0.0, 0.0, 0.0], ..hover(t) };
+    let metrics = fly(3.0, row);
+    assert_eq!(metrics.jumped_s(), Some(1.0));
+    assert!(!metrics.began_away());
+    assert_near(metrics.axes().x.overshoot, 0.1, 1e-12);
+    assert_eq!(metrics.axes().y.overshoot, None);
+    assert!(fly(0.1, |t| Row { reference: [0.0, 0.05, 0.0, 0.0], ..hover(t) }).began_away());
+    // As fast as anything here flies: 40 m/s.
+    assert_eq!(fly(1.0, |t| Row { reference: [40.0 * t, 0.0, 0.0, 0.0], ..hover(t) }).jumped_s(), None);
+}
+
+#[test]
 fn yaw_error_takes_the_short_way_round() {
     let yaw = 3.1_f64;
     let attitude = [(yaw / 2.0).cos(), 0.0, 0.0, (yaw / 2.0).sin()];
