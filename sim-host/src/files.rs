@@ -112,6 +112,10 @@ fn plain(message: &str, text: Option<&str>) -> String {
         let key = text.and_then(|text| text.split_once('=')).map_or("a number", |(key, _)| key.trim());
         return format!("`{key}` is too large: whole numbers go to {}, others to {:e}", i64::MAX, f64::MAX);
     }
+    if message.contains("duplicate key") {
+        let key = text.map_or("", |text| text.split('=').next().unwrap_or(text)).trim_matches(['[', ']', ' ']);
+        return format!("`{key}` is given twice");
+    }
     let message = message.trim().replace('\n', " ");
     // What could follow helps nobody here.
     [", expected nothing", ", expected literal string"].iter().fold(message, |text, tail| text.replace(tail, ""))

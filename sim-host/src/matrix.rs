@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::files::{self, built_in};
 use crate::refusal::did_you_mean;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, beside};
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
 
@@ -96,7 +96,10 @@ impl Matrix {
     /// # Errors
     /// One line with the matrix or file, the key and the error.
     pub fn load(name: &str, settings: &[String]) -> Result<Self> {
-        let file: MatrixFile = files::read(name, "matrix", &MATRICES)?;
+        let mut file: MatrixFile = files::read(name, "matrix", &MATRICES)?;
+        for controller in &mut file.controllers {
+            *controller = beside(name, controller);
+        }
         file.validate().with_context(|| format!("matrix `{name}`"))?;
         Ok(Self { name: name.to_owned(), file, settings: settings.to_vec() })
     }
@@ -134,7 +137,7 @@ impl Matrix {
     fn case(&self, scenario: &str, disturbance: &DisturbanceEntry) -> Result<Case> {
         let settings = [self.settings.as_slice(), &disturbance.set].concat();
         let context = || format!("matrix `{}`, disturbance `{}`", self.name, disturbance.name);
-        let loaded = Scenario::load(scenario, &settings).with_context(context)?;
+        let loaded = Scenario::load(&beside(&self.name, scenario), &settings).with_context(context)?;
         require_counted(&loaded).with_context(context)?;
         Ok(Case { scenario: loaded, scenario_name: scenario.to_owned(), disturbance_name: disturbance.name.clone() })
     }
@@ -256,5 +259,21 @@ mod tests {
         assert_eq!(cases[0].scenario.file.duration_s, 2.0);
         let error = matrix.select(Some(&names(&["x500-hovr"])), None).expect_err("unknown");
         assert!(error.to_string().contains("x500-hovr"), "{error}");
+    }
+
+    #[test]
+    fn paths_are_from_the_matrix_own_folder_if_there_is_such_a_file() {
+        let folder = std::env::temp_dir().join(format!("glissade-{}-matrix", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("the temporary folder can be written");
+        let path = folder.join("mine.toml").to_string_lossy().into_owned();
+        let text = "summary = \"\"\nseeds = \"1..2\"\ntraining_seeds = \"3..4\"\ncontrollers = [\"x500-smc\", \"./own.toml\"]\n\
+                    scenarios = [\"x500-step\"]\n[[disturbances]]\nname = \"none\"\nset = []\n";
+        std::fs::write(&path, text).expect("can be written");
+        std::fs::write(folder.join("own.toml"), "").expect("can be written");
+        let matrix = Matrix::load(&path, &[]).expect("it loads");
+        let own = folder.join("./own.toml").to_string_lossy().into_owned();
+        assert_eq!(matrix.file.controllers, ["x500-smc".to_owned(), own]);
+        assert_eq!(matrix.cases().expect("built in")[0].scenario_name, "x500-step");
+        std::fs::remove_dir_all(&folder).expect("it is there");
     }
 }

@@ -21,6 +21,7 @@ use crate::controller::{Control, Controller};
 use crate::files::built_in;
 use crate::pilot::Command;
 use crate::sensors::{Fault, Home, SuiteFile};
+pub(crate) use load::beside;
 pub use load::tuning;
 pub(crate) use settings::value;
 pub use world::{BatteryStart, Gust, ScheduledPush, Truth, Tumble, Wind, World};
@@ -152,10 +153,10 @@ pub struct ScenarioFile {
     #[serde(default)]
     pub home: Home,
     /// What fails.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fault: Vec<Fault>,
     /// What a pilot asks for.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub command: Vec<Command>,
     /// How the vehicle flies by itself.
     #[serde(default)]
@@ -167,7 +168,7 @@ pub struct ScenarioFile {
     /// Wind.
     pub wind: Option<Wind>,
     /// Steady pushes for a while, which add up.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub push: Vec<ScheduledPush>,
     /// What of the airframe and of its air is flown with, besides the constants.
     #[serde(default)]

@@ -201,10 +201,11 @@ fn find_beside(table: &mut Table, scenario: &str) {
     }
 }
 
-/// The path of a file that a scenario names: beside the scenario's own, if there is one; else as it is.
-fn beside(scenario: &str, name: &str) -> String {
-    let near = Path::new(scenario).with_file_name(name);
-    let is_path = Path::new(scenario).extension().is_some_and(|end| end == "toml") || scenario.contains('/');
+/// The path of a file that another file names, as a scenario its tuning: beside that file, if there is one; else as it
+/// is, from the current folder.
+pub(crate) fn beside(by: &str, name: &str) -> String {
+    let near = Path::new(by).with_file_name(name);
+    let is_path = Path::new(by).extension().is_some_and(|end| end == "toml") || by.contains('/');
     if is_path && near.is_file() { near.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
