@@ -112,6 +112,7 @@ fn draw_sample(area: &Area, key: Key, (x, y): (f64, f64)) {
         Key::Reference => line(Role::Reference.stroke()),
         Key::Flown | Key::Linear => line(Role::Flown.stroke()),
         Key::Start | Key::Simulated => area.dot((x + 20.0, y), 4.0, palette::START),
+        Key::Jump => line(Role::Jump.stroke()),
         Key::Disturbed => filled(palette::DISTURBED),
         Key::Line(_, role) => line(role.stroke()),
         Key::Series(_, color) => filled(color),

@@ -122,6 +122,11 @@ impl Panel {
         }
     }
 
+    /// Whether a jump of the reference is drawn.
+    pub(super) fn jumps(&self) -> bool {
+        self.lines.iter().any(|(role, points)| *role == Role::Jump && !points.is_empty())
+    }
+
     fn is_empty(&self) -> bool {
         self.dots.is_empty() && self.band.is_none() && self.lines.iter().all(|(_, points)| points.is_empty())
     }

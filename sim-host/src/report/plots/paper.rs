@@ -19,7 +19,7 @@ use super::page::{grid, save, size_of};
 use super::panel::{ANGLES, POSITIONS, Panel};
 use super::path;
 use super::series::{Points, angle_over_time, angles_deg, over_time, thin_path};
-use super::style::{Color, Key, Role, palette};
+use super::style::{Color, INK, Key, Role, palette};
 use super::tracking::phase_panel;
 use crate::decoupled::STEP_S;
 use crate::paper::claims::{ALTITUDE_AT_REST, ALTITUDE_ERROR, Y_FOLLOWS, Z_FOLLOWS};
@@ -38,7 +38,7 @@ const LOW: u32 = 215;
 /// Distances are shown from a hundredth of a millimetre on, as logarithms of metres.
 const DISTANCES: (f64, f64) = (-5.0, 2.0);
 const FOLLOWING: [Key; 3] = [Key::Reference, Key::Flown, Key::Start];
-const SURFACE: Key = Key::Line("surface s = 0", Role::Series(palette::ORANGE));
+const SURFACE: Key = Key::Line("surface s = 0", Role::Series(palette::GREEN));
 const SWITCHES: Key = Key::Series("switches within", palette::BAND);
 
 /// Draws all into `folder`. Returns the files written, in the paper's order.
@@ -181,7 +181,7 @@ fn coupled(folder: &Path, flights: &Flights) -> Result<PathBuf> {
     let Flights { ideal, literal, literal_slow, helix, .. } = flights;
     let compared: [(&str, &Flown, Color); 4] = [
         ("decoupled", ideal, palette::GREEN),
-        ("coupled", literal, palette::VERMILION),
+        ("coupled", literal, INK),
         ("slow gains, wide layer", literal_slow, palette::PURPLE),
         ("own gains", helix, palette::SKY),
     ];
@@ -197,7 +197,7 @@ fn coupled(folder: &Path, flights: &Flights) -> Result<PathBuf> {
     ];
     let path = folder.join("coupled-vehicle.svg");
     let keys = compared.map(|(name, _, color)| Key::Series(name, color));
-    let legend = [[Key::Reference, Key::Flown].as_slice(), &keys].concat();
+    let legend = [FOLLOWING.as_slice(), &keys].concat();
     let heading = "Coupled vehicle: Table 1, and gains that fly";
     save(&path, size_of(2, 400), heading, &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
@@ -256,7 +256,7 @@ fn surface(flown: &Flown, axis: usize, title: &str) -> Panel {
         let error = errors(row)[axis];
         ((error, -lambda * error), format!("{} s", ALTITUDE_AT_REST.time_s))
     };
-    let surface = (Role::Series(palette::ORANGE), line);
+    let surface = (Role::Series(palette::GREEN), line);
     let lines = std::iter::once(surface).chain(panel.lines.iter().cloned()).collect();
     Panel { lines, places: at_rest.map(place).into_iter().collect(), ..panel }
 }

@@ -9,10 +9,11 @@ use super::flight::Figures;
 use super::page::{HEADING, WIDTH, save};
 use super::panel::{ABOVE, BELOW, LEFT, Panel, RIGHT};
 use super::phases;
-use super::series::{extent, thin_path};
+use super::series::{extent, gaps, reference_path, thin_path};
 use super::space::{self, Frame, Leg};
 use super::style::{Key, Role};
 use super::svg::Area;
+use super::tracking::with_new_reference;
 use crate::record::Row;
 
 /// A vehicle that has moved less, and should have, m: its path would be a dot.
@@ -54,13 +55,11 @@ pub(super) fn draw(path: &Path, heading: &str, figures: &Figures) -> Result<()> 
     let phases = figures.backdrop.leg_keys();
     let lines =
         if phases.is_empty() { vec![Key::Reference, Key::Flown] } else { vec![Key::Line("reference", Role::Guide)] };
-    let legend: Vec<Key> = phases.into_iter().chain(lines).chain([Key::Start]).collect();
+    let jumps = above.jumps().then_some(Key::Jump);
+    let legend: Vec<Key> = phases.into_iter().chain(lines).chain([Key::Start]).chain(jumps).collect();
     save(path, (WIDTH, HEADING + height as u32), heading, &legend, |area| {
         let (left, right) = area.split_right(SPACE);
-        let reference = Leg {
-            points: flown(figures).map(|row| [row.reference[0], row.reference[1], row.reference[2]]).collect(),
-            role: reference_role(figures),
-        };
+        let reference = Leg { points: reference(figures), role: reference_role(figures) };
         let in_space = stacked(&left, space, figures);
         space::draw(&in_space, &frame, &reference, &legs(figures), &places(figures));
         above.draw(&stacked(&right, plan, figures));
@@ -84,9 +83,11 @@ fn reference_role(figures: &Figures) -> Role {
     if figures.backdrop.phases.is_empty() { Role::Reference } else { Role::Guide }
 }
 
-/// The rows while it flies.
-fn flown<'a>(figures: &'a Figures) -> impl Iterator<Item = &'a Row> {
-    figures.rows.iter().filter(|row| figures.backdrop.flies(row.t))
+/// The reference's path while it flies.
+fn reference(figures: &Figures) -> Vec<[f64; 3]> {
+    let mut rows = with_new_reference(figures);
+    rows.retain(|row| figures.backdrop.flies(row.t));
+    reference_path(&rows)
 }
 
 /// What was flown, in phases where there are any.
@@ -119,9 +120,10 @@ fn places(figures: &Figures) -> Vec<([f64; 3], String)> {
 
 fn from_above(figures: &Figures) -> Panel {
     let plane = |points: &[[f64; 3]]| thin_path(points.iter().map(|[x, y, _]| (*x, *y)).collect());
-    let reference = thin_path(flown(figures).map(|row| (row.reference[0], row.reference[1])).collect());
+    let reference = plane(&reference(figures));
+    let jumps = (Role::Jump, gaps(&reference));
     let flown = legs(figures).into_iter().map(|leg| (leg.role, plane(&leg.points)));
-    let lines: Vec<_> = std::iter::once((reference_role(figures), reference)).chain(flown).collect();
+    let lines: Vec<_> = [jumps, (reference_role(figures), reference)].into_iter().chain(flown).collect();
     let places = places(figures).into_iter().map(|([x, y, _], name)| ((x, y), name)).collect();
     let start = figures.rows.first().map(|row| (row.position[0], row.position[1]));
     let panel = Panel::path("from above", Quantity::place("x (north)"), Quantity::place("y (west)"), vec![]);

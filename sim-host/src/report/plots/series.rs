@@ -45,19 +45,44 @@ pub(super) fn angle_over_time(rows: &[Row], value: impl Fn(&Row) -> f64) -> Poin
 /// Error rate over error of one axis: (e, ė), with ė by central differences, since a row has no reference rate.
 /// Interrupted where the reference jumps: there is no rate.
 pub(super) fn phase(rows: &[Row], axis: usize) -> Points {
-    let error = |row: &Row| errors(row)[axis];
-    let reference_rate =
-        |a: &Row, b: &Row| (b.reference[axis] - a.reference[axis]) / (b.t - a.t).max(f64::MIN_POSITIVE);
     let point = |k: usize| {
-        let (before, now, after) = (&rows[k.saturating_sub(1)], &rows[k], &rows[(k + 1).min(rows.len() - 1)]);
-        let jumps = before.t < now.t
-            && now.t < after.t
-            && (reference_rate(before, now) - reference_rate(now, after)).abs() > JUMP_M_S;
+        let [before, now, after] = around(rows, k);
         // The velocity is known; only the reference has to be differentiated, and it is smooth where it does not jump.
-        let rate = reference_rate(before, after) - now.velocity[axis];
-        if jumps { BREAK } else { (error(now), rate) }
+        let rate = reference_rate(before, after, axis) - now.velocity[axis];
+        if jumps(rows, k, axis) { BREAK } else { (errors(now)[axis], rate) }
     };
     thin_path((0..rows.len()).map(point).collect())
+}
+
+/// The reference's path, m, interrupted where it jumps.
+pub(super) fn reference_path(rows: &[Row]) -> Vec<[f64; 3]> {
+    let place = |k: usize| match rows[k].reference {
+        [x, y, z, _] if !(0..3).any(|axis| jumps(rows, k, axis)) => [x, y, z],
+        _ => [f64::NAN; 3],
+    };
+    (0..rows.len()).map(place).collect()
+}
+
+/// What a thinned line leaves out where it is interrupted: from its last point before to its first after.
+pub(super) fn gaps(points: &[(f64, f64)]) -> Points {
+    points.windows(3).filter(|three| three[1].0.is_nan()).flat_map(|three| [three[0], three[2], BREAK]).collect()
+}
+
+/// A row with the one before and the one after; at the ends, with itself.
+fn around(rows: &[Row], k: usize) -> [&Row; 3] {
+    [&rows[k.saturating_sub(1)], &rows[k], &rows[(k + 1).min(rows.len() - 1)]]
+}
+
+fn reference_rate(from: &Row, to: &Row, axis: usize) -> f64 {
+    (to.reference[axis] - from.reference[axis]) / (to.t - from.t).max(f64::MIN_POSITIVE)
+}
+
+/// Whether the reference of an axis jumps right before or right after a row.
+fn jumps(rows: &[Row], k: usize, axis: usize) -> bool {
+    let [before, now, after] = around(rows, k);
+    before.t < now.t
+        && now.t < after.t
+        && (reference_rate(before, now, axis) - reference_rate(now, after, axis)).abs() > JUMP_M_S
 }
 
 /// Roll, pitch, yaw in degrees.
@@ -129,7 +154,8 @@ pub(super) fn thin_path(mut points: Points) -> Points {
         }
     }
     let stride = points.len().div_ceil(MOST_POINTS).max(1);
-    points.into_iter().step_by(stride).collect()
+    let kept = points.into_iter().enumerate().filter(|(k, point)| k.is_multiple_of(stride) || point.0.is_nan());
+    kept.map(|(_, point)| point).collect()
 }
 
 /// Drops the points that lie within `dx` and `dy` of the last one kept. The last of a line stays.
@@ -211,6 +237,20 @@ mod tests {
         let points = phase(&rows, 0);
         assert_eq!(points.iter().filter(|p| p.0.is_nan()).count(), 1, "{points:?}");
         assert!(points.iter().all(|p| p.0.is_nan() || p.1.abs() < 1e-9), "{points:?}");
+    }
+
+    #[test]
+    fn a_reference_that_jumps_is_two_places() {
+        let row = |k: u32| {
+            let at = if k < 100 { [0.0; 4] } else { [5.0, 3.0, 2.0, 0.0] };
+            Row { t: f64::from(k) * 1e-3, reference: at, ..Row::default() }
+        };
+        let rows: Vec<_> = (0..200).map(row).collect();
+        let plan = thin_path(reference_path(&rows).iter().map(|[x, y, _]| (*x, *y)).collect());
+        let runs: Vec<Points> = plan.split(|p| p.0.is_nan()).map(<[_]>::to_vec).collect();
+        assert_eq!(runs.len(), 2);
+        assert!(runs[0].iter().all(|p| *p == (0.0, 0.0)) && runs[1].iter().all(|p| *p == (5.0, 3.0)), "{runs:?}");
+        assert_eq!(gaps(&plan)[..2], [(0.0, 0.0), (5.0, 3.0)]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use super::axis;
 use super::panel::place_names;
-use super::series::{Points, extent, thin_path};
+use super::series::{Points, extent, gaps, thin_path};
 use super::style::{Color, Role, palette};
 use super::svg::{Anchor, Area, Font, Stroke};
 use crate::record::Row;
@@ -160,7 +160,9 @@ pub(super) fn draw(area: &Area, frame: &Frame, reference: &Leg, flown: &[Leg], p
         let floor: Vec<_> = leg.points.iter().map(|[x, y, _]| [*x, *y, frame.low[2]]).collect();
         area.line(view.path(&floor), SHADOW);
     }
-    area.line(view.path(&reference.points), reference.role.stroke());
+    let path = view.path(&reference.points);
+    area.line(gaps(&path), Role::Jump.stroke());
+    area.line(path, reference.role.stroke());
     for leg in flown {
         area.line(view.path(&leg.points), leg.role.stroke());
     }

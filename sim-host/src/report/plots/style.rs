@@ -68,6 +68,8 @@ pub(super) enum Role {
     Leg(Color),
     /// The reference below legs in colours.
     Guide,
+    /// From where to where a reference jumps.
+    Jump,
     /// While something fails.
     Fault,
 }
@@ -82,9 +84,10 @@ impl Role {
             Self::Series(color) => (color, 1.3),
             Self::Leg(color) => (color, 2.0),
             Self::Guide => (palette::GRID, 7.0),
+            Self::Jump => (palette::GREY, 1.2),
             Self::Fault => (INK, 3.0),
         };
-        Stroke { color, width, dashed: false }
+        Stroke { color, width, dashed: self == Self::Jump }
     }
 }
 
@@ -94,6 +97,7 @@ pub(super) enum Key<'a> {
     Reference,
     Flown,
     Start,
+    Jump,
     Disturbed,
     Linear,
     Simulated,
@@ -111,6 +115,7 @@ impl<'a> Key<'a> {
             Self::Reference => "reference",
             Self::Flown => "flown",
             Self::Start => "start",
+            Self::Jump => "the reference jumps",
             Self::Disturbed => "disturbance acts",
             Self::Linear => "linear",
             Self::Simulated => "in the simulation",

@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use firmware::schedule::OUTER;
+use firmware::signals::TICK_S;
 
 use super::axis::{Quantity, Unit};
 use super::flight::{Figures, Kind};
 use super::page::{grid, save, size_of};
 use super::panel::{ANGLES, DIRECTIONS, POSITIONS, Panel};
-use super::series::{BREAK, Points, angle_over_time, angles_deg, over_time, phase, thin_series};
+use super::series::{BREAK, Points, angle_over_time, angles_deg, gaps, over_time, phase, thin_series};
 use super::style::{Key, Role};
 use crate::record::Row;
 use crate::report::metrics::{TRACKING_FROM_S, angle_errors, errors};
@@ -19,8 +21,6 @@ const PANEL: u32 = 235;
 const SHRINKS: f64 = 8.0;
 /// A position error that never exceeds this is noise, and its portrait a dot, m.
 const PORTRAIT_FROM_M: f64 = 1e-3;
-/// A pilot's flight has a new reference as often, ticks (from tick 2 on): between, the reference stands still.
-const NEW_REFERENCE: (u64, u64) = (4, 2);
 
 /// The error of one axis in the unit of its panel, of a row.
 type ErrorOf = fn(&Row, usize) -> f64;
@@ -50,30 +50,35 @@ pub(super) fn position(folder: &Path, figures: &Figures) -> Result<PathBuf> {
 /// # Errors
 /// As [`position`].
 pub(super) fn attitude(folder: &Path, figures: &Figures) -> Result<PathBuf> {
-    let rows = &with_new_target(figures.rows);
+    let demanded = &demanded(figures.rows);
     let absolute = |axis: usize| {
         let desired = |row: &Row| {
             if figures.backdrop.flies(row.t) { row.desired_attitude[axis].to_degrees() } else { f64::NAN }
         };
         let lines = vec![
-            (Role::Reference, angle_over_time(rows, desired)),
-            (Role::Flown, angle_over_time(rows, |row| angles_deg(row)[axis])),
+            (Role::Reference, angle_over_time(demanded, desired)),
+            (Role::Flown, angle_over_time(figures.rows, |row| angles_deg(row)[axis])),
         ];
         Panel::over_time(ANGLES[axis], Quantity::new(ANGLES[axis], Unit::Degree).at_least(2.0), lines)
     };
     let error: ErrorOf = |row, axis| angle_errors(row)[axis].to_degrees();
     let path = folder.join("attitude.svg");
-    save_pairs(&path, figures, "Attitude and its error", rows, absolute, (ANGLES, Unit::Degree, error))?;
+    save_pairs(&path, figures, "Attitude and its error", demanded, absolute, (ANGLES, Unit::Degree, error))?;
     Ok(path)
 }
 
-/// The rows at which a new attitude was demanded: until the next, the law extrapolates it, and the row does not say
-/// how. All rows where it never changes.
-fn with_new_target(rows: &[Row]) -> Vec<Row> {
-    let new = rows.windows(2).filter(|pair| pair[0].desired_attitude != pair[1].desired_attitude);
-    let first = rows.first().copied();
-    let kept: Vec<Row> = first.into_iter().chain(new.map(|pair| pair[1])).collect();
-    if kept.len() > 1 { kept } else { rows.to_vec() }
+/// The rows whose attitude is what the law follows: those with a new one, and those at which it has stood still for a
+/// period of the outer loop. Between two new ones the law extrapolates, and the row does not say how.
+fn demanded(rows: &[Row]) -> Vec<Row> {
+    // Half a tick less than the period, for rounding.
+    let period = f64::from(TICK_S) * (f64::from(OUTER.period) - 0.5);
+    let (mut before, mut since) = (rows.first().copied(), f64::NEG_INFINITY);
+    let mut follows = |row: &Row| {
+        let is_new = before.is_some_and(|before| before.desired_attitude != row.desired_attitude);
+        (before, since) = (Some(*row), if is_new { row.t } else { since });
+        is_new || row.t - since > period
+    };
+    rows.iter().filter(|row| follows(row)).copied().collect()
 }
 
 /// Error rate over error of x, y and z. Returns the file written.
@@ -85,7 +90,9 @@ pub(super) fn portraits(folder: &Path, figures: &Figures) -> Result<PathBuf> {
     let columns = panels.len().max(1);
     let path = folder.join("phase.svg");
     let heading = figures.heading("Phase portraits of the position error");
-    save(&path, size_of(1, 400), &heading, &[Key::Flown, Key::Start], |area| grid(area, columns, &panels))?;
+    let jumps = panels.iter().any(Panel::jumps).then_some(Key::Jump);
+    let legend: Vec<Key> = [Key::Flown, Key::Start].into_iter().chain(jumps).collect();
+    save(&path, size_of(1, 400), &heading, &legend, |area| grid(area, columns, &panels))?;
     Ok(path)
 }
 
@@ -99,7 +106,9 @@ pub(super) fn phase_panel(rows: &[Row], axis: usize) -> Panel {
     let name = POSITIONS[axis];
     let (error, rate) = (format!("{name} error"), format!("{name} error rate"));
     let (error, rate) = (Quantity::new(error, Unit::Metre), Quantity::new(rate, Unit::MetrePerSecond));
-    Panel::path(name, error, rate, phase(rows, axis))
+    let points = phase(rows, axis);
+    let lines = vec![(Role::Jump, gaps(&points)), (Role::Flown, points)];
+    Panel { lines, ..Panel::path(name, error, rate, vec![]) }
 }
 
 /// Saves a row of panels for each axis: what was flown beside the reference, the error, and, where the approach would
@@ -161,7 +170,47 @@ pub(super) fn while_flying(figures: &Figures, rows: &[Row], value: impl Fn(&Row)
 
 /// The rows at which the reference is new: of a pilot's flight, those of the outer loop.
 pub(super) fn with_new_reference(figures: &Figures) -> Vec<Row> {
-    let (every, from) = NEW_REFERENCE;
+    let (every, from) = (u64::from(OUTER.period), u64::from(OUTER.offset));
     let is_new = |row: &&Row| figures.kind != Kind::Piloted || (row.t * 1e3).round() as u64 % every == from;
     figures.rows.iter().filter(is_new).copied().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::UnitQuaternion;
+
+    use super::super::tests::{draw_all, figures};
+    use super::*;
+
+    /// A pitch of 40° demanded at 1 s, and a push at 0.4 s that pitches the vehicle to 86° for a tick.
+    fn pushed_before_a_step() -> Vec<Row> {
+        let row = |k: u32| {
+            let pitch = if k == 400 { 86.0_f64 } else { 0.0 };
+            let q = UnitQuaternion::from_euler_angles(0.0, pitch.to_radians(), 0.0);
+            let desired_attitude = [0.0, if k < 1000 { 0.0 } else { 40_f64.to_radians() }, 0.0];
+            Row { t: f64::from(k) * 1e-3, attitude: [q.w, q.i, q.j, q.k], desired_attitude, ..Row::default() }
+        };
+        (0..1100).map(row).collect()
+    }
+
+    #[test]
+    fn a_demand_that_stands_still_is_drawn_level() {
+        let rows = demanded(&pushed_before_a_step());
+        let pitch = |row: &Row| (row.t, row.desired_attitude[1].to_degrees().round());
+        let ramps: Vec<_> = rows.windows(2).filter(|pair| pitch(&pair[0]).1 != pitch(&pair[1]).1).collect();
+        assert_eq!(ramps.len(), 1);
+        assert_eq!((pitch(&ramps[0][0]), pitch(&ramps[0][1])), ((0.999, 0.0), (1.0, 40.0)));
+        // The three rows between the new demand and the outer loop's next output say nothing; all others do.
+        assert_eq!(rows.len(), 1100 - 3);
+    }
+
+    #[test]
+    fn a_peak_of_what_was_flown_is_drawn_while_the_demand_stands_still() {
+        let rows = pushed_before_a_step();
+        let figures = Figures { disturbance: None, ..figures(&rows) };
+        let drawn = draw_all("pushed", &figures);
+        let (_, attitude) = drawn.iter().find(|(name, _)| name == "attitude.svg").expect("it was drawn");
+        // Of an axis that ends at the demanded 40° the highest tick would be 40.
+        assert!(attitude.contains(">80<"), "the axis of pitch reaches the peak of 86°");
+    }
 }
