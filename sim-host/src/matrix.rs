@@ -2,14 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 
 use crate::files::{self, built_in};
 use crate::refusal::did_you_mean;
-use crate::scenario::{Scenario, beside};
+use crate::scenario::{Scenario, beside, is_of_controller};
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
+
+/// Why a gain cannot be set; what names the tunings follows.
+const OWN_GAINS: &str = "a comparison flies the gains of its tunings: write a tuning file and name it in";
 
 /// Matrices built into the binary.
 const MATRICES: [(&str, &str); 1] = built_in!("matrices": "x500");
@@ -94,8 +97,9 @@ impl Matrix {
     /// Loads a built-in matrix by name or a file by path. `settings` (`KEY=VALUE`) are applied to each scenario.
     ///
     /// # Errors
-    /// One line with the matrix or file, the key and the error.
+    /// One line with the matrix or file, the key and the error; also if a setting is a gain.
     pub fn load(name: &str, settings: &[String]) -> Result<Self> {
+        no_gains(settings).map_err(|setting| anyhow!("--set {setting}: {OWN_GAINS} --controllers"))?;
         let mut file: MatrixFile = files::read(name, "matrix", &MATRICES)?;
         for controller in &mut file.controllers {
             *controller = beside(name, controller);
@@ -149,8 +153,10 @@ impl MatrixFile {
         distinct("scenarios", self.scenarios.iter())?;
         distinct("disturbances", self.disturbances.iter().map(|disturbance| &disturbance.name))?;
         for disturbance in &self.disturbances {
+            let key = &disturbance.name;
+            no_gains(&disturbance.set)
+                .map_err(|setting| anyhow!("disturbance `{key}`: `set` has {setting}: {OWN_GAINS} `controllers`"))?;
             for name in disturbance.scenarios.iter().flatten().chain(&disturbance.except) {
-                let key = &disturbance.name;
                 ensure!(
                     self.scenarios.contains(name),
                     "disturbance `{key}` names `{name}`, which `scenarios` does not"
@@ -163,6 +169,11 @@ impl MatrixFile {
         );
         Ok(())
     }
+}
+
+/// Finds a setting of the controller, which each controller of the comparison would replace.
+fn no_gains(settings: &[String]) -> Result<(), &String> {
+    settings.iter().find(|setting| is_of_controller(setting)).map_or(Ok(()), Err)
 }
 
 /// Refuses a flight that ends before its evaluated interval begins.

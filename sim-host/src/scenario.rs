@@ -23,7 +23,7 @@ use crate::pilot::Command;
 use crate::sensors::{Fault, Home, SuiteFile};
 pub(crate) use load::beside;
 pub use load::tuning;
-pub(crate) use settings::value;
+pub(crate) use settings::{is_of_controller, value};
 pub use world::{BatteryStart, Gust, ScheduledPush, Truth, Tumble, Wind, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.

@@ -125,9 +125,7 @@ impl Scenario {
         for setting in &settings {
             match setting.split() {
                 ("airframe", Some(rest)) => of_airframe.push((setting, rest)),
-                (first, Some(rest)) if first == "control" || Controller::NAMES.contains(&first) => {
-                    of_gains.push((setting, rest));
-                }
+                (_, Some(rest)) if setting.is_of_gains() => of_gains.push((setting, rest)),
                 _ => own.set(setting, setting.key)?,
             }
         }

@@ -3,6 +3,7 @@
 use anyhow::{Context, Error, Result, bail};
 use toml::{Table, Value};
 
+use crate::controller::Controller;
 use crate::refusal::Refusal;
 
 /// A setting, as it was given and as it is read.
@@ -39,10 +40,21 @@ impl<'a> Setting<'a> {
         self.key.split_once('.').map_or((self.key, None), |(first, rest)| (first, Some(rest)))
     }
 
+    /// Whether it sets gains.
+    pub(super) fn is_of_gains(&self) -> bool {
+        let (first, _) = self.split();
+        first == "control" || Controller::NAMES.contains(&first)
+    }
+
     /// Sets `key`, which is this setting's own or another for it, in a table.
     pub(super) fn apply(&self, table: &mut Table, key: &str) -> Result<()> {
         set(table, key, self.value.clone()).with_context(|| format!("--set {}", self.text))
     }
+}
+
+/// Whether a `KEY=VALUE` sets a gain, or the file of gains.
+pub(crate) fn is_of_controller(text: &str) -> bool {
+    Setting::parse(text).is_ok_and(|setting| setting.is_of_gains() || setting.split().0 == "tuning")
 }
 
 /// A value as TOML has it; what is none, or more than one, is a string.

@@ -309,6 +309,17 @@ fn a_comparison_can_be_narrowed() {
 }
 
 #[test]
+fn gains_that_a_comparison_would_not_fly_are_refused() {
+    let folder = compared("gains");
+    for setting in ["control.x.lambda=1", "smc.x.lambda=1", "pid.tilt_max_rad=1", "tuning=soft.toml"] {
+        let expected = format!(
+            "--set {setting}: a comparison flies the gains of its tunings: write a tuning file and name it in --controllers"
+        );
+        folder.refuses(&["compare", "matrix.toml", "--set", setting], &[&expected]);
+    }
+}
+
+#[test]
 fn a_comparison_of_what_is_not_there_is_refused() {
     let folder = compared("refused");
     folder.refuses(&["compare", "x600"], &["x600"]);
@@ -327,6 +338,7 @@ fn a_comparison_of_what_is_not_there_is_refused() {
         ("mean_m_s", "median_m_s", "gusts"),
         ("set = []", "set = []\nexcept = [\"helix\"]", "helix"),
         ("summary", "colour = 1\nsummary", "colour"),
+        ("set = []", "set = [\"tuning=x500-pid\"]", "disturbance `none`: `set` has tuning=x500-pid: a comparison flies"),
     ] {
         assert!(MATRIX.contains(from), "{from}");
         folder.file("spoilt.toml", MATRIX.replacen(from, to, 1));
