@@ -24,10 +24,12 @@ pub(super) fn turned(angle: f64) -> Complex<f64> {
     Complex::new(cos, sin)
 }
 
-/// The scenario's vehicle and controller, hovering at the origin in still air, without faults, at sea level.
+/// The scenario's vehicle and controller, hovering on ideal state at the origin in still air, without faults, at sea
+/// level.
 pub(super) fn hovering(scenario: &Scenario) -> Scenario {
     let mut hover = scenario.clone();
     let file = &mut hover.file;
+    (file.sensors, file.command) = (None, Vec::new());
     file.trajectory = Trajectory::Hold { position_m: [0.0; 3], yaw_rad: 0.0 };
     (file.join, file.disturbance, file.wind, file.tumble, file.battery) = (None, None, None, None, None);
     (file.push, file.fault, file.world) = (Vec::new(), Vec::new(), World::default());

@@ -42,6 +42,18 @@ fn a_vehicle_with_delay_lead_and_observers_does() {
     holds(&analysed("x500-hover", &[]));
 }
 
+/// Both are of the x500 and its own tuning: sensors, wind, battery and pilot are no part of the analysis.
+#[test]
+fn a_vehicle_that_flies_on_sensors_does_as_on_ideal_state() {
+    let sensed = analysed("outdoor-hover", &[]);
+    holds(&sensed);
+    let ideal = analysed("x500-hover", &[]);
+    for (sensed, ideal) in sensed.loops.iter().zip(&ideal.loops) {
+        assert_eq!(sensed.margins, ideal.margins, "{}", ideal.name);
+    }
+    assert_eq!(sensed.noise, ideal.noise);
+}
+
 /// INDI makes its torque of the rotors' speeds, so the belief of it that others read must not be in its loop.
 #[test]
 fn a_law_that_inverts_increments_does() {
