@@ -177,6 +177,8 @@ pub struct Metrics {
     tilt: [Axis; 2],
     /// Distance from the reference (m), and the greatest error of roll and pitch, and that of yaw (rad).
     recent: [Recent; 3],
+    /// Distance from the reference over the whole flight, m.
+    distance: Size,
     chattering: Variation,
     chattering_after_4s: Variation,
     effort: [Size; 4],
@@ -196,6 +198,7 @@ impl Metrics {
             angles: [Settling::new(ANGLE_RECOVERY_BAND); 3],
             tilt: [Axis::new(); 2],
             recent: [Recent::default(); 3],
+            distance: Size::default(),
             chattering: Variation::from(f64::NEG_INFINITY),
             chattering_after_4s: Variation::from(TRACKING_FROM_S),
             effort: [Size::default(); 4],
@@ -257,6 +260,11 @@ impl Metrics {
         self.tilt.map(|axis| axis.figures())
     }
 
+    /// The greatest distance from the reference over the whole flight, m.
+    pub fn distance_max_m(&self) -> Option<f64> {
+        self.distance.max()
+    }
+
     /// How far the flight was off in about its last second.
     pub fn at_the_end(&self) -> EndErrors {
         let [distance_m, tilt_rad, yaw_rad] = self.recent.map(|recent| recent.max());
@@ -312,6 +320,7 @@ impl Recorder for Metrics {
         for (recent, value) in self.recent.iter_mut().zip(off) {
             recent.take(row.t, value);
         }
+        self.distance.take(off[0]);
         self.chattering.take(row.t, row.omega_command);
         self.chattering_after_4s.take(row.t, row.omega_command);
         for (effort, u) in self.effort.iter_mut().zip(row.u) {

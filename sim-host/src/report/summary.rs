@@ -169,6 +169,9 @@ pub struct Summary {
     /// Of a flight on sensors or with a pilot, its keys stand among the others.
     #[serde(flatten)]
     pub told: Option<Told>,
+    /// Greatest distance from the reference over the whole flight, m.
+    #[serde(skip)]
+    pub distance_max_m: Option<f64>,
     /// Where it should have been in its last second and was not, in words.
     #[serde(skip)]
     pub missed: Option<String>,
@@ -210,6 +213,7 @@ impl Summary {
             end: flight.end.name(),
             crash,
             end_error_m: finite(end.distance_m),
+            distance_max_m: metrics.distance_max_m(),
             too_heavy: flight.too_heavy,
             missed: flight.aim.missed(&end),
             roll_and_pitch: tilt.map(|tilt| if survived { tilt } else { tilt.map(|axis| cleared(&axis)) }),

@@ -338,7 +338,11 @@ fn a_comparison_of_what_is_not_there_is_refused() {
         ("mean_m_s", "median_m_s", "gusts"),
         ("set = []", "set = []\nexcept = [\"helix\"]", "helix"),
         ("summary", "colour = 1\nsummary", "colour"),
-        ("set = []", "set = [\"tuning=x500-pid\"]", "disturbance `none`: `set` has tuning=x500-pid: a comparison flies"),
+        (
+            "set = []",
+            "set = [\"tuning=x500-pid\"]",
+            "disturbance `none`: `set` has tuning=x500-pid: a comparison flies",
+        ),
     ] {
         assert!(MATRIX.contains(from), "{from}");
         folder.file("spoilt.toml", MATRIX.replacen(from, to, 1));
