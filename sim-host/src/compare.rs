@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use anyhow::{Result, ensure};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
-use crate::controller::Controller;
+use crate::controller::TuningFile;
 use crate::matrix::{Case, Matrix};
 use crate::parallel;
 use crate::scenario::{self, Scenario};
@@ -211,6 +211,8 @@ pub struct Comparison {
     pub matrix: String,
     /// Its purpose, in one line.
     pub summary: String,
+    /// `KEY=VALUE` settings of every scenario.
+    pub set: Vec<String>,
     /// Seeds flown in random cells.
     pub seeds: Seeds,
     /// Whether they overlap the seeds of tuning.
@@ -233,7 +235,7 @@ pub struct Comparison {
 pub struct Contest<'a> {
     matrix: &'a Matrix,
     cases: Vec<Case>,
-    controllers: Vec<(String, Controller)>,
+    tunings: Vec<(String, TuningFile)>,
 }
 
 impl<'a> Contest<'a> {
@@ -245,17 +247,22 @@ impl<'a> Contest<'a> {
     pub fn new(matrix: &'a Matrix) -> Result<Self> {
         require_told_apart("controllers", &matrix.file.controllers)?;
         require_told_apart("scenarios", &matrix.file.scenarios)?;
-        let load = |name: &String| Ok((short_name(name).to_owned(), scenario::tuning(name)?.controller));
-        let controllers = matrix.file.controllers.iter().map(load).collect::<Result<_>>()?;
+        let load = |name: &String| Ok((short_name(name).to_owned(), scenario::tuning(name)?));
+        let tunings = matrix.file.controllers.iter().map(load).collect::<Result<_>>()?;
         let cases = matrix.cases()?;
         ensure!(!cases.is_empty(), "no disturbance applies to any scenario: nothing to fly");
-        Ok(Self { matrix, cases, controllers })
+        Ok(Self { matrix, cases, tunings })
+    }
+
+    /// Its controllers, by the names that they have in tables.
+    pub fn tunings(&self) -> &[(String, TuningFile)] {
+        &self.tunings
     }
 
     /// The number of flights.
     pub fn flights(&self) -> usize {
         let seeds = |case: &Case| case.seeds(self.matrix.file.seeds).count();
-        self.cases.iter().map(seeds).sum::<usize>() * self.controllers.len()
+        self.cases.iter().map(seeds).sum::<usize>() * self.tunings.len()
     }
 
     /// Flies all of them on the threads of the current pool; `flown` is called after each flight. The result does not
@@ -266,8 +273,8 @@ impl<'a> Contest<'a> {
     pub fn fly(&self, flown: impl Fn() + Sync) -> Result<Comparison> {
         let mut entries: Vec<(&Case, &str, Scenario)> = Vec::new();
         for case in &self.cases {
-            for (name, controller) in &self.controllers {
-                entries.push((case, name, case.scenario.clone().flown_by(controller.clone())?));
+            for (name, tuning) in &self.tunings {
+                entries.push((case, name, case.scenario.clone().flown_by(tuning.controller.clone())?));
             }
         }
         let seeds = self.matrix.file.seeds;
@@ -293,15 +300,16 @@ impl<'a> Contest<'a> {
         let mut rest = flights.as_slice();
         let cell = |case: &Case| {
             let seeds = case.seeds(file.seeds).count();
-            let (flown, left) = rest.split_at(seeds * self.controllers.len());
+            let (flown, left) = rest.split_at(seeds * self.tunings.len());
             rest = left;
             Cell::of(case, &flown.chunks(seeds).collect::<Vec<_>>())
         };
         let cells: Vec<Cell> = self.cases.iter().map(cell).collect();
-        let controllers: Vec<String> = self.controllers.iter().map(|(name, _)| name.clone()).collect();
+        let controllers: Vec<String> = self.tunings.iter().map(|(name, _)| name.clone()).collect();
         Comparison {
             matrix: self.matrix.name.clone(),
             summary: file.summary.clone(),
+            set: self.matrix.settings().to_vec(),
             seeds: file.seeds,
             seeds_are_trained_on: file.training_seeds.is_some_and(|training| training.overlaps(file.seeds)),
             overall: controllers.iter().enumerate().map(|(i, name)| overall(&cells, i, name)).collect(),

@@ -108,6 +108,11 @@ impl Matrix {
         Ok(Self { name: name.to_owned(), file, settings: settings.to_vec() })
     }
 
+    /// `KEY=VALUE` settings of every scenario.
+    pub fn settings(&self) -> &[String] {
+        &self.settings
+    }
+
     /// Keeps only the named scenarios and disturbances; `None` keeps all.
     ///
     /// # Errors

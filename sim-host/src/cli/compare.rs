@@ -1,11 +1,15 @@
 //! `compare`: every controller in every cell of a matrix.
 
 use anyhow::Result;
+use serde::Serialize;
 
 use super::CompareArgs;
+use super::fly::PROGRAM;
 use crate::compare::{Comparison, Contest};
+use crate::controller::TuningFile;
 use crate::matrix::Matrix;
-use crate::report::{Staged, comparison, progress};
+use crate::report::{OutFolder, Staged, comparison, progress};
+use crate::seeds::Seeds;
 
 pub(super) fn run(args: &CompareArgs) -> Result<()> {
     let mut matrix = Matrix::load(&args.matrix, &args.settings.set)?;
@@ -16,8 +20,10 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
     matrix.file.seeds = args.seeds.unwrap_or(matrix.file.seeds);
     // Before the flights, which take a while: a folder that cannot be written is better known now.
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
-    let found = fly(&Contest::new(&matrix)?, args)?;
+    let contest = Contest::new(&matrix)?;
+    let found = fly(&contest, args)?;
     if let Some(staged) = staged {
+        provenance(&staged.folder(), &matrix, &contest)?;
         staged.folder().comparison(&found)?;
         staged.finish()?;
     }
@@ -30,4 +36,32 @@ fn fly(contest: &Contest, args: &CompareArgs) -> Result<Comparison> {
     let found = pool.install(|| contest.fly(|| bar.inc(1)))?;
     bar.finish_and_clear();
     Ok(found)
+}
+
+/// By which program a comparison was flown, and what of.
+#[derive(Serialize)]
+struct Provenance<'a> {
+    program: &'a str,
+    version: &'a str,
+    matrix: &'a str,
+    set: &'a [String],
+    seeds: Seeds,
+    controllers: &'a [String],
+}
+
+/// Writes provenance.toml, the matrix and its tunings as flown.
+fn provenance(folder: &OutFolder, matrix: &Matrix, contest: &Contest) -> Result<()> {
+    let provenance = Provenance {
+        program: PROGRAM,
+        version: env!("CARGO_PKG_VERSION"),
+        matrix: &matrix.name,
+        set: matrix.settings(),
+        seeds: matrix.file.seeds,
+        controllers: &matrix.file.controllers,
+    };
+    folder.text("provenance.toml", &toml::to_string(&provenance)?)?;
+    folder.text("matrix.toml", &toml::to_string(&matrix.file)?)?;
+    let write =
+        |(name, tuning): &(String, TuningFile)| folder.text(&format!("tuning-{name}.toml"), &toml::to_string(tuning)?);
+    contest.tunings().iter().try_for_each(write)
 }

@@ -26,7 +26,7 @@ use crate::sil::{End, Outcome};
 const FIGURES_UP_TO_S: f64 = 600.0;
 
 /// By which a provenance.toml is known to be ours.
-const PROGRAM: &str = "sim-host";
+pub(super) const PROGRAM: &str = "sim-host";
 /// A larger one is not ours, bytes.
 const PROVENANCE_MAX: u64 = 1 << 20;
 

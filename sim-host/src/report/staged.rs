@@ -26,14 +26,15 @@ use crate::words::counted;
 
 /// Files by which a folder is known to be ours: one of them is written by every command with `--out`.
 const MARKS: [&str; 4] = ["provenance.toml", "compare.json", "analyse.json", "paper.json"];
-/// What else such a folder may hold, besides figures and a folder per seed.
-const OURS: [&str; 9] = [
+/// What else such a folder may hold, besides figures, a folder per seed and the tunings of a comparison.
+const OURS: [&str; 10] = [
     "summary.json",
     "truth.csv",
     "estimate.csv",
     "scenario.toml",
     "airframe.toml",
     "tuning.toml",
+    "matrix.toml",
     "compare.csv",
     "compare.md",
     "paper.md",
@@ -244,8 +245,13 @@ fn is_figure(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|extension| extension == "svg")
 }
 
+/// Whether it is named as a comparison names its tunings.
+fn is_tuning(name: &str) -> bool {
+    name.strip_prefix("tuning-").is_some_and(|rest| rest.strip_suffix(".toml").is_some())
+}
+
 fn is_ours(name: &str) -> bool {
-    is_figure(name) || name.starts_with("seed-") || MARKS.contains(&name) || OURS.contains(&name)
+    is_figure(name) || is_tuning(name) || name.starts_with("seed-") || MARKS.contains(&name) || OURS.contains(&name)
 }
 
 /// Names of what a folder holds: figures are counted.

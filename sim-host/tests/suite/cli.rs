@@ -309,6 +309,26 @@ fn a_comparison_can_be_narrowed() {
 }
 
 #[test]
+fn a_comparison_leaves_what_it_was_flown_with() {
+    let folder = compared("left");
+    let flown = ["--scenarios", "hover", "--disturbances", "none", "--set", "duration_s=1", "--out", "out"];
+    let text = folder.succeeds(&[&["compare", "matrix.toml"], &flown[..]].concat());
+    assert!(text.contains("\nevery scenario with duration_s=1\n2 flights"), "{text}");
+    let read = |name: &str| fs::read_to_string(folder.0.join("out").join(name)).expect("the file was written");
+    let provenance: toml::Table = read("provenance.toml").parse().expect("TOML");
+    let expected = "program = 'sim-host'\nmatrix = 'matrix.toml'\nset = ['duration_s=1']\nseeds = '101..106'\n\
+                    controllers = ['stiff.toml', 'soft.toml']";
+    let mut expected: toml::Table = expected.parse().expect("TOML");
+    expected.insert("version".into(), env!("CARGO_PKG_VERSION").into());
+    assert_eq!(provenance, expected);
+    // The copies are whole: the same comparison of them, over the folder from which they are read.
+    let copies = ["--controllers", "out/tuning-stiff.toml,out/tuning-soft.toml", "--set", "duration_s=1"];
+    let again = folder.succeeds(&[&["compare", "out/matrix.toml", "--out", "out"], &copies[..]].concat());
+    let figures = |text: &str| text.lines().find(|line| line.trim_start().starts_with("none")).map(str::to_owned);
+    assert!(figures(&text).is_some() && figures(&again) == figures(&text), "{again}");
+}
+
+#[test]
 fn gains_that_a_comparison_would_not_fly_are_refused() {
     let folder = compared("gains");
     for setting in ["control.x.lambda=1", "smc.x.lambda=1", "pid.tilt_max_rad=1", "tuning=soft.toml"] {
