@@ -7,7 +7,8 @@ use std::time::Instant;
 
 use anyhow::Result;
 use firmware::guidance::Trajectory;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use toml::{Table, Value};
 
 use crate::files::read_regular;
 use crate::flight;
@@ -191,6 +192,8 @@ struct Provenance<'a> {
     set: &'a [String],
     seed: u64,
     again: String,
+    /// Of a flight whose files were flown again: its own.
+    from: Option<Table>,
 }
 
 pub(super) fn provenance(folder: &OutFolder, scenario: &Scenario, settings: &[String], seed: u64) -> Result<()> {
@@ -201,22 +204,24 @@ pub(super) fn provenance(folder: &OutFolder, scenario: &Scenario, settings: &[St
         set: settings,
         seed,
         again: format!("sim-host run scenario.toml --seed {seed}"),
+        from: provenance_beside(&scenario.name),
     };
     folder.text("provenance.toml", &toml::to_string(&provenance)?)?;
     scenario.files()?.iter().try_for_each(|(name, text)| folder.text(name, text))
 }
 
-/// The seed of the flight that has left a scenario.toml, if one has: it stands in the provenance.toml beside it.
+/// The seed of the flight that has left a scenario.toml, if one has.
 pub(super) fn seed_beside(scenario: &str) -> Option<u64> {
-    #[derive(Deserialize)]
-    struct Flown {
-        program: String,
-        seed: u64,
-    }
+    provenance_beside(scenario)?.get("seed")?.as_integer()?.try_into().ok()
+}
+
+/// The provenance of the flight that has left a scenario.toml, if one has: it stands in the provenance.toml beside it.
+fn provenance_beside(scenario: &str) -> Option<Table> {
     let path = Path::new(scenario);
     let text = read_regular(&path.with_file_name("provenance.toml"), PROVENANCE_MAX).ok()?;
-    let flown: Flown = toml::from_str(&text).ok()?;
-    (path.file_name()? == "scenario.toml" && flown.program == PROGRAM).then_some(flown.seed)
+    let flown: Table = text.parse().ok()?;
+    let is_ours = flown.get("program").and_then(Value::as_str) == Some(PROGRAM);
+    (path.file_name()? == "scenario.toml" && is_ours).then_some(flown)
 }
 
 fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, taken: &Taken) -> Result<()> {

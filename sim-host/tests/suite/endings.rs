@@ -102,6 +102,18 @@ fn a_folder_flies_again_by_itself() {
 }
 
 #[test]
+fn a_folder_that_is_flown_over_keeps_how_the_flight_came_about() {
+    let folder = Folder::new("over");
+    folder.json(&["run", "helix", "--seed", "3", "--set", "duration_s=0.5", "--out", "out", "--json"]);
+    let provenance = || fs::read_to_string(folder.0.join("out/provenance.toml")).expect("it is there");
+    let first: toml::Table = provenance().parse().expect("TOML");
+    folder.json(&["run", "out/scenario.toml", "--seed", "4", "--out", "out", "--json"]);
+    let second: toml::Table = provenance().parse().expect("TOML");
+    assert_eq!((second["seed"].as_integer(), second["set"].as_array().map(Vec::len)), (Some(4), Some(0)));
+    assert_eq!(second["from"].as_table(), Some(&first));
+}
+
+#[test]
 fn a_killed_run_leaves_the_folder_of_the_flight_before() {
     let folder = Folder::new("killed");
     folder.json(&["run", "step", "--set", "duration_s=1", "--out", "out", "--json"]);
