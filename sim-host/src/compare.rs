@@ -174,7 +174,7 @@ pub struct Cell {
     pub rms_ratios: Vec<Estimate>,
 }
 
-/// A controller's results over the whole matrix.
+/// A controller's results over all cells flown.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Overall {
     /// Its name.
@@ -211,6 +211,8 @@ pub struct Comparison {
     pub matrix: String,
     /// Its purpose, in one line.
     pub summary: String,
+    /// Cells of the whole matrix, of which some may have been selected.
+    pub matrix_cells: usize,
     /// `KEY=VALUE` settings of every scenario.
     pub set: Vec<String>,
     /// Seeds flown in random cells.
@@ -309,6 +311,7 @@ impl<'a> Contest<'a> {
         Comparison {
             matrix: self.matrix.name.clone(),
             summary: file.summary.clone(),
+            matrix_cells: self.matrix.whole(),
             set: self.matrix.settings().to_vec(),
             seeds: file.seeds,
             seeds_are_trained_on: file.training_seeds.is_some_and(|training| training.overlaps(file.seeds)),

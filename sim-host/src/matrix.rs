@@ -67,6 +67,8 @@ pub struct Matrix {
     pub file: MatrixFile,
     /// `KEY=VALUE` settings of every scenario, before those of the disturbances.
     settings: Vec<String>,
+    /// Its cells before some were selected.
+    whole: usize,
 }
 
 /// A cell of a matrix: a scenario under a disturbance. [`Scenario::flown_by`] sets its controller.
@@ -105,12 +107,18 @@ impl Matrix {
             *controller = beside(name, controller);
         }
         file.validate().with_context(|| format!("matrix `{name}`"))?;
-        Ok(Self { name: name.to_owned(), file, settings: settings.to_vec() })
+        let whole = file.cells().count();
+        Ok(Self { name: name.to_owned(), file, settings: settings.to_vec(), whole })
     }
 
     /// `KEY=VALUE` settings of every scenario.
     pub fn settings(&self) -> &[String] {
         &self.settings
+    }
+
+    /// The number of its cells before some were selected.
+    pub fn whole(&self) -> usize {
+        self.whole
     }
 
     /// Keeps only the named scenarios and disturbances; `None` keeps all.
@@ -120,7 +128,7 @@ impl Matrix {
     pub fn select(&mut self, scenarios: Option<&[String]>, disturbances: Option<&[String]>) -> Result<()> {
         if let Some(names) = scenarios {
             known(names, self.file.scenarios.iter(), "scenario", &self.name)?;
-            self.file.scenarios.retain(|scenario| names.contains(scenario));
+            self.file.keep_scenarios(names);
         }
         if let Some(names) = disturbances {
             let all = self.file.disturbances.iter().map(|disturbance| &disturbance.name);
@@ -136,11 +144,7 @@ impl Matrix {
     /// One line with the disturbance, the scenario, the key and the error; also if a flight ends before its evaluated
     /// interval begins.
     pub fn cases(&self) -> Result<Vec<Case>> {
-        let cells = self.file.scenarios.iter().flat_map(|scenario| {
-            let applies = |disturbance: &&DisturbanceEntry| disturbance.applies_to(scenario);
-            self.file.disturbances.iter().filter(applies).map(move |disturbance| (scenario, disturbance))
-        });
-        cells.map(|(scenario, disturbance)| self.case(scenario, disturbance)).collect()
+        self.file.cells().map(|(scenario, disturbance)| self.case(scenario, disturbance)).collect()
     }
 
     fn case(&self, scenario: &str, disturbance: &DisturbanceEntry) -> Result<Case> {
@@ -153,6 +157,24 @@ impl Matrix {
 }
 
 impl MatrixFile {
+    /// Scenario by scenario, with the disturbances that apply to each.
+    fn cells(&self) -> impl Iterator<Item = (&String, &DisturbanceEntry)> {
+        self.scenarios.iter().flat_map(|scenario| {
+            let applies = |disturbance: &&DisturbanceEntry| disturbance.applies_to(scenario);
+            self.disturbances.iter().filter(applies).map(move |disturbance| (scenario, disturbance))
+        })
+    }
+
+    /// Keeps only some scenarios, here and where disturbances name them, so that what is left is a matrix too.
+    fn keep_scenarios(&mut self, names: &[String]) {
+        let keep = |scenarios: &mut Vec<String>| scenarios.retain(|scenario| names.contains(scenario));
+        keep(&mut self.scenarios);
+        for disturbance in &mut self.disturbances {
+            disturbance.scenarios.iter_mut().for_each(keep);
+            keep(&mut disturbance.except);
+        }
+    }
+
     fn validate(&self) -> Result<()> {
         distinct("controllers", self.controllers.iter())?;
         distinct("scenarios", self.scenarios.iter())?;
@@ -262,6 +284,19 @@ mod tests {
         let error = refusal("duration_s=1").expect("must be refused");
         assert!(error.contains("`duration_s`") && error.contains("x500-step") && !error.contains('\n'), "{error}");
         assert_eq!(refusal("duration_s=1.1"), None);
+    }
+
+    #[test]
+    fn what_is_selected_of_a_matrix_is_a_matrix() {
+        let mut matrix = Matrix::load("x500", &[]).expect("valid");
+        let step = || vec!["x500-step".to_owned()];
+        (matrix.file.disturbances[0].scenarios, matrix.file.disturbances[1].except) = (Some(step()), step());
+        matrix.select(Some(&["x500-hover".to_owned()]), None).expect("known");
+        let text = toml::to_string(&matrix.file).expect("TOML");
+        let again: MatrixFile = toml::from_str(&text).expect("a matrix");
+        again.validate().expect("valid");
+        assert_eq!(again, matrix.file);
+        assert_eq!(matrix.cases().expect("valid").len(), matrix.file.disturbances.len() - 1);
     }
 
     #[test]

@@ -10,6 +10,9 @@ use crate::report::Metrics;
 use crate::report::metrics::{Recovery, angle_errors, errors};
 use crate::scenario::{Disturbance, Scenario};
 
+/// A disturbance that a scenario without one can be given.
+const ONE: &str = "disturbance={from_s=3,to_s=8,hold_s=0.01,acceleration_m_s2=2}";
+
 /// A flight at one strength of the disturbance.
 #[derive(Clone, Debug, Serialize)]
 pub struct Strength {
@@ -58,7 +61,8 @@ impl Recorder for Extremes {
 pub fn sweep(scenario: &Scenario, seed: u64, refinements: u32) -> Result<Vec<Strength>> {
     let base = scenario.file.disturbance.with_context(|| {
         format!(
-            "scenario `{}` has no `[disturbance]` to scale: choose one that has, as paper-disturbed, or set one",
+            "scenario `{}` has no `[disturbance]` to scale: choose one that has, as paper-disturbed, or set one: --set \
+             '{ONE}'",
             scenario.name
         )
     })?;

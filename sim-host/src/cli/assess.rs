@@ -25,7 +25,7 @@ pub(super) fn run(args: &AssessArgs) -> Result<()> {
     let too_few = reports.iter().filter(|report| report.seeds_needed().is_some()).count();
     let end = match (unmet, too_few) {
         (0, 0) => "all as expected".to_owned(),
-        (0, _) => format!("none against what is expected; of {too_few} not all is judged: too few seeds"),
+        (0, _) => format!("nothing violated; {too_few} could not be judged: too few seeds"),
         _ => format!("{unmet} not as expected"),
     };
     super::say(&format!("{}\n{}: {end}", texts.join("\n"), counted(reports.len(), "scenario")))?;

@@ -16,7 +16,7 @@ const NAME: usize = 17;
 /// Controllers side by side.
 const BESIDE: usize = 4;
 
-/// The columns of the table over the whole matrix: heading, figure, and what its unit is a part of.
+/// The columns of the table over all cells: heading, figure, and what its unit is a part of.
 const OVERALL: [(&str, Figure, f64); 9] = [
     ("RMS mm", Figure::Rms, 1e3),
     ("max mm", Figure::Max, 1e3),
@@ -33,6 +33,8 @@ const EXPLAINED: &str = "RMS and maximum of the distance from the trajectory, fr
 good; greatest error of\nthe attitude; altitude lost; RMS torque demanded; mean ω², 1000 (rad/s)²; total variation of \
 the commanded ω² a second,\n10⁶ (rad/s)²/s; time in which the mixer met a limit. Each is the median over the cells of \
 the cells' medians.\n";
+
+const RATIO: &str = "`ratio`: RMS over the first controller's under the same seed, median over seeds, then over cells";
 
 /// Writes compare.json, compare.csv and compare.md.
 ///
@@ -145,7 +147,7 @@ fn number(value: f64, infinite: &str) -> String {
     }
 }
 
-/// The headings and, a controller each, the rows of the table over the whole matrix.
+/// The headings and, a controller each, the rows of the table over all cells.
 fn overall_rows(comparison: &Comparison) -> Vec<Vec<String>> {
     let mut headings = vec!["controller".to_owned(), "ratio".to_owned(), "survived".to_owned()];
     headings.extend(OVERALL.map(|(heading, _, _)| heading.to_owned()));
@@ -162,11 +164,19 @@ fn overall_rows(comparison: &Comparison) -> Vec<Vec<String>> {
     std::iter::once(headings).chain(comparison.overall.iter().map(row)).collect()
 }
 
+/// The cells that were flown: all of the matrix', or those selected.
+fn cells(comparison: &Comparison) -> String {
+    match (comparison.cells.len(), comparison.matrix_cells) {
+        (flown, whole) if flown < whole => format!("these {flown} of {whole} cells"),
+        _ => "whole matrix".to_owned(),
+    }
+}
+
 fn overall_table(comparison: &Comparison) -> String {
     let rows = overall_rows(comparison);
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..rows[0].len()).map(width).collect();
-    let mut text = "whole matrix; `ratio`: RMS over the first controller's under the same seed, median over seeds, then over cells\n".to_owned();
+    let mut text = format!("{}; {RATIO}\n", cells(comparison));
     for row in &rows {
         let (name, width) = (&row[0], widths[0]);
         let _ = write!(text, "{name:<width$}");
@@ -220,11 +230,7 @@ pub fn markdown(comparison: &Comparison) -> String {
             text += &rule(columns);
         }
     }
-    text.extend([
-        "\n",
-        EXPLAINED,
-        "`ratio`: RMS over the first controller's under the same seed, median over seeds, then over cells.\n\n",
-    ]);
+    text.extend(["\n", EXPLAINED, RATIO, ".\n\n"]);
     text.extend(lost_cells(comparison).iter().map(|sentence| format!("- {sentence}\n")));
     text
 }

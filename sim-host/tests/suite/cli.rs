@@ -321,6 +321,7 @@ fn a_comparison_leaves_what_it_was_flown_with() {
     let mut expected: toml::Table = expected.parse().expect("TOML");
     expected.insert("version".into(), env!("CARGO_PKG_VERSION").into());
     assert_eq!(provenance, expected);
+    assert!(text.contains("\nthese 1 of 3 cells; `ratio`"), "{text}");
     // The copies are whole: the same comparison of them, over the folder from which they are read.
     let copies = ["--controllers", "out/tuning-stiff.toml,out/tuning-soft.toml", "--set", "duration_s=1"];
     let again = folder.succeeds(&[&["compare", "out/matrix.toml", "--out", "out"], &copies[..]].concat());

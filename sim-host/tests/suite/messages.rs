@@ -31,7 +31,7 @@ fn a_name_that_is_unknown_is_answered_with_the_one_that_was_meant() {
         (&["asess"], &["'asess'", "'assess'"]),
         (&["rnu", "helix"], &["'rnu'", "did you mean `run`?"]),
         (&["fly", "helix"], &["'fly'", "run, scenarios, serve"]),
-        (&["sweep", "helix"], &["scenario `helix`", "no `[disturbance]`", "paper-disturbed"]),
+        (&["sweep", "helix"], &["scenario `helix`", "no `[disturbance]`", "paper-disturbed", ONE]),
         (&["assess", "helix"], &["scenario `helix`", "no `[assess]`", "sim-host assess"]),
         (&["helix"], &["'helix'", "sim-host run helix"]),
         (&["run", "helix", "--sed", "3"], &["'--sed'", "'--seed'"]),
@@ -314,6 +314,16 @@ fn what_might_never_end_is_not_read() {
     }
 }
 
+/// As a refused sweep has it.
+const ONE: &str = "--set 'disturbance={from_s=3,to_s=8,hold_s=0.01,acceleration_m_s2=2}'";
+
+#[test]
+fn the_disturbance_that_a_refused_sweep_proposes_can_be_flown() {
+    let setting = ONE.split('\'').nth(1).expect("in quotes");
+    let folder = Folder::new("proposed");
+    folder.prints(&["run", "helix", "--set", "duration_s=3.1", "--set", setting]);
+}
+
 #[test]
 fn too_few_seeds_are_not_judged() {
     let folder = Folder::new("few");
@@ -321,6 +331,7 @@ fn too_few_seeds_are_not_judged() {
     let expect = ["--set", "assess.expect=[{measure=\"z-error-rms-m\",percentile=95,at_most=1e-9}]"];
     let (out, _) = folder.prints(&[&["assess", "outdoor-hover", "--seeds", "1..2"][..], &part, &expect].concat());
     assert!(out.contains("too few seeds, 20 needed") && !out.contains("NOT MET"), "{out}");
+    assert!(out.ends_with("\n1 scenario: nothing violated; 1 could not be judged: too few seeds\n"), "{out}");
 }
 
 #[cfg(feature = "search")]
