@@ -266,8 +266,16 @@ impl Session {
     }
 
     fn list_faults(&mut self) {
-        let lines: Vec<String> =
-            self.faults().iter().map(|fault| format!("fault {}", failures::describe(fault))).collect();
+        let now_s = self.time_s();
+        let line = |fault: &Fault| {
+            let typed = failures::describe(fault);
+            if fault.from_s > now_s {
+                format!("from {} s on: fault {typed}", fault.from_s)
+            } else {
+                format!("fault {typed}")
+            }
+        };
+        let lines: Vec<String> = self.faults().iter().map(line).collect();
         if lines.is_empty() {
             self.say(Tone::Plain, "no faults".to_owned());
         }
@@ -308,7 +316,9 @@ impl Session {
             text = format!("{text}; battery {:.1} V, {:.0} %", battery.voltage_v, battery.soc * 100.0);
         }
         let [north, west, up] = shown(self.flight.steady_wind());
-        let faults: Vec<String> = self.faults().iter().map(fault_name).collect();
+        let now_s = self.time_s();
+        let acting = self.faults().into_iter().filter(|fault| fault.from_s <= now_s);
+        let faults: Vec<String> = acting.map(|fault| fault_name(&fault)).collect();
         let faults = if faults.is_empty() { "no faults".to_owned() } else { format!("faults: {}", faults.join(", ")) };
         format!("{text}; wind {north:.1} {west:.1} {up:.1} m/s; {faults}")
     }

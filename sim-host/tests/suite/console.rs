@@ -197,8 +197,11 @@ fn a_failure_and_what_the_vehicle_does_about_it_are_told() {
 fn faults_are_told_when_they_begin_and_when_they_end() {
     let mut bench = Bench::new("field");
     assert_eq!(text(&bench.enter("fault baro stuck from_s=1 to_s=2")), "fault from 1 s on: baro stuck");
-    assert_eq!(text(&bench.enter("faults")), "fault sensor=baro kind=stuck from_s=1.0 to_s=2.0");
+    assert_eq!(text(&bench.enter("faults")), "from 1 s on: fault sensor=baro kind=stuck from_s=1.0 to_s=2.0");
+    assert!(bench.enter("status").ends_with("; no faults"), "it is yet to come");
     let begun = bench.until("fault: baro stuck", 2.0);
+    assert_eq!(text(&bench.enter("faults")), "fault sensor=baro kind=stuck from_s=1.0 to_s=2.0");
+    assert!(bench.enter("status").ends_with("; faults: baro stuck"));
     let over = bench.until("fault ends: baro stuck", 2.0);
     // The console looks each 20 ms.
     assert!(begun.starts_with("[    1.0") && over.starts_with("[    2.0"), "{begun} {over}");
