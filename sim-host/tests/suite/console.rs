@@ -232,7 +232,7 @@ fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
         (512, [30_000.0, 0.0, 0.0], &[]),
         // What the commander answers.
         (400, [1.0, 0.0, 0.0], &["arm: accepted"]),
-        (21, [0.0; 3], &["land: refused, vehicle on the ground; `takeoff` first"]),
+        (22, [0.0; 3], &["take-off to 0 m: denied: a value is out of its range"]),
     ] {
         bench.seen = bench.printed.len();
         bench.session.tick(&command_long(command, parameters));
