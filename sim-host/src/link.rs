@@ -41,7 +41,10 @@ pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
     ensure!(!text.trim().is_empty(), "the address is missing: use 127.0.0.1:{default_port}");
     // The system would take a whole number for an address.
     if text.parse::<u32>().is_ok() {
-        bail!("`{text}` is no address: for a port use 127.0.0.1:{text}");
+        let port = text.parse::<u16>().ok();
+        let port =
+            port.with_context(|| format!("`{text}` is no port from 0 to 65535: use 127.0.0.1:{default_port}"))?;
+        bail!("`{text}` is no address: for a port use 127.0.0.1:{port}");
     }
     let in_brackets = text.strip_prefix('[').and_then(|text| text.strip_suffix(']'));
     if let Ok(ip) = in_brackets.unwrap_or(text).parse::<IpAddr>() {
@@ -117,6 +120,9 @@ impl UdpLink {
     /// # Errors
     /// One line that names the address, and what to do, if it cannot be listened on.
     pub fn bind(listen: SocketAddr, peers: &[SocketAddr]) -> anyhow::Result<Self> {
+        if let Some(peer) = peers.iter().find(|peer| peer.port() == 0) {
+            bail!("--peer {peer} has no port from 1 to 65535: use {}", SocketAddr::new(peer.ip(), PEER_PORT));
+        }
         if let Some(peer) = peers.iter().find(|peer| peer.is_ipv4() != listen.is_ipv4()) {
             bail!("cannot send from {listen} to {peer}: one is IPv4, the other IPv6: give both of one kind");
         }
@@ -253,6 +259,12 @@ mod tests {
     }
 
     #[test]
+    fn nothing_can_be_sent_to_port_0() {
+        let error = format!("{:#}", UdpLink::bind(local(), &[local()]).expect_err("no port"));
+        assert_eq!(error, "--peer 127.0.0.1:0 has no port from 1 to 65535: use 127.0.0.1:14550");
+    }
+
+    #[test]
     fn its_own_address_is_no_peer() {
         let free = station().local_addr().expect("bound").port();
         for (listen, peer) in [("127.0.0.1", "127.0.0.1"), ("0.0.0.0", "127.0.0.1"), ("0.0.0.0", "127.0.0.2")] {
@@ -287,6 +299,12 @@ mod tests {
             ("::1", "[::1]:14550"),
         ] {
             assert_eq!(at(text).expect(text), expected);
+        }
+        for (text, expected) in [
+            ("14551", "`14551` is no address: for a port use 127.0.0.1:14551"),
+            ("99999", "`99999` is no port from 0 to 65535: use 127.0.0.1:14550"),
+        ] {
+            assert_eq!(format!("{:#}", at(text).expect_err(text)), expected);
         }
         for (text, expected) in [("localhost:many", "localhost:14550"), ("localhost:70000", "65535")] {
             let error = format!("{:#}", at(text).expect_err(text));

@@ -159,7 +159,7 @@ mod tests {
             scorer.record(&row(f64::from(k) / 1e3));
         }
         let end = if survived { End::DurationReached } else { End::LeftReference };
-        scorer.score(&Outcome { ticks, saturated_ticks: ticks / 4, end, touchdown: None })
+        scorer.score(&Outcome { ticks, saturated_ticks: ticks / 4, end, ..Outcome::default() })
     }
 
     fn level(t: f64) -> Row {

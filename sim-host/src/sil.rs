@@ -91,6 +91,8 @@ pub struct Outcome {
     pub end: End,
     /// The first touchdown after it had flown, where there is ground.
     pub touchdown: Option<Contact>,
+    /// The last touchdown; the same one, unless it has flown again.
+    pub landing: Option<Contact>,
 }
 
 impl Outcome {
@@ -103,7 +105,7 @@ impl Outcome {
     #[must_use]
     pub fn after(self, touchdown: Option<&Touchdown>) -> Self {
         let Some(seen) = touchdown else { return self };
-        Self { end: self.end.after(seen), touchdown: seen.first(), ..self }
+        Self { end: self.end.after(seen), touchdown: seen.first(), landing: seen.last(), ..self }
     }
 }
 

@@ -70,7 +70,11 @@ fn many(args: &RunArgs, scenario: &Scenario, seeds: Seeds, staged: Option<Staged
     }
     let text = if args.json { summary::to_json_array(&rows) } else { table::seeds(&rows) };
     report(args, &text, staged)?;
-    ensure!(!interrupt::requested(), Interrupted);
+    if interrupt::requested() {
+        let asked = counted(seeds.all().len(), "seed");
+        super::complain(&format!("interrupted: {} of {asked} flown", whole(&rows)));
+        return Err(Interrupted.into());
+    }
     let flown = rows.len();
     rows.retain(|row| matches!(row, Row::Failed { .. }));
     ensure!(rows.is_empty(), SomeFailed { failed: rows.len(), of: flown });
@@ -102,6 +106,12 @@ fn fly_seed(args: &RunArgs, scenario: &Scenario, seed: u64, folder: Option<&OutF
         Ok(summary) => Row::Flown(Box::new(summary)),
         Err(error) => Row::Failed { seed, error: super::one_line(&error) },
     }
+}
+
+/// How many flights were not interrupted.
+fn whole(rows: &[Row]) -> usize {
+    let ended_by_itself = |row: &&Row| !matches!(row, Row::Flown(summary) if summary.ended == End::Interrupted);
+    rows.iter().filter(ended_by_itself).count()
 }
 
 /// The reason for which all seeds failed, where it is the same for all: then there is nothing to report but that.

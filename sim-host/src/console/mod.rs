@@ -5,6 +5,7 @@
 //! between, by itself or commanded by a ground station. Lines are read between ticks and take effect in the next tick;
 //! without any, the flight is bit for bit the one without a console. [`terminal`] reads and prints.
 
+mod answers;
 pub mod events;
 pub mod line;
 pub mod parse;

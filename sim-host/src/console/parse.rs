@@ -163,7 +163,9 @@ pub const COMMANDS: &[Entry] = &[
         "fly with a velocity (m/s; yaw rate in °/s) until the next command",
         Reads::With(velocity),
     )
-    .with_details("By name, what is left out is 0: `velocity up=1`. `hold` ends it"),
+    .with_details(
+        "At most 100 m/s along each axis and 360°/s. By name, what is left out is 0: `velocity up=1`. `hold` ends it",
+    ),
     Entry::new(&["hold", "loiter", "brake"], "", "brake and stay", Reads::Nothing(Command::Request(Request::Hold))),
     Entry::new(
         &["trajectory", "follow", "mission", "start"],

@@ -10,6 +10,7 @@ use firmware::mavlink::TxBytes;
 use firmware::signals::{TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
 
+use super::answers::Answers;
 use super::events::{self, Watch};
 use super::line::{Line, Tone};
 use super::parse::{self, COMMANDS, Command};
@@ -44,6 +45,8 @@ struct Asked {
 pub struct Session {
     flight: Flight<RigidBody>,
     watch: Watch,
+    /// What is answered to ground stations.
+    answers: Answers,
     /// Requests in their order; the commander gets one at a time.
     asked: VecDeque<Asked>,
     /// The velocity to repeat, and the tick of its last request.
@@ -60,7 +63,8 @@ impl Session {
         let injectable = failures::injectable(flight.sensors(), flight.plant().battery().is_some());
         flight.autopilot.inner.allow_failures(injectable);
         let watch = Watch::new(&flight);
-        Self { flight, watch, asked: VecDeque::new(), velocity: None, said: Vec::new() }
+        let (answers, asked) = (Answers::default(), VecDeque::new());
+        Self { flight, watch, answers, asked, velocity: None, said: Vec::new() }
     }
 
     /// The flight.
@@ -98,7 +102,16 @@ impl Session {
             self.look();
         }
         let vehicle = &mut self.flight.autopilot.inner;
-        vehicle.has_transmit().then(|| vehicle.take_transmit())
+        let sent = vehicle.has_transmit().then(|| vehicle.take_transmit())?;
+        self.read_answers(&sent);
+        Some(sent)
+    }
+
+    /// Reports what the vehicle refuses ground stations without the commander.
+    fn read_answers(&mut self, sent: &[u8]) {
+        let t_s = Some(self.time_s());
+        let Self { answers, said, .. } = self;
+        answers.read(sent, &mut |text| said.push(Line { t_s, tone: Tone::Refused, text }));
     }
 
     /// Applies the failures that were accepted from ground stations.
@@ -130,7 +143,10 @@ impl Session {
     fn hear(&mut self, reply: &Reply) {
         let request = reply.command.request;
         let who = match reply.command.origin {
-            Origin::Station { sender: (system, _), .. } => format!("ground station {system}: "),
+            Origin::Station { sender: (system, _), .. } => {
+                self.answers.told(reply);
+                format!("ground station {system}: ")
+            }
             Origin::OnBoard => {
                 let mine = self.asked.iter().position(|asked| asked.sent && asked.request == request);
                 match mine.and_then(|place| self.asked.remove(place)) {
@@ -266,8 +282,16 @@ impl Session {
     }
 
     fn list_faults(&mut self) {
-        let lines: Vec<String> =
-            self.faults().iter().map(|fault| format!("fault {}", failures::describe(fault))).collect();
+        let now_s = self.time_s();
+        let line = |fault: &Fault| {
+            let typed = failures::describe(fault);
+            if fault.from_s > now_s {
+                format!("from {} s on: fault {typed}", fault.from_s)
+            } else {
+                format!("fault {typed}")
+            }
+        };
+        let lines: Vec<String> = self.faults().iter().map(line).collect();
         if lines.is_empty() {
             self.say(Tone::Plain, "no faults".to_owned());
         }
@@ -308,7 +332,9 @@ impl Session {
             text = format!("{text}; battery {:.1} V, {:.0} %", battery.voltage_v, battery.soc * 100.0);
         }
         let [north, west, up] = shown(self.flight.steady_wind());
-        let faults: Vec<String> = self.faults().iter().map(fault_name).collect();
+        let now_s = self.time_s();
+        let acting = self.faults().into_iter().filter(|fault| fault.from_s <= now_s);
+        let faults: Vec<String> = acting.map(|fault| fault_name(&fault)).collect();
         let faults = if faults.is_empty() { "no faults".to_owned() } else { format!("faults: {}", faults.join(", ")) };
         format!("{text}; wind {north:.1} {west:.1} {up:.1} m/s; {faults}")
     }

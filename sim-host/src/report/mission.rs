@@ -73,7 +73,7 @@ impl Judge<'_> {
     /// How the flight ended, in words.
     fn ending(&self) -> String {
         let t = f64::from(self.outcome.ticks) / 1e3;
-        match (self.outcome.end, self.outcome.touchdown) {
+        match (self.outcome.end, self.outcome.landing) {
             (End::DurationReached, Some(contact)) => {
                 let (at, away) = (contact.t_s, contact.from_start_m);
                 format!("landed at {at:.1} s with {:.2} m/s, {away:.1} m from the start", contact.descent_m_s)
@@ -112,7 +112,7 @@ impl Judge<'_> {
         if !matches!(last.order, Order::Land | Order::Return) {
             return None;
         }
-        let Some(contact) = self.outcome.touchdown else { return Some("it has not landed".into()) };
+        let Some(contact) = self.outcome.landing else { return Some("it has not landed".into()) };
         let ([x, y, _], place) = (contact.position_m, last.place.unwrap_or(contact.position_m));
         let off = libm::hypot(x - place[0], y - place[1]);
         if off > self.radius_m {
@@ -163,7 +163,7 @@ mod tests {
     fn landed(away: f64) -> Outcome {
         let contact =
             Contact { t_s: 46.9, descent_m_s: 0.4, drift_m_s: 0.0, position_m: [away, 0.0, 0.0], from_start_m: away };
-        Outcome { ticks: 60_000, touchdown: Some(contact), ..Outcome::default() }
+        Outcome { ticks: 60_000, landing: Some(contact), ..Outcome::default() }
     }
 
     fn reason(course: &Course, outcome: &Outcome) -> String {

@@ -127,6 +127,7 @@ pub struct TimelineRecorder {
     armed_before: bool,
     armed: bool,
     mode: Option<Mode>,
+    /// Whether it has flown since it was armed.
     flown: bool,
     event: Option<firmware::commander::Event>,
     replied: bool,
@@ -280,7 +281,8 @@ impl Recorder for TimelineRecorder {
         }
         self.armed = commander.armed;
         self.armed_before |= commander.armed;
-        self.flown |= !matches!(commander.mode, Mode::Disarmed | Mode::Idle);
+        // Once disarmed, what comes is another flight.
+        self.flown = commander.armed && (self.flown || !matches!(commander.mode, Mode::Disarmed | Mode::Idle));
         let (name, number, controlled) = self.doing(commander);
         let is_same = self.course.timeline.phases.last().is_some_and(|phase| is_named(&phase.name, name, number));
         if !is_same {

@@ -1,4 +1,4 @@
-//! A flight's contact with the ground: the first touchdown, and whether the vehicle was damaged.
+//! A flight's contact with the ground: the first and the last touchdown, and whether the vehicle was damaged.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::Serialize;
@@ -40,29 +40,36 @@ pub struct Crash {
     pub tilt_rad: f64,
 }
 
-/// Looks for the first touchdown after the vehicle has been half a metre above the ground, and for the first contact
-/// that it does not survive: faster than 4 m/s downwards, or tilted by more than 60°.
+/// Looks for touchdowns after the vehicle has been half a metre above the ground, and for the first contact that it does
+/// not survive: faster than 4 m/s downwards, or tilted by more than 60°.
 #[derive(Clone, Debug)]
 pub struct Touchdown {
     ground: Ground,
+    /// Whether it has been half a metre up since the last touchdown.
     airborne: bool,
     /// Where the flight began.
     start: Option<[f64; 3]>,
     /// The row before, if no foot was on the ground in it.
     velocity: Option<[f64; 3]>,
     first: Option<Contact>,
+    last: Option<Contact>,
     crash: Option<Crash>,
 }
 
 impl Touchdown {
     /// On a ground.
     pub fn new(ground: Ground) -> Self {
-        Self { ground, airborne: false, start: None, velocity: None, first: None, crash: None }
+        Self { ground, airborne: false, start: None, velocity: None, first: None, last: None, crash: None }
     }
 
-    /// The touchdown, if there was one.
+    /// The first touchdown, if there was one.
     pub fn first(&self) -> Option<Contact> {
         self.first
+    }
+
+    /// The last touchdown, if there was one: the first one, unless it has flown again.
+    pub fn last(&self) -> Option<Contact> {
+        self.last
     }
 
     /// The contact that it did not survive, if there was one.
@@ -72,7 +79,7 @@ impl Touchdown {
 
     /// Whether it has been half a metre above the ground.
     pub fn has_flown(&self) -> bool {
-        self.airborne
+        self.airborne || self.first.is_some()
     }
 
     /// Whether a foot touches the ground.
@@ -89,15 +96,17 @@ impl Touchdown {
     /// A foot is on the ground; `before` is the velocity in the row before, if none was.
     fn touch(&mut self, row: &Row, before: Option<[f64; 3]>) {
         let start = self.start.unwrap_or(row.position);
-        if let Some([x, y, z]) = before.filter(|_| self.airborne && self.first.is_none()) {
+        if let Some([x, y, z]) = before.filter(|_| self.airborne) {
             let away = libm::hypot(row.position[0] - start[0], row.position[1] - start[1]);
-            self.first = Some(Contact {
+            let contact = Contact {
                 t_s: row.t,
                 descent_m_s: -z,
                 drift_m_s: libm::hypot(x, y),
                 position_m: row.position,
                 from_start_m: away,
-            });
+            };
+            self.first.get_or_insert(contact);
+            (self.last, self.airborne) = (Some(contact), false);
         }
         if self.crash.is_none() {
             self.crash = crash(row, before);
@@ -154,6 +163,17 @@ mod tests {
         let contact =
             Contact { t_s: 3.0, descent_m_s: 2.0, drift_m_s: 5.0, position_m: [0.0, 0.0, 1.0], from_start_m: 0.0 };
         assert_eq!(seen(&[-0.001, 0.6, 0.1, 0.0, 0.2, 0.7, -0.1]), Some(contact));
+    }
+
+    #[test]
+    fn the_last_contact_is_that_of_the_last_flight() {
+        let mut touchdown = Touchdown::new(ground());
+        // Two flights of half a metre and more, and a hop.
+        for (k, height) in [0.6, 0.0, -0.001, 0.7, -0.001, 0.4, 0.0].into_iter().enumerate() {
+            touchdown.record(&row(k as f64, height, [0.0, 0.0, -1.0]));
+        }
+        let times = [touchdown.first(), touchdown.last()].map(|contact| contact.map(|contact| contact.t_s));
+        assert_eq!((times, touchdown.has_flown()), ([Some(1.0), Some(4.0)], true));
     }
 
     #[test]

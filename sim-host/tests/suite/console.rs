@@ -3,6 +3,8 @@
 
 use firmware::commander::{Event, Refusal};
 use firmware::signals::TICK_S_EXACT;
+use glissade_dialect::COMMAND_LONG_DATA;
+use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
 use nalgebra::{UnitQuaternion, Vector3};
 use sim_host::console::{Control, Session};
 use sim_host::flight;
@@ -197,13 +199,48 @@ fn a_failure_and_what_the_vehicle_does_about_it_are_told() {
 fn faults_are_told_when_they_begin_and_when_they_end() {
     let mut bench = Bench::new("field");
     assert_eq!(text(&bench.enter("fault baro stuck from_s=1 to_s=2")), "fault from 1 s on: baro stuck");
-    assert_eq!(text(&bench.enter("faults")), "fault sensor=baro kind=stuck from_s=1.0 to_s=2.0");
+    assert_eq!(text(&bench.enter("faults")), "from 1 s on: fault sensor=baro kind=stuck from_s=1.0 to_s=2.0");
+    assert!(bench.enter("status").ends_with("; no faults"), "it is yet to come");
     let begun = bench.until("fault: baro stuck", 2.0);
+    assert_eq!(text(&bench.enter("faults")), "fault sensor=baro kind=stuck from_s=1.0 to_s=2.0");
+    assert!(bench.enter("status").ends_with("; faults: baro stuck"));
     let over = bench.until("fault ends: baro stuck", 2.0);
     // The console looks each 20 ms.
     assert!(begun.starts_with("[    1.0") && over.starts_with("[    2.0"), "{begun} {over}");
     assert_eq!(text(&bench.enter("faults")), "no faults");
     assert_eq!(text(&bench.enter("clear")), "no faults");
+}
+
+/// A `COMMAND_LONG` of ground station 255, by its number and first three parameters.
+fn command_long(command: u16, [param1, param2, param3]: [f32; 3]) -> Vec<u8> {
+    let message = COMMAND_LONG_DATA { command, param1, param2, param3, target_system: 1, ..COMMAND_LONG_DATA::DEFAULT };
+    let mut frame = MAVLinkV2MessageRaw::new();
+    frame.serialize_message_data(MavHeader { system_id: 255, component_id: 190, sequence: 0 }, &message);
+    frame.raw_bytes().to_vec()
+}
+
+#[test]
+fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
+    let mut bench = Bench::new("field");
+    bench.until("] ready to arm", 10.0);
+    for (command, parameters, told) in [
+        // DO_REPOSITION, to offboard (PX4's main mode 6), neither arm nor disarm.
+        (192, [0.0; 3], &["command 192: unsupported"][..]),
+        (176, [1.0, 6.0, 0.0], &["command 176 (DO_SET_MODE): denied"]),
+        (400, [2.0, 0.0, 0.0], &["command 400 (COMPONENT_ARM_DISARM): denied"]),
+        // A message that it has not: ground stations ask for many.
+        (512, [30_000.0, 0.0, 0.0], &[]),
+        // What the commander answers.
+        (400, [1.0, 0.0, 0.0], &["arm: accepted"]),
+        (22, [0.0; 3], &["take-off to 0 m: denied: a value is out of its range"]),
+    ] {
+        bench.seen = bench.printed.len();
+        bench.session.tick(&command_long(command, parameters));
+        bench.fly(0.2);
+        let lines: Vec<_> =
+            bench.printed[bench.seen..].iter().filter_map(|line| line.split_once("station 255: ")).collect();
+        assert_eq!(lines.iter().map(|(_, text)| *text).collect::<Vec<_>>(), told, "{command} {parameters:?}");
+    }
 }
 
 #[test]

@@ -10,8 +10,13 @@ use crate::common::folder::Folder;
 
 /// Starts a flight of a day, and waits until its truth.csv grows. No other run has begun in that folder.
 fn flying(folder: &Folder, out: &str) -> Child {
-    let child = folder.command(&["run", "day", "--out", out]).spawn().expect("the program starts");
-    let truth = folder.0.join(format!(".{out}.1.partial/new/truth.csv"));
+    flying_into(folder, &["run", "day", "--out", out], &format!(".{out}.1.partial/new/truth.csv"))
+}
+
+/// The same with arguments of one's own and the place of truth.csv.
+fn flying_into(folder: &Folder, arguments: &[&str], truth: &str) -> Child {
+    let child = folder.command(arguments).spawn().expect("the program starts");
+    let truth = folder.0.join(truth);
     while fs::metadata(&truth).map_or(0, |file| file.len()) < 1_000_000 {
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -76,6 +81,28 @@ fn a_whole_tour_is_a_completed_mission() {
     assert_eq!(names[..9], expected);
     assert_eq!(names[9..], ["trajectory", "return", "land", "landed", "disarmed"]);
     assert!(json["touchdown"]["from_start_m"].as_f64() < Some(3.0));
+}
+
+#[test]
+fn a_second_flight_is_told_as_the_first() {
+    let climb = "order={take-off={height_m=3.0}}";
+    let flight = |at: u32| {
+        let (up, down) = (at + 2, at + 9);
+        format!("{{at_s={at}.0,order=\"arm\"}},{{at_s={up}.0,{climb}}},{{at_s={down}.0,order=\"land\"}}")
+    };
+    let command = format!("command=[{},{}]", flight(3), flight(40));
+    let folder = Folder::new("twice");
+    let twice = ["run", "outdoor-hover", "--set", &command, "--set", "duration_s=60", "--out", "out"];
+    let text = folder.text(&twice);
+    assert!(text.contains("mission completed"), "{text}");
+    let (_, again) = text.split_once("last at ").expect("both touchdowns are told");
+    assert!(again.split_once(" s, with ").and_then(|(t, _)| t.parse::<f64>().ok()) > Some(49.0), "{text}");
+    let summary = fs::read_to_string(folder.0.join("out/summary.json")).expect("it is there");
+    let summary: Value = serde_json::from_str(&summary).expect("JSON");
+    let phases = summary["phases"].as_array().expect("phases");
+    let names: Vec<&str> = phases.iter().filter_map(|phase| phase["name"].as_str()).collect();
+    let flown = ["armed", "take-off", "hold", "land", "landed", "disarmed"];
+    assert_eq!(names, [&["before arming"], &flown[..], &flown[..]].concat());
 }
 
 #[test]
@@ -149,6 +176,19 @@ fn an_interrupted_flight_keeps_what_was_flown() {
     let rows = truth.lines().count() - 1;
     assert_eq!(Some(rows as f64 / 1e3), summary["duration_s"].as_f64());
     assert!(truth.ends_with('\n'), "the last row is whole");
+}
+
+#[test]
+fn interrupted_seeds_say_how_many_were_flown() {
+    let folder = Folder::new("seeds");
+    let many = ["run", "day", "--seeds", "3", "--jobs", "1", "--out", "out"];
+    let child = flying_into(&folder, &many, ".out.1.partial/new/seed-1/truth.csv");
+    signal(&child, "INT");
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(130));
+    let told = String::from_utf8(output.stderr).expect("UTF-8");
+    // Flights of a day: the first is under way.
+    assert!(told.ends_with("interrupted: 0 of 3 seeds flown\n"), "{told}");
 }
 
 #[test]

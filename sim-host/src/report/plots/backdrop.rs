@@ -8,6 +8,9 @@ const STRIP: f64 = 17.0;
 const SIZE: f64 = 11.5;
 /// The event that ends a flight.
 pub(super) const DISARMED: &str = "disarmed";
+/// The phase that begins a flight, and those that are none.
+const TAKE_OFF: &str = "take-off";
+const IDLING: [&str; 2] = ["armed", "landed"];
 /// How strong a phase's colour is behind its name, and behind the lines.
 const STRIP_TINT: f64 = 0.45;
 const SHADE_TINT: f64 = 0.16;
@@ -40,7 +43,7 @@ pub(super) struct Backdrop {
     pub(super) faults: Vec<Span>,
     /// Events with their times, s.
     pub(super) events: Vec<(f64, String)>,
-    /// When it has landed, s; before all times, if it never flew.
+    /// When it first landed, s; before all times, if it never flew.
     pub(super) landed: Option<f64>,
     /// Whether names stand above the panel, or the shades alone are drawn.
     pub(super) named: bool,
@@ -87,9 +90,18 @@ impl Backdrop {
     /// Whether the vehicle flies at `t`, s: always, where nothing is known of phases. What it is to do before and after
     /// is no reference to compare with.
     pub(super) fn flies(&self, t: f64) -> bool {
-        let landed = self.landed.is_some_and(|landed| t >= landed);
         let flies = || self.phases.is_empty() || self.phases.iter().any(|span| (span.from..span.to).contains(&t));
-        !landed && flies()
+        let landed = self.landed.is_some_and(|landed| t >= landed);
+        if landed { self.flies_again(t) } else { flies() }
+    }
+
+    /// Whether it flies at `t`, s, after the first landing: once it has taken off again, wherever it does not stand with
+    /// rotors idling.
+    fn flies_again(&self, t: f64) -> bool {
+        let landed = self.landed.unwrap_or(f64::INFINITY);
+        let again = self.phases.iter().find(|span| span.kind() == TAKE_OFF && span.from > landed);
+        let now = self.phases.iter().find(|span| (span.from..span.to).contains(&t));
+        again.is_some_and(|again| t >= again.from) && now.is_some_and(|now| !IDLING.contains(&now.kind()))
     }
 
     /// Rows of names, from the bottom: phases, faults, events.
@@ -211,7 +223,7 @@ fn place(chart: &Area, (from, to): (f64, f64), t: f64) -> f64 {
 /// The colour of a mode, the same in every figure.
 pub(super) fn phase_color(name: &str) -> Color {
     match kind_of(name) {
-        "take-off" => palette::GREEN,
+        TAKE_OFF => palette::GREEN,
         "hold" => palette::SKY,
         "go-to" | "velocity" => palette::BLUE,
         "trajectory" => palette::ORANGE,
@@ -224,6 +236,25 @@ pub(super) fn phase_color(name: &str) -> Color {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_vehicle_flies_again_from_its_next_take_off_on() {
+        let span = |(name, from, to): (&str, f64, f64)| Span { name: name.into(), from, to, color: INK };
+        let phases = [
+            ("armed", 1.0, 2.0),
+            ("take-off", 2.0, 4.0),
+            ("land", 4.0, 7.0),
+            ("landed", 7.0, 8.0),
+            ("armed", 10.0, 11.0),
+            ("take-off", 11.0, 13.0),
+            ("land", 13.0, 16.0),
+            ("landed", 16.0, 17.0),
+        ];
+        let twice = Backdrop { phases: phases.map(span).into(), landed: Some(6.0), ..Backdrop::default() };
+        let flies = |t: f64| twice.flies(t);
+        assert!([3.0, 5.0, 11.0, 15.0].into_iter().all(flies));
+        assert!(![0.0, 6.0, 6.5, 7.5, 9.0, 10.5, 16.5, 18.0].into_iter().any(flies));
+    }
 
     #[test]
     fn names_keep_apart_and_within_the_panel() {

@@ -14,6 +14,9 @@ const DOWN: f64 = 24.0 * std::f64::consts::PI / 180.0;
 
 /// Fraction of a step that may be ignored in rounding to it.
 const HAIR: f64 = 0.02;
+/// Fraction of a step by which a reference may go below what was flown without another step: one that leads a landing
+/// goes on a little below the ground, and the floor is to lie on the ground.
+const BELOW: f64 = 0.2;
 /// Steps along the longest side of the frame.
 const STEPS: f64 = 5.0;
 /// No side of the frame is shorter than this fraction of the longest: a hover is not a needle.
@@ -61,7 +64,11 @@ impl Frame {
         };
         // Heights grow upwards from the ground.
         let up = |(low, high): (f64, f64)| (low, high.max(low + SHORTEST * longest));
-        let ranges = [widen(ranges[0]), widen(ranges[1]), up(ranges[2])];
+        let floor = |(low, high): (f64, f64)| {
+            let flown = extent(rows.iter().map(|row| row.position[2])).map_or(low, |(low, _)| low);
+            (if flown - low < BELOW * step { flown } else { low }, high)
+        };
+        let ranges = [widen(ranges[0]), widen(ranges[1]), up(floor(ranges[2]))];
         // An edge may be passed by a hair without another step.
         Self {
             low: ranges.map(|(low, _)| (low / step + HAIR).floor() * step),
@@ -192,6 +199,21 @@ mod tests {
         let frame = Frame::around(&made_up(20.0));
         assert_eq!((frame.low, frame.high), ([-5.0, -5.0, 0.0], [5.0, 5.0, 25.0]));
         assert_eq!(frame.ticks(2).count(), 6);
+    }
+
+    #[test]
+    fn the_floor_lies_on_the_ground_where_a_landing_s_reference_goes_on_below_it() {
+        let row = |flown: f64, reference: f64| Row {
+            position: [0.0, 0.0, flown],
+            reference: [0.0, 0.0, reference, 0.0],
+            ..Row::default()
+        };
+        // Steps of 5 m: a foot sinks in by 3 mm, and the reference is 0.25 m below when the landing is noticed.
+        let landing = Frame::around(&[row(0.0, 0.0), row(20.0, 20.0), row(-0.003, -0.25)]);
+        assert_eq!((landing.low[2], landing.high[2]), (0.0, 20.0));
+        // What leads far below is shown.
+        let below = Frame::around(&[row(0.0, 0.0), row(20.0, 20.0), row(0.0, -3.0)]);
+        assert_eq!(below.low[2], -5.0);
     }
 
     #[test]

@@ -17,6 +17,9 @@ pub(super) fn render(told: &Told, sensed: Option<&Sensed>) -> String {
     if let Some(landing) = sensed.and_then(landing) {
         line("touchdown", &landing);
     }
+    if let Some(again) = sensed.and_then(|sensed| landed_again(&told.timeline.events, sensed)) {
+        line("", &again);
+    }
     if let Some([start, end]) = told.battery {
         line("battery", &format!("{:.0} % at the start, {:.0} % at the end", 100.0 * start, 100.0 * end));
     }
@@ -59,6 +62,13 @@ fn landing(sensed: &Sensed) -> Option<String> {
         "at {:.1} s, {:.2} m from the start, with {:.2} m/s down and {:.2} m/s sideways; {disarmed}",
         contact.t_s, contact.from_start_m, contact.descent_m_s, contact.drift_m_s
     ))
+}
+
+/// The last touchdown of a vehicle that has flown again after the first.
+fn landed_again(events: &[Event], sensed: &Sensed) -> Option<String> {
+    let first = sensed.touchdown?;
+    let last = events.iter().rfind(|event| event.kind == EventKind::Touchdown && event.t_s > first.t_s)?;
+    Some(format!("last at {:.1} s,{}", last.t_s, last.text.trim_start_matches("touchdown")))
 }
 
 /// What the vehicle's estimate was off by; nothing of one that was never armed.

@@ -1,0 +1,80 @@
+//! The answers to ground stations' commands that never reach the commander: unsupported ones, and those whose parameters
+//! make no request. They are read from what the vehicle sends, so that the firmware need not tell of them twice.
+
+use firmware::commander::{Origin, Reply};
+use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData as _};
+use glissade_dialect::num_traits::FromPrimitive as _;
+use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavResult};
+
+/// Bytes of a MAVLink 2 frame before and after its payload.
+const HEADER: usize = 10;
+const CHECKSUM: usize = 2;
+/// More answers are not awaited: acknowledgements may be lost, where too many are asked for.
+const AWAITED_MAX: usize = 16;
+
+/// The acknowledgements that are still to come of what the commander has answered, and was told.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Answers {
+    awaited: Vec<Origin>,
+}
+
+impl Answers {
+    /// The commander's answer was told; its acknowledgement follows.
+    pub(super) fn told(&mut self, reply: &Reply) {
+        if self.awaited.len() == AWAITED_MAX {
+            self.awaited.remove(0);
+        }
+        self.awaited.push(reply.command.origin);
+    }
+
+    /// Tells the refusals among the frames of a datagram that the commander has not answered.
+    pub(super) fn read(&mut self, datagram: &[u8], tell: &mut impl FnMut(String)) {
+        for ack in acknowledgements(datagram) {
+            let sender = (ack.target_system, ack.target_component);
+            let origin = Origin::Station { sender, command: ack.command };
+            if let Some(place) = self.awaited.iter().position(|awaited| *awaited == origin) {
+                self.awaited.remove(place);
+            } else if let Some(text) = refusal(&ack) {
+                tell(text);
+            }
+        }
+    }
+}
+
+/// The acknowledgements among whole frames.
+fn acknowledgements(mut frames: &[u8]) -> impl Iterator<Item = COMMAND_ACK_DATA> {
+    let next = move || {
+        let length = usize::from(*frames.get(1)?);
+        let (frame, rest) = frames.split_at_checked(HEADER + length + CHECKSUM)?;
+        frames = rest;
+        Some(frame)
+    };
+    std::iter::from_fn(next).filter_map(|frame| {
+        let id = u32::from_le_bytes([frame[7], frame[8], frame[9], 0]);
+        let payload = &frame[HEADER..frame.len() - CHECKSUM];
+        (id == COMMAND_ACK_DATA::ID).then(|| COMMAND_ACK_DATA::deser(MavlinkVersion::V2, payload).ok())?
+    })
+}
+
+/// A refusal in words. Ground stations ask for messages all the time, and do without those that there are not: of that
+/// nothing is told.
+fn refusal(ack: &COMMAND_ACK_DATA) -> Option<String> {
+    let known = MavCmd::from_u16(ack.command);
+    if let Some(
+        MavCmd::MAV_CMD_REQUEST_MESSAGE
+        | MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL
+        | MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES,
+    ) = known
+    {
+        return None;
+    }
+    let outcome = match ack.result {
+        MavResult::MAV_RESULT_UNSUPPORTED => "unsupported",
+        MavResult::MAV_RESULT_DENIED => "denied",
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED => "refused, too many at once",
+        _ => return None,
+    };
+    let name = known.map(|known| format!(" ({})", format!("{known:?}").trim_start_matches("MAV_CMD_")));
+    let (station, number, name) = (ack.target_system, ack.command, name.unwrap_or_default());
+    Some(format!("ground station {station}: command {number}{name}: {outcome}"))
+}
