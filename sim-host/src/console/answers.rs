@@ -72,7 +72,7 @@ fn refusal(ack: &COMMAND_ACK_DATA) -> Option<String> {
         MavResult::MAV_RESULT_UNSUPPORTED => "unsupported",
         MavResult::MAV_RESULT_DENIED => "denied",
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => "refused, too many at once",
-        _ => return None,
+        MavResult::MAV_RESULT_ACCEPTED => return None,
     };
     let name = known.map(|known| format!(" ({})", format!("{known:?}").trim_start_matches("MAV_CMD_")));
     let (station, number, name) = (ack.target_system, ack.command, name.unwrap_or_default());
