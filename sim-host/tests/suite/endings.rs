@@ -10,13 +10,8 @@ use crate::common::folder::Folder;
 
 /// Starts a flight of a day, and waits until its truth.csv grows. No other run has begun in that folder.
 fn flying(folder: &Folder, out: &str) -> Child {
-    flying_into(folder, &["run", "day", "--out", out], &format!(".{out}.1.partial/new/truth.csv"))
-}
-
-/// The same with arguments of one's own and the place of truth.csv.
-fn flying_into(folder: &Folder, arguments: &[&str], truth: &str) -> Child {
-    let child = folder.command(arguments).spawn().expect("the program starts");
-    let truth = folder.0.join(truth);
+    let child = folder.command(&["run", "day", "--out", out]).spawn().expect("the program starts");
+    let truth = folder.0.join(format!(".{out}.1.partial/new/truth.csv"));
     while fs::metadata(&truth).map_or(0, |file| file.len()) < 1_000_000 {
         std::thread::sleep(Duration::from_millis(5));
     }
@@ -176,19 +171,6 @@ fn an_interrupted_flight_keeps_what_was_flown() {
     let rows = truth.lines().count() - 1;
     assert_eq!(Some(rows as f64 / 1e3), summary["duration_s"].as_f64());
     assert!(truth.ends_with('\n'), "the last row is whole");
-}
-
-#[test]
-fn interrupted_seeds_say_how_many_were_flown() {
-    let folder = Folder::new("seeds");
-    let many = ["run", "day", "--seeds", "3", "--jobs", "1", "--out", "out"];
-    let child = flying_into(&folder, &many, ".out.1.partial/new/seed-1/truth.csv");
-    signal(&child, "INT");
-    let output = child.wait_with_output().expect("it ends");
-    assert_eq!(output.status.code(), Some(130));
-    let told = String::from_utf8(output.stderr).expect("UTF-8");
-    // Flights of a day: the first is under way.
-    assert!(told.ends_with("interrupted: 0 of 3 seeds flown\n"), "{told}");
 }
 
 #[test]
