@@ -26,7 +26,7 @@ pub(crate) fn try_map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> Result
     map(items, work).into_iter().collect()
 }
 
-/// The one use of the thread pool: rayon's machinery is compiled once and not for every kind of work.
+/// All lists go through here: rayon's machinery is compiled once and not for every kind of work.
 fn each(count: usize, work: &(dyn Fn(usize) + Sync)) {
     (0..count).into_par_iter().for_each(work);
 }

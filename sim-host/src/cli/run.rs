@@ -55,7 +55,9 @@ fn report(args: &RunArgs, text: &str, staged: Option<Staged>) -> Result<()> {
     match (contents, &args.out) {
         (Some(contents), Some(out)) if !args.json => super::say(&format!("{text}wrote {}: {contents}", out.display())),
         _ if args.json => super::say(text),
-        _ => super::say(&format!("{text}figures             none without `--out DIR`, which also keeps truth.csv")),
+        _ => super::say(
+            &(text.to_owned() + &table::entry("figures", "none without `--out DIR`, which also keeps truth.csv")),
+        ),
     }
 }
 
@@ -71,7 +73,7 @@ fn many(args: &RunArgs, scenario: &Scenario, seeds: Seeds, staged: Option<Staged
     let text = if args.json { summary::to_json_array(&rows) } else { table::seeds(&rows) };
     report(args, &text, staged)?;
     if interrupt::requested() {
-        let asked = counted(seeds.all().len(), "seed");
+        let asked = counted(seeds.count(), "seed");
         super::complain(&format!("interrupted: {} of {asked} flown", whole(&rows)));
         return Err(Interrupted.into());
     }

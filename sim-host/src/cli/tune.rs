@@ -14,7 +14,6 @@ use crate::tune::{Iteration, Journal, Parameter, Run, Settings, State, Tune, req
 use crate::words::counted;
 
 pub(super) fn run(args: &TuneArgs) -> Result<()> {
-    settings(args).validate()?;
     let tune = Tune::load(&args.tune)?;
     require_optimisers("tune")?;
     let journal = journal(args, &tune)?;

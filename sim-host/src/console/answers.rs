@@ -2,13 +2,12 @@
 //! make no request. They are read from what the vehicle sends, so that the firmware need not tell of them twice.
 
 use firmware::commander::{Origin, Reply};
-use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData as _};
+use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData as _, consts};
 use glissade_dialect::num_traits::FromPrimitive as _;
 use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavResult};
 
-/// Bytes of a MAVLink 2 frame before and after its payload.
-const HEADER: usize = 10;
-const CHECKSUM: usize = 2;
+/// Bytes of a MAVLink 2 frame before its payload.
+const HEADER: usize = consts::STX_SIZE + consts::v2::MIN_HEADER_SIZE;
 /// More answers are not awaited: acknowledgements may be lost, where too many are asked for.
 const AWAITED_MAX: usize = 16;
 
@@ -45,13 +44,13 @@ impl Answers {
 fn acknowledgements(mut frames: &[u8]) -> impl Iterator<Item = COMMAND_ACK_DATA> {
     let next = move || {
         let length = usize::from(*frames.get(1)?);
-        let (frame, rest) = frames.split_at_checked(HEADER + length + CHECKSUM)?;
+        let (frame, rest) = frames.split_at_checked(HEADER + length + consts::CHECKSUM_SIZE)?;
         frames = rest;
         Some(frame)
     };
     std::iter::from_fn(next).filter_map(|frame| {
         let id = u32::from_le_bytes([frame[7], frame[8], frame[9], 0]);
-        let payload = &frame[HEADER..frame.len() - CHECKSUM];
+        let payload = &frame[HEADER..frame.len() - consts::CHECKSUM_SIZE];
         (id == COMMAND_ACK_DATA::ID).then(|| COMMAND_ACK_DATA::deser(MavlinkVersion::V2, payload).ok())?
     })
 }

@@ -228,7 +228,7 @@ mod tests {
         assert_eq!([say(false, false), say(true, false)], [None, None], "before the first fix");
         assert_eq!(say(false, true), Some("navigation: position unknown"));
         assert_eq!(say(true, false), Some("navigation: position known again"));
-        assert_eq!(say(true, true), None, "armed anew");
+        assert_eq!(say(true, true), None, "armed again");
     }
 
     #[test]

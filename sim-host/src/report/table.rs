@@ -68,11 +68,11 @@ fn followed(summary: &Summary) -> String {
         None => settling_table(summary) + &bound(summary),
     };
     let jump = summary.reference_jump_s.map(|t| {
-        format!("reference           jumps at {t:.3} s: overshoot counts from there, times from the beginning\n")
+        let text = format!("jumps at {t:.3} s: overshoot counts from there, times from the beginning");
+        entry("reference", &text)
     });
-    let short = (summary.survived && summary.axes.x.max_m.is_none()).then(|| {
-        "errors              count from 4 s on, and the flight has ended: set `duration_s` to more\n".to_owned()
-    });
+    let short = (summary.survived && summary.axes.x.max_m.is_none())
+        .then(|| entry("errors", "count from 4 s on, and the flight has ended: set `duration_s` to more"));
     let recovery = summary.recovery_s.as_ref().map(recovery);
     [Some(table), jump, short, recovery].into_iter().flatten().collect()
 }
@@ -156,7 +156,7 @@ fn bound(summary: &Summary) -> String {
         || "not all of xyz are within 5 cm at the end".into(),
         |last| format!("all of xyz within 5 cm from {last:.3} s, {:.2} × the bound", last / bound),
     );
-    format!("time-optimal bound  {bound:.2} s to join the reference exactly; {reached}\n")
+    entry("time-optimal bound", &format!("{bound:.2} s to join the reference exactly; {reached}"))
 }
 
 fn recovery(recovery: &Recovery) -> String {
@@ -164,16 +164,21 @@ fn recovery(recovery: &Recovery) -> String {
     let axes = [("x", x), ("y", y), ("z", z), ("roll", roll), ("pitch", pitch), ("yaw", yaw)];
     if axes.iter().all(|(_, time)| *time == Some(0.0)) {
         let paper = DISTURBANCE_REMOVED.time_s;
-        return format!(
-            "disturbance         never further off than 5 cm, 2°, from its onset on (paper: removed in under {paper} s)\n"
-        );
+        let text = format!("never further off than 5 cm, 2°, from its onset on (paper: removed in under {paper} s)");
+        return entry("disturbance", &text);
     }
     let each: Vec<_> = axes.iter().map(|(name, time)| format!("{name} {}", seconds(*time))).collect();
-    format!(
-        "disturbance         from its onset until the error stays within 5 cm (2°): {} (paper: under {} s)\n",
+    let text = format!(
+        "from its onset until the error stays within 5 cm (2°): {} (paper: under {} s)",
         each.join(", "),
         DISTURBANCE_REMOVED.time_s
-    )
+    );
+    entry("disturbance", &text)
+}
+
+/// A line of what stands below the table: a name, and what is said of it.
+pub fn entry(name: &str, text: &str) -> String {
+    format!("{name:<18}  {text}\n")
 }
 
 fn figures(summary: &Summary) -> String {
@@ -182,7 +187,7 @@ fn figures(summary: &Summary) -> String {
     let [thrust, roll, pitch, yaw] =
         [effort.thrust_rms_n, effort.roll_rms_n_m, effort.pitch_rms_n_m, effort.yaw_rms_n_m];
     let mut text = String::new();
-    let mut line = |name: &str, value: &str| writeln!(text, "{name:<18}  {value}").expect("a string takes every byte");
+    let mut line = |name: &str, value: &str| text += &entry(name, value);
     // Without rotors (`paper-decoupled`) the inputs switch between the rows, and figures of them would mislead.
     let has_rotors = summary.chattering.is_some();
     if summary.sensed.is_none() && has_rotors {

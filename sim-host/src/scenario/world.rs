@@ -1,5 +1,5 @@
 //! The world of a scenario: how the plant differs from what the firmware believes, how the flight begins, the air, and
-//! what befalls the vehicle.
+//! what pushes the vehicle.
 
 use nalgebra::{Matrix4, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
