@@ -12,6 +12,7 @@ use nalgebra::{Vector3, Vector4};
 use sim_host::flight;
 use sim_host::record::Row;
 use sim_host::scenario::Scenario;
+use sim_host::sil::Lockstep as _;
 
 /// A PD law with the reference's acceleration fed forward.
 struct MyLaw {

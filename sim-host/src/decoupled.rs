@@ -14,10 +14,10 @@ use nalgebra::Vector3;
 use crate::noise::{Disturbed, Noise};
 use crate::plant::Constants;
 use crate::plant::paper::{self, PaperInput, PaperState};
-use crate::record::{Recorder, Row};
+use crate::record::{Row, Seen};
 use crate::reference;
 use crate::scenario::{AttitudeWave, Scenario};
-use crate::sil::{End, Outcome};
+use crate::sil::{End, Lockstep, Outcome};
 
 /// Plant steps per second.
 const STEPS_A_SECOND: f64 = 1e5;
@@ -27,7 +27,7 @@ pub(crate) const STEP_S: f64 = 1.0 / STEPS_A_SECOND;
 const STEPS_A_ROW: u32 = 100;
 
 /// The decoupled model with the control laws in its loop.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Decoupled {
     constants: Constants,
     airframe: Airframe,
@@ -40,10 +40,13 @@ pub struct Decoupled {
     noise: Noise,
     state: PaperState,
     step: u32,
+    demands: Demands,
+    outcome: Outcome,
 }
 
 /// Demands of the laws at a step.
-struct Control {
+#[derive(Clone, Copy, Debug, Default)]
+struct Demands {
     force: Vector3<f64>,
     torque: Vector3<f64>,
     s: [f64; 6],
@@ -84,6 +87,8 @@ impl Decoupled {
             noise: Noise::new(scenario.file.disturbance.as_ref(), seed, STEPS_A_SECOND),
             state: PaperState::at_rest(Vector3::from(scenario.file.start_position_m)),
             step: 0,
+            demands: Demands::default(),
+            outcome: Outcome::default(),
         })
     }
 
@@ -98,7 +103,7 @@ impl Decoupled {
     }
 
     /// Eq. 25–31 on the measured state.
-    fn control(&mut self, disturbed: &Disturbed) -> Control {
+    fn control_under(&mut self, disturbed: &Disturbed) -> Demands {
         let measured: Vector3<f32> = (self.state.position + disturbed.position).cast();
         let velocity: Vector3<f32> = self.state.velocity.cast();
         let flat = self.guidance.at(self.step);
@@ -112,51 +117,73 @@ impl Decoupled {
         let rotation = attitude::euler_demand(&mut self.attitude_axes, &target, &measured, &angle_rates, false);
         let torque = attitude::torque(&self.airframe, &rotation.acceleration, &angle_rates, 0.0);
         let (s, p) = (rotation.s, translation.s);
-        Control {
+        Demands {
             force: translation.force.cast(),
             torque: torque.cast(),
             s: [s.x, s.y, s.z, p.x, p.y, p.z].map(f64::from),
         }
     }
 
-    fn row(&self, control: &Control) -> Row {
+    fn row(&self) -> Row {
+        let Demands { force, torque, s } = self.demands;
         let t = self.time();
         let mut reference = reference::at(&self.trajectory, t);
         if self.wave.is_some() {
             let [_, _, yaw] = self.attitude_reference(t);
             reference[3] = yaw;
         }
-        let thrust = control.force.z * self.constants.mass;
+        let thrust = force.z * self.constants.mass;
         Row {
             reference,
             desired_attitude: self.attitude_reference(t),
-            u: [thrust, control.torque.x, control.torque.y, control.torque.z],
-            s: control.s,
+            u: [thrust, torque.x, torque.y, torque.z],
+            s,
             ..Row::of_motion(t, &paper::motion(&self.state))
         }
     }
 
-    /// Flies `rows` rows of 1 ms, or until the vehicle is lost.
-    pub fn run(&mut self, rows: u32, recorder: &mut impl Recorder) -> Outcome {
-        let mut outcome = Outcome::default();
-        while outcome.survived() && outcome.ticks < rows {
-            for i in 0..STEPS_A_ROW {
-                let disturbed = *self.noise.at(self.step);
-                let control = self.control(&disturbed);
-                if i == 0 {
-                    let row = self.row(&control);
-                    outcome.end = row.end();
-                    recorder.record(&row);
-                    if recorder.stops() && outcome.survived() {
-                        outcome.end = End::Interrupted;
-                    }
-                }
-                let input = PaperInput { force: control.force, torque: control.torque, spin: 0.0 };
-                self.state = self.constants.paper_step(&self.state, |_| input, &disturbed.push, STEP_S);
-                self.step += 1;
-            }
-            outcome.ticks += 1;
+    /// Eq. 25–31 and the disturbances, at this step.
+    fn decide(&mut self) {
+        let disturbed = *self.noise.at(self.step);
+        self.demands = self.control_under(&disturbed);
+    }
+
+    /// The demands act until the next step.
+    fn advance(&mut self) {
+        let input = PaperInput { force: self.demands.force, torque: self.demands.torque, spin: 0.0 };
+        self.state = self.constants.paper_step(&self.state, |_| input, &self.noise.now().push, STEP_S);
+        self.step += 1;
+    }
+}
+
+impl Lockstep for Decoupled {
+    fn control(&mut self) {
+        self.decide();
+    }
+
+    fn look(&mut self) -> Seen<'_> {
+        let row = self.row();
+        if self.outcome.survived() {
+            self.outcome.end = row.end();
         }
-        outcome
+        Seen { row, activity: None, navigation: None }
+    }
+
+    fn act(&mut self) -> bool {
+        self.advance();
+        for _ in 1..STEPS_A_ROW {
+            self.decide();
+            self.advance();
+        }
+        self.outcome.ticks += 1;
+        self.outcome.survived()
+    }
+
+    fn interrupt(&mut self) {
+        self.outcome.end = End::Interrupted;
+    }
+
+    fn outcome(&self) -> Outcome {
+        self.outcome
     }
 }

@@ -171,6 +171,7 @@ mod tests {
     use super::*;
     use crate::flight;
     use crate::scenario::Scenario;
+    use crate::sil::Lockstep as _;
 
     fn read(line: &str) -> Result<Fault> {
         parse(line.split_whitespace(), 1500)

@@ -23,7 +23,8 @@ use crate::record::Recorder;
 use crate::report::Touchdown;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sensors::Suite;
-use crate::sil::{Flight, Outcome};
+use crate::sil::any::{AnyFlight, UnderLaws};
+use crate::sil::{Flight, Lockstep as _, Outcome};
 use crate::weather::Weather;
 
 /// The rigid-body plant of a scenario, in the initial motion under `seed`.
@@ -80,25 +81,49 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
     Ok(flight.with_weather(Weather::new(scenario, seed)).with_sensors(sensors).with_pilot(pilot))
 }
 
+/// A scenario's flight, before its first tick.
+///
+/// # Errors
+/// The firmware refuses the configuration: the first field that is out of range.
+pub fn prepare(scenario: &Scenario, seed: u64) -> Result<AnyFlight> {
+    Ok(match scenario.file.plant {
+        PlantKind::RigidBody => AnyFlight::RigidBody(under_laws(scenario, seed, rigid_body(scenario, seed))?),
+        PlantKind::Paper => {
+            let plant = PaperPlant::new(scenario.constants(), Vector3::from(scenario.file.start_position_m));
+            AnyFlight::Paper(under_laws(scenario, seed, plant)?)
+        }
+        PlantKind::PaperDecoupled => AnyFlight::Decoupled(Box::new(Decoupled::new(scenario, seed)?)),
+    })
+}
+
+/// A plant with the firmware in its loop, flying by a scenario's control laws.
+fn under_laws<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<UnderLaws<P>> {
+    let airframe = scenario.airframe.flight();
+    Ok(match &scenario.controller {
+        Controller::Smc(_) => UnderLaws::Smc(Box::new(lockstep(scenario, seed, plant)?)),
+        Controller::Pid(gains) => {
+            let (inner, outer) = (PidAttitude::new(&airframe, gains), PidPosition::new(&airframe, gains));
+            UnderLaws::Pid(Box::new(with_laws(scenario, seed, plant, inner, outer)?))
+        }
+        Controller::Geometric(gains) => {
+            let (inner, outer) = (GeometricAttitude::new(&airframe, gains), GeometricPosition::new(&airframe, gains));
+            UnderLaws::Geometric(Box::new(with_laws(scenario, seed, plant, inner, outer)?))
+        }
+        Controller::Indi(gains) => {
+            let (inner, outer) = (IndiAttitude::new(&airframe, gains), IndiPosition::new(&airframe, gains));
+            UnderLaws::Indi(Box::new(with_laws(scenario, seed, plant, inner, outer)?))
+        }
+    })
+}
+
 /// Flies a scenario to its end, or until the vehicle is lost.
 ///
 /// # Errors
 /// The firmware refuses the configuration: the first field that is out of range.
 pub fn fly(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Outcome> {
     let mut touchdown = ground(scenario).map(Touchdown::new);
-    let outcome = on_its_plant(scenario, seed, &mut (recorder, &mut touchdown))?;
+    let outcome = prepare(scenario, seed)?.run(scenario.ticks(), &mut (recorder, &mut touchdown));
     Ok(outcome.after(touchdown.as_ref()))
-}
-
-fn on_its_plant(scenario: &Scenario, seed: u64, recorder: &mut impl Recorder) -> Result<Outcome> {
-    Ok(match scenario.file.plant {
-        PlantKind::RigidBody => on_plant(scenario, seed, rigid_body(scenario, seed), recorder)?,
-        PlantKind::Paper => {
-            let plant = PaperPlant::new(scenario.constants(), Vector3::from(scenario.file.start_position_m));
-            on_plant(scenario, seed, plant, recorder)?
-        }
-        PlantKind::PaperDecoupled => Decoupled::new(scenario, seed)?.run(scenario.ticks(), recorder),
-    })
 }
 
 /// Flies a scenario to its end, and returns the measures of its assessment.
@@ -117,24 +142,4 @@ pub fn assess(scenario: &Scenario, assess: &Assess, seed: u64) -> Result<Measure
     let mut assessor = Assessor::new(assess, file.duration_s, &start, ground, &places);
     let outcome = fly(scenario, seed, &mut assessor)?;
     Ok(assessor.finish(!outcome.end.is_lost()))
-}
-
-/// Flies a scenario on a plant with its control laws.
-fn on_plant<P: Plant>(scenario: &Scenario, seed: u64, plant: P, recorder: &mut impl Recorder) -> Result<Outcome> {
-    let (ticks, airframe) = (scenario.ticks(), scenario.airframe.flight());
-    Ok(match &scenario.controller {
-        Controller::Smc(_) => lockstep(scenario, seed, plant)?.run(ticks, recorder),
-        Controller::Pid(gains) => {
-            let (inner, outer) = (PidAttitude::new(&airframe, gains), PidPosition::new(&airframe, gains));
-            with_laws(scenario, seed, plant, inner, outer)?.run(ticks, recorder)
-        }
-        Controller::Geometric(gains) => {
-            let (inner, outer) = (GeometricAttitude::new(&airframe, gains), GeometricPosition::new(&airframe, gains));
-            with_laws(scenario, seed, plant, inner, outer)?.run(ticks, recorder)
-        }
-        Controller::Indi(gains) => {
-            let (inner, outer) = (IndiAttitude::new(&airframe, gains), IndiPosition::new(&airframe, gains));
-            with_laws(scenario, seed, plant, inner, outer)?.run(ticks, recorder)
-        }
-    })
 }

@@ -105,6 +105,31 @@ pub struct Activity<'a> {
     pub battery: Option<BatteryState>,
 }
 
+/// All that a tick shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// The truth, and what the controller makes of it.
+    pub row: Row,
+    /// What the vehicle is doing, where the firmware flies in lockstep.
+    pub activity: Option<Activity<'a>>,
+    /// What the vehicle believes, on sensors.
+    pub navigation: Option<Navigation<'a>>,
+}
+
+impl Seen<'_> {
+    /// Hands it to a recorder.
+    #[inline]
+    pub fn show(&self, recorder: &mut impl Recorder) {
+        recorder.record(&self.row);
+        if let Some(activity) = &self.activity {
+            recorder.observe(activity);
+        }
+        if let Some(navigation) = &self.navigation {
+            recorder.navigate(navigation);
+        }
+    }
+}
+
 /// Takes the rows of a flight, in order.
 pub trait Recorder {
     /// False where rows would be thrown away, so that the loop need not make them.

@@ -3,6 +3,8 @@
 //! Lockstep is a function call. At tick k the firmware gets the motion at t = k ms, or what sensors have made of it, and
 //! its motor command acts on the plant from t to t + 1 ms. Nothing here allocates, and nothing depends on the clock on the wall.
 
+pub mod any;
+
 use anyhow::{Context as _, Result, ensure};
 use firmware::airframe::ROTORS;
 use firmware::autopilot::Autopilot;
@@ -20,7 +22,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::noise::{Disturbed, Noise};
 use crate::pilot::Pilot;
 use crate::plant::{Motion, Plant};
-use crate::record::{Activity, Navigation, Recorder, Row};
+use crate::record::{Activity, Navigation, Recorder, Row, Seen};
 use crate::reference;
 use crate::report::angles::roll_pitch_yaw;
 use crate::report::touchdown::{Contact, Crash, Touchdown};
@@ -106,6 +108,52 @@ impl Outcome {
     pub fn after(self, touchdown: Option<&Touchdown>) -> Self {
         let Some(seen) = touchdown else { return self };
         Self { end: self.end.after(seen), touchdown: seen.first(), landing: seen.last(), ..self }
+    }
+}
+
+/// A simulation that advances by ticks of 1 ms, each in two halves with a look between them: what is recorded of a tick
+/// is what the firmware saw, before its command acts.
+pub trait Lockstep {
+    /// First half: sense and control.
+    fn control(&mut self);
+
+    /// What the tick shows, between its halves.
+    fn look(&mut self) -> Seen<'_>;
+
+    /// Second half: the motor command acts on the plant. Returns false once a look has shown that the vehicle is lost.
+    fn act(&mut self) -> bool;
+
+    /// Ends the flight as the user's wish.
+    fn interrupt(&mut self);
+
+    /// How the flight has gone so far.
+    fn outcome(&self) -> Outcome;
+
+    /// One tick, recorded. Returns false once the vehicle is lost.
+    #[inline]
+    fn step<R: Recorder>(&mut self, recorder: &mut R) -> bool {
+        self.control();
+        if !R::ENABLED {
+            return self.act();
+        }
+        self.look().show(recorder);
+        let goes_on = self.act();
+        if goes_on && recorder.stops() {
+            self.interrupt();
+            return false;
+        }
+        goes_on
+    }
+
+    /// Flies `ticks` ticks, or until the vehicle is lost. Without a recorder, whether it was is seen at the end.
+    fn run<R: Recorder>(&mut self, ticks: u32, recorder: &mut R) -> Outcome {
+        for _ in 0..ticks {
+            if !self.step(recorder) {
+                break;
+            }
+        }
+        self.look();
+        self.outcome()
     }
 }
 
@@ -322,38 +370,12 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         Some(request)
     }
 
-    /// One tick: sense, control, record, move. Returns false once a recorded row has shown that the vehicle is lost.
-    #[inline]
-    pub fn step<R: Recorder>(&mut self, recorder: &mut R) -> bool {
-        let sample = self.sense();
-        if self.pilot.is_some() {
-            self.ask_pilot();
-        }
-        let inner = self.autopilot.tick(Some(&sample));
-        if R::ENABLED {
-            let (inner, outer) = (*inner, *self.autopilot.inner.outer_output());
-            return self.complete(&inner, &outer, recorder);
-        }
-        let (motors, saturated) = (inner.motors, inner.saturated);
-        self.actuate(&motors, saturated);
-        self.outcome.survived()
-    }
-
-    /// Second half of a tick, with what a firmware has made of the sample: record, move. Returns false once the
-    /// vehicle is lost.
-    pub fn complete(&mut self, inner: &InnerOutput, outer: &OuterOutput, recorder: &mut impl Recorder) -> bool {
+    /// What a tick shows, with what a firmware has made of its sample.
+    pub fn look_at(&mut self, inner: &InnerOutput, outer: &OuterOutput) -> Seen<'_> {
         let row = self.row(inner, outer);
         self.judge(&row);
-        recorder.record(&row);
-        recorder.observe(&self.activity(row.t));
-        if self.sensors.is_some() {
-            recorder.navigate(&self.navigation(row.t));
-        }
-        self.actuate(&inner.motors, inner.saturated);
-        if recorder.stops() && self.outcome.survived() {
-            self.outcome.end = End::Interrupted;
-        }
-        self.outcome.survived()
+        let navigation = self.sensors.is_some().then(|| self.navigation(row.t));
+        Seen { row, activity: Some(self.activity(row.t)), navigation }
     }
 
     /// What a row shows, unless the flight has ended before.
@@ -363,9 +385,9 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         }
     }
 
-    /// The motor command acts on the plant until the next.
+    /// A motor command acts on the plant until the next; the tick ends. Returns false once the vehicle is lost.
     #[inline]
-    fn actuate(&mut self, motors: &MotorCommand, saturated: bool) {
+    pub fn actuate(&mut self, motors: &MotorCommand, saturated: bool) -> bool {
         let mut command = motors.omega_rad_s.map(f64::from);
         if let Some(delay) = &mut self.delay {
             command = delay.pass(command);
@@ -378,18 +400,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         self.outcome.saturated_ticks += u32::from(saturated);
         self.tick += 1;
         self.outcome.ticks = self.tick;
-    }
-
-    /// Flies `ticks` ticks, or until the vehicle is lost. Without a recorder, whether it was is seen at the end.
-    pub fn run<R: Recorder>(&mut self, ticks: u32, recorder: &mut R) -> Outcome {
-        for _ in 0..ticks {
-            if !self.step(recorder) {
-                break;
-            }
-        }
-        let row = self.row(self.autopilot.inner.inner_output(), self.autopilot.inner.outer_output());
-        self.judge(&row);
-        self.outcome
+        self.outcome.survived()
     }
 
     /// The record of this tick, with what the firmware has made of it.
@@ -452,9 +463,36 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         let start = self.autopilot.inner.commander_output().flight_start();
         start.map_or(0.0, |start| t - time(start))
     }
+}
 
-    /// How the flight has gone so far.
-    pub fn outcome(&self) -> Outcome {
+impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Lockstep for Flight<P, A, L> {
+    #[inline]
+    fn control(&mut self) {
+        let sample = self.sense();
+        if self.pilot.is_some() {
+            self.ask_pilot();
+        }
+        self.autopilot.tick(Some(&sample));
+    }
+
+    fn look(&mut self) -> Seen<'_> {
+        let vehicle = &self.autopilot.inner;
+        let (inner, outer) = (*vehicle.inner_output(), *vehicle.outer_output());
+        self.look_at(&inner, &outer)
+    }
+
+    #[inline]
+    fn act(&mut self) -> bool {
+        let inner = self.autopilot.inner.inner_output();
+        let (motors, saturated) = (inner.motors, inner.saturated);
+        self.actuate(&motors, saturated)
+    }
+
+    fn interrupt(&mut self) {
+        self.outcome.end = End::Interrupted;
+    }
+
+    fn outcome(&self) -> Outcome {
         self.outcome
     }
 }

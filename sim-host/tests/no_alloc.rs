@@ -11,7 +11,7 @@ use sim_host::record::Recorder;
 use sim_host::report::{Metrics, TruthWriter};
 use sim_host::scenario::Scenario;
 use sim_host::score::Scorer;
-use sim_host::sil::Flight;
+use sim_host::sil::{Flight, Lockstep as _};
 
 /// The system's allocator, counting.
 struct Counting;

@@ -17,6 +17,7 @@ use crate::flight;
 use crate::noise::White;
 use crate::record::{Recorder, Row};
 use crate::scenario::Scenario;
+use crate::sil::Lockstep as _;
 
 /// Settling time before the response to a sinusoid is evaluated, in units of 1/ω of the crossover.
 const SETTLING: f64 = 30.0;

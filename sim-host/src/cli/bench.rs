@@ -8,6 +8,7 @@ use serde_json::json;
 use crate::flight;
 use crate::report::progress;
 use crate::scenario::Scenario;
+use crate::sil::Lockstep as _;
 use crate::words::counted;
 
 pub(super) fn run(seconds: f64, runs: usize, as_json: bool) -> Result<()> {
@@ -39,7 +40,7 @@ pub(super) fn run(seconds: f64, runs: usize, as_json: bool) -> Result<()> {
 
 /// Simulated seconds a second of wall time.
 fn fly(scenario: &Scenario, ticks: u32) -> Result<f64> {
-    let mut flight = flight::lockstep(scenario, 1, flight::rigid_body(scenario, 1))?;
+    let mut flight = flight::prepare(scenario, 1)?;
     let start = Instant::now();
     let outcome = flight.run(ticks, &mut ());
     let wall_s = start.elapsed().as_secs_f64();

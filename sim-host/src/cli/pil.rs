@@ -16,7 +16,7 @@ use crate::plant::rigid_body::RigidBody;
 use crate::record::Recorder;
 use crate::report::{Metrics, Paint, Progress, Staged, Summary, Touchdown, TruthWriter, table};
 use crate::scenario::Scenario;
-use crate::sil::{End, Flight};
+use crate::sil::{End, Flight, Lockstep as _};
 
 pub(super) fn run(args: &PilArgs) -> Result<()> {
     let scenario = args.which.load()?;
@@ -107,6 +107,10 @@ fn fly<W: std::io::Write>(
         if !step(&mut flight, &mut pil, &mut recorder)? {
             break;
         }
+        if recorder.stops() {
+            flight.interrupt();
+            break;
+        }
     }
     let wall_s = start.elapsed().as_secs_f64();
     pil.finish()?;
@@ -128,7 +132,8 @@ fn step(flight: &mut Flight<RigidBody>, pil: &mut Pil, recorder: &mut impl Recor
     compare(&flight.autopilot.inner, &image)?;
     let inner = inner_of(&image);
     let outer = OuterOutput { s: image.s_position, ..*flight.autopilot.inner.outer_output() };
-    Ok(flight.complete(&inner, &outer, recorder))
+    flight.look_at(&inner, &outer).show(recorder);
+    Ok(flight.actuate(&inner.motors, inner.saturated))
 }
 
 fn inner_of(image: &PilOutput) -> InnerOutput {

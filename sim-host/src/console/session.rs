@@ -19,7 +19,7 @@ use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
 use crate::report::timeline::fault_name;
 use crate::sensors::Fault;
-use crate::sil::Flight;
+use crate::sil::{Flight, Lockstep as _};
 
 /// A line's instruction to the loop that runs the session.
 #[derive(Clone, Copy, Debug, PartialEq)]

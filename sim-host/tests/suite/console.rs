@@ -11,7 +11,7 @@ use sim_host::flight;
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::plant::{Motion, Plant as _};
 use sim_host::scenario::Scenario;
-use sim_host::sil::Flight;
+use sim_host::sil::{Flight, Lockstep as _};
 
 fn flight(name: &str, seed: u64) -> Flight<RigidBody> {
     let scenario = Scenario::load(name, &[]).expect("built in");

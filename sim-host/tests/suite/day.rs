@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, UnitQuaternion, Vector3};
 use sim_host::flight;
 use sim_host::plant::Plant;
 use sim_host::plant::rigid_body::RigidBody;
-use sim_host::sil::Flight;
+use sim_host::sil::{Flight, Lockstep as _};
 
 use crate::common::fingerprint::Fingerprint;
 use crate::common::load::load;

@@ -8,7 +8,7 @@ use sim_host::plant::Plant as _;
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::scenario::Scenario;
 use sim_host::sensors::{BatteryTruth, Fault, Suite, SuiteFile, Truth};
-use sim_host::sil::Flight;
+use sim_host::sil::{Flight, Lockstep as _};
 
 use crate::common::fault::fault;
 use crate::common::fingerprint::Fingerprint;

@@ -32,7 +32,8 @@ fn fly_open_loop(scenario: &Scenario, ticks: u32, command: impl Fn(u32) -> [f32;
     for tick in 0..ticks {
         flight.sense();
         inner.motors.omega_rad_s = command(tick);
-        flight.complete(&inner, &outer, &mut rows);
+        flight.look_at(&inner, &outer).show(&mut rows);
+        flight.actuate(&inner.motors, inner.saturated);
     }
     rows
 }
