@@ -26,7 +26,7 @@ NAMES = ["trajectory", "reaching-law", "controller", "parameter", "sensor"]
 TESTS = [
     ("firmware", ["--features=pil-wire", "--lib"], ["derivatives_are_those", "settings_out_of_range", "is_decoded_as_it_was_encoded"]),
     ("firmware", ["--features=pil-wire", "--test=suite"], ["sliding::rational", "sliding::every_law"]),
-    ("sim-host", ["--lib"], ["baseline::lqr", "sensors::flow", "controller::tests"]),
+    ("glissade-sil", ["--lib"], ["baseline::lqr", "sensors::flow", "controller::tests"]),
 ]
 # git must take the copy for what it is: files, not a part of the repository above it.
 ENVIRONMENT = {

@@ -20,11 +20,11 @@ use crate::plant::ground::Ground;
 use crate::plant::paper::PaperPlant;
 use crate::plant::rigid_body::RigidBody;
 use crate::record::Recorder;
-use crate::report::Touchdown;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sensors::Suite;
-use crate::sil::any::{AnyFlight, UnderLaws};
+use crate::sil::{AnyFlight, UnderLaws};
 use crate::sil::{Flight, Lockstep as _, Outcome};
+use crate::touchdown::Touchdown;
 use crate::weather::Weather;
 
 /// The rigid-body plant of a scenario, in the initial motion under `seed`.
@@ -78,7 +78,7 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
     let file = &scenario.file;
     let sensors = file.sensors.as_ref().map(|suite| Suite::new(suite, &file.home, &file.fault, seed));
     let pilot = (!file.command.is_empty()).then(|| Pilot::new(&file.command));
-    Ok(flight.with_weather(Weather::new(scenario, seed)).with_sensors(sensors).with_pilot(pilot))
+    Ok(flight.with_weather(weather(scenario, seed)).with_sensors(sensors).with_pilot(pilot))
 }
 
 /// A scenario's flight, before its first tick.
@@ -92,8 +92,25 @@ pub fn prepare(scenario: &Scenario, seed: u64) -> Result<AnyFlight> {
             let plant = PaperPlant::new(scenario.constants(), Vector3::from(scenario.file.start_position_m));
             AnyFlight::Paper(under_laws(scenario, seed, plant)?)
         }
-        PlantKind::PaperDecoupled => AnyFlight::Decoupled(Box::new(Decoupled::new(scenario, seed)?)),
+        PlantKind::PaperDecoupled => AnyFlight::Decoupled(Box::new(decoupled(scenario, seed)?)),
     })
+}
+
+/// The paper's block diagram with a scenario's trajectory and gains.
+///
+/// # Errors
+/// The firmware refuses the trajectory.
+pub fn decoupled(scenario: &Scenario, seed: u64) -> Result<Decoupled> {
+    let file = &scenario.file;
+    let start = Vector3::from(file.start_position_m);
+    let decoupled = Decoupled::new(scenario.constants(), &scenario.flight_config(), start)?;
+    Ok(decoupled.with_attitude(file.attitude).with_disturbance(file.disturbance.as_ref(), seed))
+}
+
+/// A scenario's wind and pushes under a seed, if it has any.
+pub fn weather(scenario: &Scenario, seed: u64) -> Option<Weather> {
+    let constants = scenario.constants();
+    Weather::new(scenario.file.wind.as_ref(), &scenario.file.push, constants.drag / constants.mass, seed)
 }
 
 /// A plant with the firmware in its loop, flying by a scenario's control laws.

@@ -48,44 +48,35 @@
     allow(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")
 )]
 
-pub mod airframe;
 pub mod analyse;
 pub mod assess;
-pub mod baseline;
 pub mod cli;
 pub mod compare;
 pub mod console;
-pub mod controller;
-pub mod decoupled;
 pub mod failures;
-mod files;
 pub mod flight;
-pub mod geodesy;
 pub mod interrupt;
 pub mod link;
 pub mod matrix;
-pub mod noise;
 pub mod paper;
 mod parallel;
 pub mod pil;
-pub mod pilot;
 #[cfg(feature = "search")]
 pub mod plan;
-pub mod plant;
-pub mod record;
-pub mod reference;
-mod refusal;
 pub mod report;
 pub mod scenario;
 pub mod score;
 pub mod seeds;
-pub mod sensors;
 pub mod serve;
-pub mod sil;
 pub mod spline;
 pub mod stations;
 pub mod statistics;
 pub mod sweep;
 pub mod tune;
-pub mod weather;
-mod words;
+
+use glissade_files::{files, refusal, words};
+pub use glissade_sil as sil;
+pub use glissade_sil::{
+    airframe, angles, baseline, controller, decoupled, geodesy, noise, pilot, plant, record, reference, sensors,
+    touchdown, weather, world,
+};

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use anyhow::{Context, Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 
-use crate::files::{self, built_in};
+use crate::files;
 use crate::refusal::did_you_mean;
 use crate::scenario::{Scenario, beside, is_of_controller};
 use crate::score::counts_from_s;
@@ -15,7 +15,7 @@ use crate::seeds::Seeds;
 const OWN_GAINS: &str = "a comparison flies the gains of its tunings: write a tuning file and name it in";
 
 /// Matrices built into the binary.
-const MATRICES: [(&str, &str); 1] = built_in!("matrices": "x500");
+const MATRICES: [(&str, &str); 1] = glissade_files::built_in!("matrices": "x500");
 
 /// A disturbance, as settings of a scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,5 +1,7 @@
 //! Scenarios: what to fly, typed. Built into the binary, or read from a file; every key can be set from outside.
 
+#[cfg(test)]
+mod airframe_tests;
 mod csv;
 mod files;
 mod load;
@@ -18,16 +20,16 @@ use serde::{Deserialize, Serialize};
 use crate::airframe::AirframeFile;
 use crate::assess::Assess;
 use crate::controller::{Control, Controller};
-use crate::files::built_in;
 use crate::pilot::Command;
 use crate::sensors::{Fault, Home, SuiteFile};
+pub use crate::world::{AttitudeWave, Disturbance, Gust, ScheduledPush, Tumble, Wind};
 pub(crate) use load::beside;
 pub use load::tuning;
 pub(crate) use settings::{is_of_controller, value};
-pub use world::{BatteryStart, Gust, ScheduledPush, Truth, Tumble, Wind, World};
+pub use world::{BatteryStart, Truth, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.
-const SCENARIOS: [(&str, &str); 37] = built_in!("scenarios":
+const SCENARIOS: [(&str, &str); 37] = glissade_files::built_in!("scenarios":
     "helix", "helix-tw4", "helix-lag", "figure-eight", "step", "hover", "pad",
     "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
     "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery", "waypoints",
@@ -37,10 +39,11 @@ const SCENARIOS: [(&str, &str); 37] = built_in!("scenarios":
 );
 
 /// Airframes that come with the binary.
-pub(crate) const AIRFRAMES: [(&str, &str); 4] = built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
+pub(crate) const AIRFRAMES: [(&str, &str); 4] =
+    glissade_files::built_in!("airframes": "paper", "x500", "racer250", "crazyflie");
 
 /// Tunings that come with the binary.
-pub(crate) const TUNINGS: [(&str, &str); 6] = built_in!("tunings":
+pub(crate) const TUNINGS: [(&str, &str); 6] = glissade_files::built_in!("tunings":
     "x500-smc", "x500-pid", "x500-geometric", "x500-indi", "racer250-smc", "crazyflie-smc",
 );
 
@@ -54,49 +57,6 @@ pub enum PlantKind {
     Paper,
     /// Eq. 2 with the force and the torques as direct, unlimited inputs, the control laws evaluated every 10 µs.
     PaperDecoupled,
-}
-
-/// Gaussian disturbances, each value held for `hold_s`; standard deviations a component.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Disturbance {
-    /// Onset, s.
-    pub from_s: f64,
-    /// End, s.
-    pub to_s: f64,
-    /// How long each sample is held, s; whole ticks.
-    pub hold_s: f64,
-    /// On the accelerations of x, y and z, m/s².
-    #[serde(default)]
-    pub acceleration_m_s2: f64,
-    /// On the angular accelerations, rad/s².
-    #[serde(default)]
-    pub angular_acceleration_rad_s2: f64,
-    /// On the measured position, m.
-    #[serde(default)]
-    pub position_output_m: f64,
-    /// On the measured angles, rad.
-    #[serde(default)]
-    pub angle_output_rad: f64,
-}
-
-impl Disturbance {
-    /// Whether it pushes the vehicle.
-    pub fn is_on_accelerations(&self) -> bool {
-        self.acceleration_m_s2 > 0.0 || self.angular_acceleration_rad_s2 > 0.0
-    }
-}
-
-/// An attitude to follow, for the case that has no position loop: `amplitude·sin(rate·t + phase)` an angle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AttitudeWave {
-    /// φ, θ, ψ amplitudes, rad.
-    pub amplitude_rad: [f64; 3],
-    /// Angular rates of the waves, rad/s.
-    pub rate_rad_s: [f64; 3],
-    /// Phases at t = 0, rad.
-    pub phase_rad: [f64; 3],
 }
 
 /// A scenario file.

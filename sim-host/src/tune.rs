@@ -29,14 +29,15 @@ pub use space::{Parameter, Scale, Space};
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 
-use crate::files::{self, built_in};
+use crate::files;
 use crate::scenario::TUNINGS;
 
 /// Tunes built into the binary.
-const TUNES: [(&str, &str); 4] = built_in!("tunes": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
+const TUNES: [(&str, &str); 4] =
+    glissade_files::built_in!("tunes": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
 
 /// Courses built into the binary.
-const COURSES: [(&str, &str); 1] = built_in!("courses": "x500");
+const COURSES: [(&str, &str); 1] = glissade_files::built_in!("courses": "x500");
 
 /// A tune file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

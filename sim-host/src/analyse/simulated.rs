@@ -111,7 +111,7 @@ impl<A: AttitudeLaw + Clone, P: PositionLaw + Clone> Rig<'_, A, P> {
         let mut rows: Vec<Row> = Vec::new();
         let position = TappedPosition { law: self.laws.1.clone(), tap: None };
         self.fly(attitude, position, ticks, &mut rows)?;
-        let angle = |row: &Row| crate::report::angles::roll_pitch_yaw(row.attitude)[axis];
+        let angle = |row: &Row| crate::angles::roll_pitch_yaw(row.attitude)[axis];
         Ok(rows.iter().map(|row| (row.t, angle(row) / step_rad)).collect())
     }
 

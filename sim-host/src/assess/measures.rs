@@ -7,9 +7,9 @@ use super::Assess;
 use super::consistency::Consistency;
 use crate::plant::ground::Ground;
 use crate::record::{Navigation, Recorder, Row};
-use crate::report::Touchdown;
-use crate::report::touchdown::{HARDEST_M_S, UPRIGHT};
 use crate::statistics::MeanSquare;
+use crate::touchdown::Touchdown;
+use crate::touchdown::{HARDEST_M_S, UPRIGHT};
 
 /// A measure of a flight, over the judged time unless stated otherwise. Errors are true minus wanted values unless stated otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -236,7 +236,7 @@ impl Assessor {
         for (axis, error) in self.axes.iter_mut().zip(error.iter()) {
             axis.take(*error);
         }
-        self.roll.take(crate::report::angles::roll_pitch_yaw(row.attitude)[0].abs().to_degrees());
+        self.roll.take(crate::angles::roll_pitch_yaw(row.attitude)[0].abs().to_degrees());
     }
 
     /// What the flight has measured; `tracked` unless the vehicle was lost.

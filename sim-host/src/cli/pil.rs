@@ -14,9 +14,10 @@ use crate::interrupt::{self, Interrupted};
 use crate::pil::{BusyWait, Difference, Overrun, Pil, PilOptions, PilOutput, Stopped, compare};
 use crate::plant::rigid_body::RigidBody;
 use crate::record::Recorder;
-use crate::report::{Metrics, Paint, Progress, Staged, Summary, Touchdown, TruthWriter, table};
+use crate::report::{Metrics, Paint, Progress, Staged, Summary, TruthWriter, table};
 use crate::scenario::Scenario;
 use crate::sil::{End, Flight, Lockstep as _};
+use crate::touchdown::Touchdown;
 
 pub(super) fn run(args: &PilArgs) -> Result<()> {
     let scenario = args.which.load()?;

@@ -14,8 +14,8 @@ use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
 use crate::record::{Recorder as _, Row};
 use crate::report::timeline::fault_name;
-use crate::report::touchdown::{Contact, HARDEST_M_S, Touchdown};
 use crate::sil::Flight;
+use crate::touchdown::{Contact, HARDEST_M_S, Touchdown};
 
 /// Whether the commander's output has come into effect in the tick before this one.
 pub(super) fn is_due(next_tick: Tick) -> bool {

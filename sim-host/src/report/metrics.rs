@@ -6,9 +6,9 @@
 
 use serde::Serialize;
 
-use super::angles::{roll_pitch_yaw, wrap, yaw};
 pub use super::measures::Settling;
 use super::measures::{Recent, Size, Variation, finite};
+use crate::angles::{roll_pitch_yaw, wrap, yaw};
 use crate::record::{Recorder, Row};
 
 /// RMS and maximum error are taken from here on, s: what comes before is the approach.

@@ -148,7 +148,7 @@ pub fn end_text(end: &End, t: f64) -> String {
 mod tests {
     use super::*;
     use crate::report::timeline::Timeline;
-    use crate::report::touchdown::{Contact, Crash};
+    use crate::touchdown::{Contact, Crash};
 
     const TAKE_OFF: Order = Order::TakeOff { height_m: 5.0 };
 

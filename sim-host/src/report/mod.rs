@@ -25,7 +25,6 @@
 //! # anyhow::Ok(())
 //! ```
 
-pub mod angles;
 pub mod comparison;
 pub mod estimate;
 pub mod measures;
@@ -41,7 +40,6 @@ pub mod staged;
 pub mod summary;
 pub mod table;
 pub mod timeline;
-pub mod touchdown;
 pub mod truth;
 
 pub use metrics::{Metrics, Settling};
@@ -53,5 +51,4 @@ pub use sensed::{Sensed, SensedRecorder};
 pub use staged::Staged;
 pub use summary::{Flight, Summary};
 pub use timeline::{Timeline, TimelineRecorder};
-pub use touchdown::Touchdown;
 pub use truth::TruthWriter;

@@ -126,3 +126,11 @@ fn a_setting_takes_effect_in_plant_and_firmware() {
     assert_eq!(scenario.constants().mass, 1.0);
     assert_eq!(scenario.flight_config().airframe.mass_kg, 1.0);
 }
+
+#[test]
+fn every_controller_is_known_by_its_name() {
+    for name in ["x500-smc", "x500-pid", "x500-geometric", "x500-indi"] {
+        let controller = tuning(name).expect("built in").controller;
+        assert!(Controller::NAMES.contains(&controller.name()) && name.ends_with(controller.name()), "{name}");
+    }
+}

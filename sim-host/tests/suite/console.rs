@@ -25,7 +25,7 @@ struct Bench {
     /// Lines before this one have been looked at.
     seen: usize,
     /// Speed downwards in the last tick in the air before each touchdown, m/s, and where that was. As in
-    /// `report::touchdown`, one that has not been half a metre up does not touch down.
+    /// `touchdown`, one that has not been half a metre up does not touch down.
     touchdowns: Vec<(f64, Vector3<f64>)>,
     before: Motion,
     has_flown: bool,

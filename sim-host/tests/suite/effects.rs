@@ -9,6 +9,7 @@ use sim_host::plant::paper::{PaperPlant, PaperState};
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::plant::{Constants, Motion, Plant, Push};
 use sim_host::record::Row;
+use sim_host::sil::Lockstep as _;
 
 use crate::common::load::load;
 
@@ -352,8 +353,7 @@ fn a_scheduled_push_turns_and_moves_by_its_integral() {
 fn a_gust_pushes_as_its_closed_form_says() {
     let gust = "wind.gust=[{from_s=0.0,rise_s=0.4,hold_s=0.2,peak_m_s=[5.0,0.0,0.0]}]";
     let scenario = load("x500-hover", &[gust]);
-    let (c, mut weather) =
-        (scenario.constants(), sim_host::weather::Weather::new(&scenario, 1).expect("there is some"));
+    let (c, mut weather) = (scenario.constants(), flight::weather(&scenario, 1).expect("there is some"));
     let mut plant = RigidBody::new(c.clone(), None, V::zeros());
     let hover = [c.hover_omega(); 4];
     for tick in 0..1_000 {

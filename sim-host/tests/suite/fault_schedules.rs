@@ -7,6 +7,7 @@ use sim_host::flight;
 use sim_host::scenario::Scenario;
 use sim_host::sensors::Fault;
 use sim_host::sensors::faults::{Kind, Sensor};
+use sim_host::sil::Lockstep as _;
 
 use crate::common::fingerprint::Fingerprint;
 use crate::common::load::load;

@@ -5,8 +5,8 @@ use sim_host::plant::ground::Ground;
 use sim_host::plant::rigid_body::RigidBody;
 use sim_host::plant::{Motion, Plant, Push};
 use sim_host::record::{Recorder, Row};
-use sim_host::report::Touchdown;
 use sim_host::scenario::Scenario;
+use sim_host::touchdown::Touchdown;
 
 type V = Vector3<f64>;
 

@@ -6,6 +6,7 @@
 mod common;
 
 mod analyse;
+mod baselines;
 mod cli;
 mod console;
 mod control_laws;

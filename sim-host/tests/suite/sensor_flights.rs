@@ -12,6 +12,7 @@ use sim_host::flight;
 use sim_host::record::{Navigation, Recorder, Row};
 use sim_host::scenario::{self, Scenario};
 use sim_host::seeds::Seeds;
+use sim_host::sil::Lockstep as _;
 
 use crate::common::fault::fault;
 use crate::common::load::load;

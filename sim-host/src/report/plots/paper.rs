@@ -21,11 +21,11 @@ use super::path;
 use super::series::{Points, angle_over_time, angles_deg, over_time, thin_path};
 use super::style::{Color, INK, Key, Role, palette};
 use super::tracking::phase_panel;
+use crate::angles::roll_pitch_yaw;
 use crate::decoupled::STEP_S;
 use crate::paper::claims::{ALTITUDE_AT_REST, ALTITUDE_ERROR, Y_FOLLOWS, Z_FOLLOWS};
 use crate::paper::flights::{Flights, Flown, SEED};
 use crate::record::Row;
-use crate::report::angles::roll_pitch_yaw;
 use crate::report::metrics::errors;
 use crate::report::timeline::Timeline;
 

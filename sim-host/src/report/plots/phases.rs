@@ -17,9 +17,9 @@ use crate::flight;
 use crate::record::{Recorder as _, Row};
 use crate::report::metrics::errors;
 use crate::report::timeline::{Event, EventKind, Phase, Timeline};
-use crate::report::touchdown::Touchdown;
 use crate::scenario::Scenario;
 use crate::sil::End;
+use crate::touchdown::Touchdown;
 
 /// Phases in which it stands.
 const ON_THE_GROUND: [&str; 3] = ["before arming", "on the ground", "disarmed"];

@@ -3,8 +3,8 @@
 //! A point that is not finite interrupts its line: where a reference jumps, where an angle passes from 180° to −180°,
 //! and where a flight has diverged.
 
+use crate::angles::roll_pitch_yaw;
 use crate::record::Row;
-use crate::report::angles::roll_pitch_yaw;
 use crate::report::metrics::errors;
 
 /// A line's points in the units of its panel.

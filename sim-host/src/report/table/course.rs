@@ -93,7 +93,7 @@ mod tests {
     use super::*;
     use crate::report::summary::Place;
     use crate::report::timeline::Timeline;
-    use crate::report::touchdown::Contact;
+    use crate::touchdown::Contact;
 
     fn told() -> Told {
         let phase = |name: &str, from_s, to_s, error: Option<f64>| Phase {

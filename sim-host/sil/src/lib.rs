@@ -1,0 +1,30 @@
+//! Software in the loop: the firmware in lockstep with a plant, on its sensors, in its weather.
+//!
+//! All that decides a flight, and nothing that reads scenarios, records or draws: those are `sim-host`'s. What runs once
+//! a tick is compiled here, whole and once ([`AnyFlight`]); the rest can be built for speed of building.
+
+#![cfg_attr(
+    test,
+    allow(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")
+)]
+
+pub mod airframe;
+pub mod angles;
+mod any;
+pub mod baseline;
+pub mod controller;
+pub mod decoupled;
+pub mod geodesy;
+mod lockstep;
+pub mod noise;
+pub mod pilot;
+pub mod plant;
+pub mod record;
+pub mod reference;
+pub mod sensors;
+pub mod touchdown;
+pub mod weather;
+pub mod world;
+
+pub use any::{AnyFlight, UnderLaws};
+pub use lockstep::{DELAY_TICKS_MAX, End, Flight, Lockstep, Outcome};
