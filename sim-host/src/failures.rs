@@ -34,7 +34,9 @@ pub fn parse<'a>(words: impl Iterator<Item = &'a str>, now: Tick) -> Result<Faul
     if table.get("kind").is_some_and(|kind| kind.as_str() == Some("rotor")) && table.len() == 1 {
         bail!("say which rotor (index=0 is rotor 1) and how much of it is left: fault rotor index=0 effectiveness=0");
     }
-    ensure!(table.contains_key("kind"), "say how it fails: kind={}", KINDS.join("|"));
+    let is_of_a_sensor = table.contains_key("sensor");
+    let kinds = || KINDS.into_iter().filter(|kind| !is_of_a_sensor || !matches!(*kind, "rotor" | "collapse"));
+    ensure!(table.contains_key("kind"), "say how it fails: kind={}", kinds().collect::<Vec<_>>().join("|"));
     table.entry("from_s").or_insert(Value::Float(f64::from(now) * TICK_S_EXACT));
     Fault::try_from(table).map_err(|error| anyhow!("{error}"))
 }
@@ -179,6 +181,15 @@ mod tests {
 
     fn fault(line: &str) -> Fault {
         read(line).expect(line)
+    }
+
+    #[test]
+    fn a_sensor_is_offered_no_faults_of_rotors() {
+        let offered = |line: &str| parse(line.split_whitespace(), 0).expect_err("no kind").to_string();
+        assert!(offered("gnss").ends_with(
+            "kind=off|stuck|drift|noise|spikes|delayed|nan|glitch|no-fix|loss|duplicate|disorder|time-jump"
+        ));
+        assert!(offered("").ends_with("|time-jump|rotor|collapse"));
     }
 
     #[test]

@@ -48,10 +48,11 @@ pub(crate) const TUNINGS: [(&str, &str); 6] = glissade_files::built_in!("tunings
 );
 
 /// Which model of the world is flown in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PlantKind {
     /// Full Newton–Euler motion, firmware in lockstep at 1 kHz.
+    #[default]
     RigidBody,
     /// Eq. 2 coupled through the angles, firmware in lockstep at 1 kHz.
     Paper,
@@ -78,7 +79,8 @@ pub struct ScenarioFile {
     /// How the plant differs from what the firmware believes.
     #[serde(default)]
     pub truth: Truth,
-    /// The world.
+    /// The model that is flown.
+    #[serde(default)]
     pub plant: PlantKind,
     /// Whether there is ground at the start's height.
     #[serde(default)]

@@ -40,7 +40,7 @@ pub(super) struct Flown {
 /// A flight's summary with what its figures are drawn of.
 struct Taken {
     summary: Summary,
-    timeline: Timeline,
+    course: Course,
     rows: Vec<Row>,
     beliefs: Vec<Belief>,
 }
@@ -92,11 +92,11 @@ fn take<W: Write>(
     let (sensed, beliefs) = sensed.map_or_else(Default::default, |(sensed, beliefs)| (Some(sensed), beliefs));
     let mut course = course.finish(&scenario.file.fault, &scenario.file.push);
     add_contacts(&mut course.timeline, &outcome);
-    let timeline = course.timeline.clone();
+    let drawn = course.clone();
     let summary = summarise(scenario, seed, &flown, truth.finish()?, &metrics)
         .with_sensed(sensed)
         .with_course(told(scenario, course, &outcome));
-    Ok(Taken { summary, timeline, rows: rows.unwrap_or_default(), beliefs })
+    Ok(Taken { summary, course: drawn, rows: rows.unwrap_or_default(), beliefs })
 }
 
 /// Adds what the plant and the ground did to each other.
@@ -113,8 +113,11 @@ fn add_contacts(timeline: &mut Timeline, outcome: &Outcome) {
 }
 
 /// The course of a flight on sensors or with a pilot; of others there is nothing to tell.
-fn told(scenario: &Scenario, course: Course, outcome: &Outcome) -> Option<Told> {
+fn told(scenario: &Scenario, mut course: Course, outcome: &Outcome) -> Option<Told> {
     let commands = scenario.file.command.len();
+    if outcome.end == End::Interrupted {
+        course.cut_off(radius_m(scenario));
+    }
     if commands == 0 && scenario.file.sensors.is_none() {
         return None;
     }
@@ -226,9 +229,9 @@ fn provenance_beside(scenario: &str) -> Option<Table> {
 }
 
 fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, taken: &Taken) -> Result<()> {
-    let Taken { rows, beliefs, timeline, .. } = taken;
+    let Taken { rows, beliefs, course, .. } = taken;
     if !rows.is_empty() {
-        folder.figures(&Figures::new(scenario, seed, rows, beliefs, timeline))?;
+        folder.figures(&Figures::new(scenario, seed, rows, beliefs, course))?;
     }
     Ok(())
 }

@@ -112,6 +112,16 @@ pub struct Course {
     pub disarmed: bool,
 }
 
+impl Course {
+    /// Takes back how far the vehicle was from the place that it was on its way to when the flight was cut off, further
+    /// than `reached_m`.
+    pub fn cut_off(&mut self, reached_m: f64) {
+        if let Some(last) = self.legs.last_mut() {
+            last.off_m = last.off_m.filter(|off| *off <= reached_m);
+        }
+    }
+}
+
 /// Records the course of a flight.
 #[derive(Clone, Debug, Default)]
 #[allow(clippy::struct_excessive_bools, reason = "each remembers one thing that has been seen, in any combination")]
@@ -369,5 +379,24 @@ pub fn fault_name(fault: &Fault) -> String {
             format!("rotor {} (index {index}) keeps {} % of its thrust", index + 1, 100.0 * effectiveness)
         }
         Kind::Collapse { factor } => format!("battery voltage falls to {} %", 100.0 * factor),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flight_that_is_cut_off_has_not_missed_where_it_was_on_its_way_to() {
+        let order = Order::GoTo { position_m: [20.0, 0.0, 10.0], yaw_deg: 0.0 };
+        let leg = |off_m| Leg { order, place: Some([0.0; 3]), refused: None, off_m: Some(off_m) };
+        let left = |legs: &[f64]| {
+            let mut course = Course { legs: legs.iter().copied().map(leg).collect(), ..Course::default() };
+            course.cut_off(3.0);
+            course.legs.iter().map(|leg| leg.off_m).collect::<Vec<_>>()
+        };
+        assert_eq!(left(&[5.0, 12.0]), [Some(5.0), None], "only the last was on its way");
+        assert_eq!(left(&[2.0]), [Some(2.0)], "reached");
+        assert!(left(&[]).is_empty());
     }
 }

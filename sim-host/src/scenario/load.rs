@@ -11,6 +11,7 @@ use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
 use crate::files::{Source, read};
 use crate::refusal::{Refusal, typed};
+use crate::sensors::SUITES;
 
 /// A file that a scenario is made of, and what the command line has set in it.
 struct Layer {
@@ -120,7 +121,7 @@ impl Scenario {
     /// One line that names the scenario or file, the key, and what is wrong with it.
     pub fn load(name: &str, settings: &[String]) -> Result<Self> {
         let settings = settings.iter().map(|setting| Setting::parse(setting)).collect::<Result<Vec<_>>>()?;
-        let mut own = Layer::new(Source::read(name, "scenario", &SCENARIOS)?, ("", ""))?;
+        let mut own = Layer::new(own_source(name)?, ("", ""))?;
         let (mut of_airframe, mut of_gains) = (Vec::new(), Vec::new());
         for setting in &settings {
             match setting.split() {
@@ -174,6 +175,16 @@ impl Scenario {
         scenario.validate()?;
         Ok(scenario)
     }
+}
+
+/// The file of a scenario by its name or path.
+fn own_source(name: &str) -> Result<Source> {
+    let of_another_kind = [("tuning", TUNINGS.as_slice()), ("airframe", &AIRFRAMES), ("sensors", &SUITES)];
+    let key = of_another_kind.iter().find(|(_, files)| files.iter().any(|(known, _)| *known == name));
+    Source::read(name, "scenario", &SCENARIOS).map_err(|error| match key {
+        Some((key, _)) => anyhow!("`{name}` is no scenario: fly one with `--set {key}={name}`"),
+        None => error,
+    })
 }
 
 /// Refuses a setting of the airframe that the scenario has in its place: it would change nothing.

@@ -228,7 +228,7 @@ fn a_file_is_named_with_the_line_of_the_key() {
         (spoilt("= 1.0", "= 1.0 s"), &["scenario `bad.toml`, line 3"]),
         (spoilt("= 1.0", "= 1.0\nduration_s = 2.0"), &["scenario `bad.toml`, line 4", "`duration_s` is given twice"]),
         (spoilt("duration_s", "duration"), &["line 3", "`duration` is no key", "did you mean `duration_s`?"]),
-        (spoilt("plant = \"rigid-body\"", ""), &["scenario `bad.toml`", "`plant` is missing"]),
+        (spoilt("duration_s = 1.0", ""), &["scenario `bad.toml`", "`duration_s` is missing"]),
         (spoilt("yaw_rad = 0.0", ""), &["line 5", "`trajectory.hold.yaw_rad` is missing"]),
         (
             spoilt("[0.0, 0.0, 0.0]", "[0.0, 0.0]"),

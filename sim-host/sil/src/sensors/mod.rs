@@ -32,7 +32,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 pub use faults::{Fault, FaultId, Faults, PlantFaults};
 pub use home::Home;
 pub use process::WarmUp;
-pub use suite::SuiteFile;
+pub use suite::{SUITES, SuiteFile};
 
 use crate::plant::Motion;
 use baro::Barometer;

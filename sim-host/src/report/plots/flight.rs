@@ -9,10 +9,10 @@ use firmware::guidance::Trajectory;
 use super::backdrop::Backdrop;
 use super::{disturbance, estimate, path, phases, rotors, tracking};
 use crate::noise::Noise;
-use crate::pilot::Order;
+use crate::pilot::{Command, Order};
 use crate::record::Row;
 use crate::report::estimate::Belief;
-use crate::report::timeline::Timeline;
+use crate::report::timeline::{Course, Leg};
 use crate::scenario::Scenario;
 
 /// How a vehicle flew, hence what is worth drawing.
@@ -53,27 +53,26 @@ pub struct Figures<'a> {
     pub beliefs: &'a [Belief],
     /// The disturbance, where there is one; without, its two figures are left out.
     pub disturbance: Option<Disturbance>,
-    /// Where the pilot sent it, m.
-    pub places: Vec<[f64; 3]>,
+    /// Where the pilot sent it, m; none in place of what the vehicle refused.
+    pub places: Vec<Option<[f64; 3]>>,
     /// Phases, faults and events.
     pub(super) backdrop: Backdrop,
 }
 
 impl<'a> Figures<'a> {
     /// Of a scenario flown under `seed`.
-    pub fn new(scenario: &Scenario, seed: u64, rows: &'a [Row], beliefs: &'a [Belief], timeline: &Timeline) -> Self {
+    pub fn new(scenario: &Scenario, seed: u64, rows: &'a [Row], beliefs: &'a [Belief], course: &Course) -> Self {
         let file = &scenario.file;
         let kind = match () {
             () if !file.command.is_empty() || file.start == Start::OnGround => Kind::Piloted,
             () if file.attitude.is_some() && matches!(file.trajectory, Trajectory::Hold { .. }) => Kind::Attitude,
             () => Kind::Tracking,
         };
-        let place = |order: &Order| match order {
-            Order::GoTo { position_m, .. } => Some(position_m.map(f64::from)),
-            _ => None,
+        let backdrop = if kind == Kind::Piloted {
+            phases::backdrop(scenario, rows, &course.timeline)
+        } else {
+            Backdrop::default()
         };
-        let backdrop =
-            if kind == Kind::Piloted { phases::backdrop(scenario, rows, timeline) } else { Backdrop::default() };
         let end = backdrop.end() + AFTERWARDS_S;
         Self {
             of: format!("{}, seed {seed}", scenario.name),
@@ -81,7 +80,7 @@ impl<'a> Figures<'a> {
             rows: &rows[..rows.partition_point(|row| row.t <= end)],
             beliefs: &beliefs[..beliefs.partition_point(|belief| belief.t <= end)],
             disturbance: applied(scenario, seed),
-            places: file.command.iter().filter_map(|command| place(&command.order)).collect(),
+            places: places(&file.command, &course.legs),
             backdrop,
         }
     }
@@ -132,6 +131,16 @@ impl<'a> Figures<'a> {
         let end = (last * 1e3 + 1.0).round() / 1e3;
         (last > first).then_some((first, if end.fract() == 0.0 { end } else { last }))
     }
+}
+
+/// Where a script leads to, and nothing in place of what was refused, so that places keep the numbers of their phases.
+fn places(script: &[Command], legs: &[Leg]) -> Vec<Option<[f64; 3]>> {
+    let refused = |i: usize| legs.get(i).is_some_and(|leg| leg.refused.is_some());
+    let place = |(i, command): (usize, &Command)| match command.order {
+        Order::GoTo { position_m, .. } => Some((!refused(i)).then(|| position_m.map(f64::from))),
+        _ => None,
+    };
+    script.iter().enumerate().filter_map(place).collect()
 }
 
 /// The disturbances of a scenario as they were applied, a sample each tick: on the accelerations, or, where there are

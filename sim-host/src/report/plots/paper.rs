@@ -27,7 +27,7 @@ use crate::paper::claims::{ALTITUDE_AT_REST, ALTITUDE_ERROR, Y_FOLLOWS, Z_FOLLOW
 use crate::paper::flights::{Flights, Flown, SEED};
 use crate::record::Row;
 use crate::report::metrics::errors;
-use crate::report::timeline::Timeline;
+use crate::report::timeline::Course;
 
 /// What is shown of the approach, s.
 const APPROACH_S: f64 = 1.0;
@@ -204,7 +204,7 @@ fn coupled(folder: &Path, flights: &Flights) -> Result<PathBuf> {
 }
 
 fn figures(flown: &Flown) -> Figures<'_> {
-    Figures::new(&flown.scenario, SEED, &flown.rows, &[], &Timeline::default())
+    Figures::new(&flown.scenario, SEED, &flown.rows, &[], &Course::default())
 }
 
 fn heading(flown: &Flown, title: &str) -> String {

@@ -109,10 +109,11 @@ fn legs(figures: &Figures) -> Vec<Leg> {
 /// The places that it was sent to, each once, numbered in order.
 fn places(figures: &Figures) -> Vec<([f64; 3], String)> {
     let mut places: Vec<([f64; 3], String)> = Vec::new();
-    for (i, place) in figures.places.iter().enumerate() {
-        match places.iter_mut().find(|(known, _)| known == place) {
-            Some((_, name)) => *name = format!("{name}, {}", i + 1),
-            None => places.push((*place, (i + 1).to_string())),
+    let sent = figures.places.iter().zip(1..).filter_map(|(place, number)| Some(((*place)?, number)));
+    for (place, number) in sent {
+        match places.iter_mut().find(|(known, _)| *known == place) {
+            Some((_, name)) => *name = format!("{name}, {number}"),
+            None => places.push((place, number.to_string())),
         }
     }
     places
@@ -146,9 +147,10 @@ mod tests {
     fn places_are_numbered_in_the_order_of_the_visits() {
         let rows = made_up(1.0);
         let mut figures = figures(&rows);
-        figures.places = vec![[1.0, 0.0, 5.0], [2.0, 0.0, 5.0], [1.0, 0.0, 5.0]];
+        // The third was refused.
+        figures.places = vec![Some([1.0, 0.0, 5.0]), Some([2.0, 0.0, 5.0]), None, Some([1.0, 0.0, 5.0])];
         let names: Vec<_> = places(&figures).into_iter().map(|(_, name)| name).collect();
-        assert_eq!(names, ["1, 3", "2"]);
+        assert_eq!(names, ["1, 4", "2"]);
     }
 
     #[test]

@@ -211,7 +211,7 @@ fn piloted(rows: &[Row]) -> Figures<'_> {
         landed: Some(18.5),
         named: false,
     };
-    let places = vec![[3.0, 0.0, 5.0], [3.0, 0.1, 5.0], [-1.0, 2.0, 9.0]];
+    let places = vec![Some([3.0, 0.0, 5.0]), Some([3.0, 0.1, 5.0]), Some([-1.0, 2.0, 9.0])];
     Figures { kind: Kind::Piloted, disturbance: None, places, backdrop, ..figures(rows) }
 }
 
