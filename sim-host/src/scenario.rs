@@ -271,6 +271,23 @@ impl Scenario {
         [thrust_n, plant.mass * plant.gravity]
     }
 
+    /// Why nothing can follow its trajectory for long, if it is so: more thrust than the rotors give, or more tilt than
+    /// the controller may demand.
+    pub fn beyond_reach(&self) -> Option<String> {
+        let [thrust_n, weight_n] = self.thrust_and_weight_n();
+        let sideways = trajectory::sideways_m_s2(&self.file.trajectory);
+        let gravity = self.constants().gravity;
+        let (needed, tilt) = (libm::hypot(sideways, gravity), libm::atan2(sideways, gravity).to_degrees());
+        let given = gravity * thrust_n / weight_n;
+        let most = f64::from(self.flight_config().tilt_max_rad).to_degrees();
+        if needed > given {
+            return Some(format!(
+                "its trajectory takes {needed:.1} m/s² of thrust, and the rotors give {given:.1} at most"
+            ));
+        }
+        (tilt > most).then(|| format!("its trajectory takes a tilt of {tilt:.0}°, and `tilt_max_rad` is {most:.0}°"))
+    }
+
     /// How much later than commanded the rotors are told, ticks.
     pub fn actuation_delay_ticks(&self) -> usize {
         (self.airframe.actuation_delay_s * 1e3).round() as usize

@@ -134,6 +134,15 @@ fn too_heavy(scenario: &Scenario, outcome: &Outcome) -> Option<String> {
     })
 }
 
+/// What was asked of a flight that it cannot do, if it did not do what was asked.
+fn beyond_reach(scenario: &Scenario, outcome: &Outcome) -> Option<String> {
+    match outcome.end {
+        End::NeverFlew => too_heavy(scenario, outcome),
+        End::Interrupted => None,
+        _ => scenario.beyond_reach(),
+    }
+}
+
 /// How near a place counts as reached, m.
 fn radius_m(scenario: &Scenario) -> f64 {
     let by_gnss = scenario.file.sensors.as_ref().is_some_and(|suite| suite.gnss.is_some());
@@ -172,7 +181,7 @@ pub(super) fn summarise(
         time_optimal_s: scenario.file.time_optimal_s,
         aim: aim(scenario),
         disturbance_onset_s: scenario.file.disturbance.map(|d| d.from_s),
-        too_heavy: too_heavy(scenario, &outcome),
+        beyond_reach: beyond_reach(scenario, &outcome),
         end: outcome.end,
     };
     Summary::new(flight, metrics)

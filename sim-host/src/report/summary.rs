@@ -43,8 +43,8 @@ pub struct Flight {
     pub aim: Aim,
     /// When a disturbance set in, where one did, s.
     pub disturbance_onset_s: Option<f64>,
-    /// Why its rotors could not lift it, if it never flew for that.
-    pub too_heavy: Option<String>,
+    /// What was asked of it that it cannot do: to lift what its rotors cannot, or to follow what nothing can.
+    pub beyond_reach: Option<String>,
     /// Why it ended.
     pub end: End,
 }
@@ -175,9 +175,9 @@ pub struct Summary {
     /// Where it should have been in its last second and was not, in words.
     #[serde(skip)]
     pub missed: Option<String>,
-    /// Why its rotors could not lift it, if it never flew for that.
+    /// What was asked of it that it cannot do.
     #[serde(skip)]
-    pub too_heavy: Option<String>,
+    pub beyond_reach: Option<String>,
     /// How roll and pitch followed, where they are what is followed.
     #[serde(skip)]
     pub roll_and_pitch: Option<[AxisFigures; 2]>,
@@ -214,7 +214,7 @@ impl Summary {
             crash,
             end_error_m: finite(end.distance_m),
             distance_max_m: metrics.distance_max_m(),
-            too_heavy: flight.too_heavy,
+            beyond_reach: flight.beyond_reach,
             missed: flight.aim.missed(&end),
             roll_and_pitch: tilt.map(|tilt| if survived { tilt } else { tilt.map(|axis| cleared(&axis)) }),
             ended: flight.end,
@@ -339,7 +339,7 @@ pub(super) mod tests {
             settles: true,
             aim: Aim::IDEAL,
             disturbance_onset_s: None,
-            too_heavy: None,
+            beyond_reach: None,
             end: if survived { End::DurationReached } else { End::LeftReference },
         }
     }

@@ -33,7 +33,7 @@ fn verdict(summary: &Summary) -> (String, Verdict) {
         Some(_) => ("mission NOT completed".into(), Verdict::Failed),
         None if summary.ended == End::NeverFlew => {
             let cure = || format!("it has no commands; `sim-host serve {}` lets you fly it", summary.scenario);
-            (format!("never flew: {}", summary.too_heavy.clone().unwrap_or_else(cure)), Verdict::Failed)
+            (format!("never flew: {}", summary.beyond_reach.clone().unwrap_or_else(cure)), Verdict::Failed)
         }
         None => flown(summary),
     }
@@ -42,9 +42,10 @@ fn verdict(summary: &Summary) -> (String, Verdict) {
 /// The verdict on a flight without a pilot: by where it was in its last second.
 fn flown(summary: &Summary) -> (String, Verdict) {
     let end = end_text(&summary.ended, summary.duration_s);
+    let why = summary.beyond_reach.as_ref().map_or_else(String::new, |why| format!(": {why}"));
     match &summary.missed {
-        _ if !summary.survived => (end, Verdict::Failed),
-        Some(missed) => (format!("{end}, but {missed} in the last second"), Verdict::Off),
+        _ if !summary.survived => (end + &why, Verdict::Failed),
+        Some(missed) => (format!("{end}, but {missed} in the last second{why}"), Verdict::Off),
         None => (end, Verdict::Good),
     }
 }

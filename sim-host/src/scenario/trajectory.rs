@@ -414,6 +414,23 @@ pub(super) fn flyable(path: &Spline, config: &FlightConfig) -> Result<()> {
     Ok(())
 }
 
+/// The greatest horizontal acceleration (m/s²) of a trajectory that repeats; of others, which are refused where they ask
+/// for too much or jump anyway, 0.
+pub(super) fn sideways_m_s2(trajectory: &Trajectory) -> f64 {
+    match *trajectory {
+        Trajectory::Helix { amplitude_m: [a, b], rate_rad_s, .. } => {
+            f64::from(a.abs().max(b.abs()) * rate_rad_s * rate_rad_s)
+        }
+        Trajectory::FigureEight { amplitude_m: [a, b], rate_rad_s, .. } => {
+            // ω² √(a² sin²θ + 16 b² sin² 2θ), greatest over u = sin²θ.
+            let [a2, b2] = [a, b].map(|amplitude| f64::from(amplitude) * f64::from(amplitude));
+            let u = ((a2 + 64.0 * b2) / (128.0 * b2)).min(1.0);
+            f64::from(rate_rad_s) * f64::from(rate_rad_s) * (a2 * u + 64.0 * b2 * u * (1.0 - u)).sqrt()
+        }
+        Trajectory::Hold { .. } | Trajectory::Step { .. } | Trajectory::Spline(_) => 0.0,
+    }
+}
+
 #[cfg(test)]
 #[path = "trajectory/tests.rs"]
 mod tests;

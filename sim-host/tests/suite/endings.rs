@@ -7,6 +7,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use crate::common::folder::Folder;
+use crate::common::load::load;
 
 /// Starts a flight of a day, and waits until its truth.csv grows. No other run has begun in that folder.
 fn flying(folder: &Folder, out: &str) -> Child {
@@ -210,4 +211,16 @@ fn two_flights_into_one_folder_leave_one_of_them_whole() {
         serde_json::from_slice(&fs::read(folder.0.join("out/summary.json")).expect("it is there")).expect("JSON");
     let rows = fs::read_to_string(folder.0.join("out/truth.csv")).expect("it is there").lines().count() - 1;
     assert_eq!(Some(rows as f64 / 1e3), summary["duration_s"].as_f64());
+}
+
+#[test]
+fn a_trajectory_that_nothing_can_follow_is_named_as_the_reason() {
+    let reason = |name: &str, settings: &[&str]| load(name, settings).beyond_reach().unwrap_or_default();
+    // 2 m at 6 rad/s: 72 m/s² sideways, 72.7 with the weight; a thrust-to-weight ratio of 2 gives 19.6.
+    let fast = reason("helix", &["trajectory.helix.amplitude_m=[2.0,2.0]", "trajectory.helix.rate_rad_s=6.0"]);
+    assert_eq!(fast, "its trajectory takes 72.7 m/s² of thrust, and the rotors give 19.6 at most");
+    let steep =
+        reason("x500-helix", &["trajectory.helix.rate_rad_s=2.2", "thrust_to_weight=50.0", "smc.tilt_max_rad=0.3"]);
+    assert!(steep.ends_with("and `tilt_max_rad` is 17°"), "{steep}");
+    assert!(["helix", "x500-helix", "figure-eight", "x500-eight"].iter().all(|name| reason(name, &[]).is_empty()));
 }

@@ -134,3 +134,20 @@ fn a_file_that_cannot_be_flown_is_refused_by_its_line() {
     let text = refused(&csv_file(false, 0.01), &corner, 0.0, 6.0);
     assert!(text.contains(" m beside line 30") && text.contains("more than `tolerance_m` = 0.01"), "{text}");
 }
+
+#[test]
+fn the_greatest_acceleration_of_what_repeats_is_that_of_its_reference() {
+    for text in [
+        "helix = { amplitude_m = [2.0, 3.0], rate_rad_s = 1.5, base_m = 0.0, climb_m_s = 0.1, yaw_rad = 0.0 }",
+        "figure-eight = { center_m = [0.0, 0.0, 2.0], amplitude_m = [3.0, 1.0], rate_rad_s = 1.2, yaw_rad = 0.0 }",
+        "figure-eight = { center_m = [0.0, 0.0, 2.0], amplitude_m = [9.0, 0.5], rate_rad_s = 0.8, yaw_rad = 0.0 }",
+    ] {
+        let table: toml::Table = text.parse().expect("TOML");
+        let trajectory: Trajectory = table.try_into().expect("a trajectory");
+        // Second differences over 1 ms, of a turn at least.
+        let at = |ms: i32| crate::reference::at(&trajectory, 10.0 + f64::from(ms) * 1e-3);
+        let second = |ms: i32, i: usize| (at(ms + 1)[i] - 2.0 * at(ms)[i] + at(ms - 1)[i]) * 1e6;
+        let greatest = (0..8_000).map(|ms| second(ms, 0).hypot(second(ms, 1))).fold(0.0, f64::max);
+        assert!((sideways_m_s2(&trajectory) - greatest).abs() < 1e-3 * greatest, "{text}: {greatest}");
+    }
+}
