@@ -6,7 +6,7 @@ use anyhow::{Result, ensure};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use crate::controller::TuningFile;
-use crate::matrix::{Case, Matrix};
+use crate::matrix::{Case, Matrix, short_name};
 use crate::parallel;
 use crate::scenario::{self, Scenario};
 use crate::score::{self, Score};
@@ -322,12 +322,6 @@ impl<'a> Contest<'a> {
             flights,
         }
     }
-}
-
-/// A built-in name unchanged; of a path, the file's name without its extension.
-fn short_name(name: &str) -> &str {
-    let file = name.rsplit('/').next().unwrap_or(name);
-    file.strip_suffix(".toml").unwrap_or(file)
 }
 
 /// Refuses paths whose files have the same name: tables and files could not tell them apart.

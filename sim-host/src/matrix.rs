@@ -1,15 +1,19 @@
 //! A matrix of flights: scenarios, disturbances, controllers, seeds. Built into the binary, or read from a file.
 
+mod files;
+
 use std::collections::BTreeSet;
 
 use anyhow::{Context, Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 
-use crate::files;
+use crate::controller::Controller;
 use crate::refusal::did_you_mean;
-use crate::scenario::{Scenario, beside, is_of_controller};
+use crate::scenario::{Scenario, beside, is_of_controller, tuning};
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
+
+pub use self::files::short_name;
 
 /// Why a gain cannot be set; what names the tunings follows.
 const OWN_GAINS: &str = "a comparison flies the gains of its tunings: write a tuning file and name it in";
@@ -24,6 +28,7 @@ pub struct DisturbanceEntry {
     /// Its name.
     pub name: String,
     /// `KEY=VALUE`, as `--set` takes them.
+    #[serde(default)]
     pub set: Vec<String>,
     /// The scenarios that it disturbs; all if absent.
     pub scenarios: Option<Vec<String>>,
@@ -45,11 +50,15 @@ impl DisturbanceEntry {
 #[serde(deny_unknown_fields)]
 pub struct MatrixFile {
     /// The purpose of the comparison, in one line.
+    #[serde(default)]
     pub summary: String,
     /// Names or paths of tuning files; the others are compared with the first.
     pub controllers: Vec<String>,
     /// Names or paths of scenarios.
     pub scenarios: Vec<String>,
+    /// `KEY=VALUE` settings of every scenario, before those of the disturbances.
+    #[serde(default)]
+    pub set: Vec<String>,
     /// The disturbances.
     pub disturbances: Vec<DisturbanceEntry>,
     /// Seeds of the comparison.
@@ -102,13 +111,20 @@ impl Matrix {
     /// One line with the matrix or file, the key and the error; also if a setting is a gain.
     pub fn load(name: &str, settings: &[String]) -> Result<Self> {
         no_gains(settings).map_err(|setting| anyhow!("--set {setting}: {OWN_GAINS} --controllers"))?;
-        let mut file: MatrixFile = files::read(name, "matrix", &MATRICES)?;
+        let mut file: MatrixFile = crate::files::read(name, "matrix", &MATRICES)?;
         for controller in &mut file.controllers {
             *controller = beside(name, controller);
         }
         file.validate().with_context(|| format!("matrix `{name}`"))?;
+        let disturbing = file.disturbances.iter_mut().flat_map(|disturbance| &mut disturbance.set);
+        for setting in disturbing.chain(&mut file.set) {
+            if let Some(airframe) = files::airframe_of(setting) {
+                *setting = format!("airframe={}", beside(name, airframe));
+            }
+        }
         let whole = file.cells().count();
-        Ok(Self { name: name.to_owned(), file, settings: settings.to_vec(), whole })
+        let settings = [file.set.as_slice(), settings].concat();
+        Ok(Self { name: name.to_owned(), file, settings, whole })
     }
 
     /// `KEY=VALUE` settings of every scenario.
@@ -144,13 +160,20 @@ impl Matrix {
     /// One line with the disturbance, the scenario, the key and the error; also if a flight ends before its evaluated
     /// interval begins.
     pub fn cases(&self) -> Result<Vec<Case>> {
-        self.file.cells().map(|(scenario, disturbance)| self.case(scenario, disturbance)).collect()
+        let fallback = self.fallback()?;
+        self.file.cells().map(|(scenario, disturbance)| self.case(scenario, disturbance, &fallback)).collect()
     }
 
-    fn case(&self, scenario: &str, disturbance: &DisturbanceEntry) -> Result<Case> {
+    /// What flies a scenario that brings no gains until a controller is set: the first.
+    fn fallback(&self) -> Result<Controller> {
+        let first = self.file.controllers.first().context("`controllers` is empty: name one at least")?;
+        Ok(tuning(first)?.controller)
+    }
+
+    fn case(&self, scenario: &str, disturbance: &DisturbanceEntry, fallback: &Controller) -> Result<Case> {
         let settings = [self.settings.as_slice(), &disturbance.set].concat();
         let context = || format!("matrix `{}`, disturbance `{}`", self.name, disturbance.name);
-        let loaded = Scenario::load(&beside(&self.name, scenario), &settings).with_context(context)?;
+        let loaded = Scenario::load_for(&beside(&self.name, scenario), &settings, fallback).with_context(context)?;
         require_counted(&loaded).with_context(context)?;
         Ok(Case { scenario: loaded, scenario_name: scenario.to_owned(), disturbance_name: disturbance.name.clone() })
     }
@@ -178,6 +201,7 @@ impl MatrixFile {
     fn validate(&self) -> Result<()> {
         distinct("controllers", self.controllers.iter())?;
         distinct("scenarios", self.scenarios.iter())?;
+        no_gains(&self.set).map_err(|setting| anyhow!("`set` has {setting}: {OWN_GAINS} `controllers`"))?;
         distinct("disturbances", self.disturbances.iter().map(|disturbance| &disturbance.name))?;
         for disturbance in &self.disturbances {
             let key = &disturbance.name;

@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::CompareArgs;
 use super::fly::PROGRAM;
 use crate::compare::{Comparison, Contest};
-use crate::controller::TuningFile;
 use crate::matrix::Matrix;
 use crate::report::{OutFolder, Staged, comparison, progress};
 use crate::seeds::Seeds;
@@ -47,9 +46,10 @@ struct Provenance<'a> {
     set: &'a [String],
     seeds: Seeds,
     controllers: &'a [String],
+    again: &'a str,
 }
 
-/// Writes provenance.toml, the matrix and its tunings as flown.
+/// Writes provenance.toml, and the matrix with what it names, from which the same is flown again.
 fn provenance(folder: &OutFolder, matrix: &Matrix, contest: &Contest) -> Result<()> {
     let provenance = Provenance {
         program: PROGRAM,
@@ -58,10 +58,8 @@ fn provenance(folder: &OutFolder, matrix: &Matrix, contest: &Contest) -> Result<
         set: matrix.settings(),
         seeds: matrix.file.seeds,
         controllers: &matrix.file.controllers,
+        again: "sim-host compare matrix.toml",
     };
     folder.text("provenance.toml", &toml::to_string(&provenance)?)?;
-    folder.text("matrix.toml", &toml::to_string(&matrix.file)?)?;
-    let write =
-        |(name, tuning): &(String, TuningFile)| folder.text(&format!("tuning-{name}.toml"), &toml::to_string(tuning)?);
-    contest.tunings().iter().try_for_each(write)
+    matrix.files(contest.tunings())?.iter().try_for_each(|(name, text)| folder.text(name, text))
 }

@@ -37,7 +37,8 @@ fn table(flown: &[Strength]) -> String {
         ));
     }
     lines.push(format!(
-        "held: every error within 5 cm or 2° for good at most {} s after the onset, the paper's claim",
+        "factor and σ: of the disturbance; slowest: of all axes, the time from the onset to within 5 cm or 2° for good;\n\
+         max: greatest errors of position and angles while it acts; held: slowest at most {} s, the paper's claim",
         DISTURBANCE_REMOVED.time_s
     ));
     lines.join("\n")

@@ -245,13 +245,14 @@ fn is_figure(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|extension| extension == "svg")
 }
 
-/// Whether it is named as a comparison names its tunings.
-fn is_tuning(name: &str) -> bool {
-    name.strip_prefix("tuning-").is_some_and(|rest| rest.strip_suffix(".toml").is_some())
+/// Whether it is named as a comparison names its tunings, scenarios and airframes.
+fn is_kept(name: &str) -> bool {
+    let kinds = ["tuning-", "scenario-", "airframe-"];
+    kinds.iter().any(|kind| name.starts_with(kind)) && Path::new(name).extension().is_some_and(|end| end == "toml")
 }
 
 fn is_ours(name: &str) -> bool {
-    is_figure(name) || is_tuning(name) || name.starts_with("seed-") || MARKS.contains(&name) || OURS.contains(&name)
+    is_figure(name) || is_kept(name) || name.starts_with("seed-") || MARKS.contains(&name) || OURS.contains(&name)
 }
 
 /// Names of what a folder holds: figures are counted.

@@ -13,15 +13,26 @@ impl Scenario {
     /// # Errors
     /// None for a scenario that was loaded: its values came from TOML.
     pub fn files(&self) -> Result<[(&'static str, String); 3]> {
-        let file = ScenarioFile {
-            airframe: "airframe.toml".to_owned(),
-            tuning: Some("tuning.toml".to_owned()),
-            control: None,
-            ..self.file.clone()
-        };
+        let file = self.file_naming("airframe.toml", Some("tuning.toml"));
         let summary = format!("as flown in {}", self.name);
         let tuning = TuningFile { summary, controller: self.controller.clone() };
         Ok([("scenario.toml", text(&file)?), ("airframe.toml", text(&self.airframe)?), ("tuning.toml", text(&tuning)?)])
+    }
+}
+
+impl Scenario {
+    /// The scenario without gains, for whatever controller flies it, and its airframe, which is to lie beside it by this
+    /// name.
+    ///
+    /// # Errors
+    /// None for a scenario that was loaded: its values came from TOML.
+    pub fn files_for_any_controller(&self, airframe: &str) -> Result<[String; 2]> {
+        Ok([text(&self.file_naming(airframe, None))?, text(&self.airframe)?])
+    }
+
+    fn file_naming(&self, airframe: &str, tuning: Option<&str>) -> ScenarioFile {
+        let tuning = tuning.map(str::to_owned);
+        ScenarioFile { airframe: airframe.to_owned(), tuning, control: None, ..self.file.clone() }
     }
 }
 

@@ -120,6 +120,18 @@ impl Scenario {
     /// # Errors
     /// One line that names the scenario or file, the key, and what is wrong with it.
     pub fn load(name: &str, settings: &[String]) -> Result<Self> {
+        Self::read(name, settings, None)
+    }
+
+    /// The same to be flown by another controller than its own: one that brings no gains is given it.
+    ///
+    /// # Errors
+    /// One line that names the scenario or file, the key, and what is wrong with it.
+    pub fn load_for(name: &str, settings: &[String], controller: &Controller) -> Result<Self> {
+        Self::read(name, settings, Some(controller))
+    }
+
+    fn read(name: &str, settings: &[String], controller: Option<&Controller>) -> Result<Self> {
         let settings = settings.iter().map(|setting| Setting::parse(setting)).collect::<Result<Vec<_>>>()?;
         let mut own = Layer::new(own_source(name)?, ("", ""))?;
         let (mut of_airframe, mut of_gains) = (Vec::new(), Vec::new());
@@ -148,20 +160,21 @@ impl Scenario {
         of_airframe
             .iter()
             .try_for_each(|(setting, key)| require_effective(&file, setting, key, &layers.0[0].source))?;
-        Self::assemble(name, file, &layers).map_err(|error| layers.explain(error))
+        Self::assemble(name, file, &layers, controller).map_err(|error| layers.explain(error))
     }
 
     /// A scenario of its files, the last of which is the airframe's.
-    fn assemble(name: &str, file: ScenarioFile, layers: &Layers) -> Result<Self> {
+    fn assemble(name: &str, file: ScenarioFile, layers: &Layers, other: Option<&Controller>) -> Result<Self> {
         let [_, tuning @ .., airframe] = layers.0.as_slice() else { bail!("no airframe") };
         let mut airframe: AirframeFile = airframe.typed()?;
         airframe.thrust_to_weight = file.thrust_to_weight.unwrap_or(airframe.thrust_to_weight);
         airframe.rotor_lag_s = file.rotor_lag_s.unwrap_or(airframe.rotor_lag_s);
         airframe.actuation_delay_s = file.actuation_delay_s.unwrap_or(airframe.actuation_delay_s);
-        let controller = match (tuning, &file.control) {
-            ([tuning], None) => tuning.typed::<TuningFile>()?.controller,
-            ([], Some(control)) => Controller::Smc(control.clone()),
-            ([], None) => {
+        let controller = match (tuning, &file.control, other) {
+            ([tuning], None, _) => tuning.typed::<TuningFile>()?.controller,
+            ([], Some(control), _) => Controller::Smc(control.clone()),
+            ([], None, Some(other)) => other.clone(),
+            ([], None, None) => {
                 let remedy = format!(
                     "the airframe `{}` brings no gains: fly another (`airframe = \"x500\"`), or name some (`tuning = \
                      \"x500-smc\"`, or a file of yours), or give `[control]`",

@@ -317,16 +317,42 @@ fn a_comparison_leaves_what_it_was_flown_with() {
     let read = |name: &str| fs::read_to_string(folder.0.join("out").join(name)).expect("the file was written");
     let provenance: toml::Table = read("provenance.toml").parse().expect("TOML");
     let expected = "program = 'sim-host'\nmatrix = 'matrix.toml'\nset = ['duration_s=1']\nseeds = '101..106'\n\
-                    controllers = ['stiff.toml', 'soft.toml']";
+                    controllers = ['stiff.toml', 'soft.toml']\nagain = 'sim-host compare matrix.toml'";
     let mut expected: toml::Table = expected.parse().expect("TOML");
     expected.insert("version".into(), env!("CARGO_PKG_VERSION").into());
     assert_eq!(provenance, expected);
     assert!(text.contains("\nthese 1 of 3 cells; `ratio`"), "{text}");
-    // The copies are whole: the same comparison of them, over the folder from which they are read.
-    let copies = ["--controllers", "out/tuning-stiff.toml,out/tuning-soft.toml", "--set", "duration_s=1"];
-    let again = folder.succeeds(&[&["compare", "out/matrix.toml", "--out", "out"], &copies[..]].concat());
-    let figures = |text: &str| text.lines().find(|line| line.trim_start().starts_with("none")).map(str::to_owned);
-    assert!(figures(&text).is_some() && figures(&again) == figures(&text), "{again}");
+    // The copies are whole: the same again, over the folder from which they are read, with what they were made of gone.
+    let flights = read("compare.csv");
+    for gone in ["stiff.toml", "soft.toml", "matrix.toml"] {
+        fs::remove_file(folder.0.join(gone)).expect("it is there");
+    }
+    folder.succeeds(&["compare", "out/matrix.toml", "--out", "out"]);
+    assert_eq!(read("compare.csv"), flights);
+}
+
+#[test]
+fn a_comparison_on_an_airframe_of_one_s_own_needs_no_gains_but_its_controllers() {
+    let folder = compared("airframe");
+    let x500 = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/airframes/x500.toml")).expect("there");
+    fs::write(folder.0.join("heavy.toml"), x500.replace("mass_kg = 2.0", "mass_kg = 2.2")).expect("can be written");
+    let hold = "trajectory = { hold = { position_m = [0.0, 0.0, 2.0], yaw_rad = 0.0 } }";
+    folder.file("ring.toml", format!("airframe = \"heavy.toml\"\nduration_s = 2.0\n{hold}\n"));
+    folder.file("own.toml", MATRIX.replace("\"hover\"", "\"ring.toml\""));
+    let by_setting = ["compare", "matrix.toml", "--set", "airframe=heavy.toml"];
+    for (out, command) in [("by-setting", &by_setting[..]), ("by-scenario", &["compare", "own.toml"])] {
+        folder.succeeds(&[command, &["--disturbances", "none", "--out", out]].concat());
+    }
+    let read = |out: &str| fs::read_to_string(folder.0.join(out).join("compare.csv")).expect("the file was written");
+    let flights = ["by-setting", "by-scenario"].map(read);
+    assert!(flights[1].contains("\nring,none,stiff,"), "{}", flights[1]);
+    for gone in ["heavy.toml", "ring.toml"] {
+        fs::remove_file(folder.0.join(gone)).expect("it is there");
+    }
+    for (out, flights) in ["by-setting", "by-scenario"].into_iter().zip(flights) {
+        folder.succeeds(&["compare", &format!("{out}/matrix.toml"), "--out", out]);
+        assert_eq!(read(out), flights, "{out}");
+    }
 }
 
 #[test]
