@@ -301,8 +301,8 @@ impl Report {
         }
         let _ = writeln!(
             text,
-            "\n{:26} {:>8} {:>10} {:>10} {:>10}",
-            "innovations", "count", "mean/dof", "within 95", "refused"
+            "\n{:26} {:>8} {:>10} {:>10} {:>10} {:>10}",
+            "innovations", "count", "mean/dof", "within 95", "in band", "refused"
         );
         for nis in &self.nis {
             let Nis { reading, count, mean, within_95, refused, within_band } = nis;
@@ -319,8 +319,11 @@ impl Report {
             );
         }
         if let Some(met) = self.consistent {
-            let _ =
-                writeln!(text, "errors and innovations within their bands: {}", if met { "met" } else { "NOT MET" });
+            let _ = writeln!(
+                text,
+                "errors and innovations within their bands (drag and rest apart, whose noise is assumed): {}",
+                if met { "met" } else { "NOT MET" }
+            );
         }
         if let Some(needed) = self.bands_need {
             let _ = writeln!(text, "errors and innovations within their bands: too few seeds, {needed} needed");

@@ -13,13 +13,16 @@ pub(super) fn run(which: &Which, seed: u64, out: Option<&Path>, as_json: bool) -
     // Before the analysis, which takes a while.
     let staged = out.map(Staged::begin).transpose()?;
     let analysis = analyse(&scenario, seed)?;
-    if let Some(staged) = staged {
+    if let Some(staged) = &staged {
         let folder = staged.folder();
         folder.text("analyse.json", &(serde_json::to_string(&analysis)? + "\n"))?;
         plots::analysis::draw(folder.path(), &analysis)?;
-        staged.finish()?;
     }
-    super::say(&if as_json { serde_json::to_string(&analysis)? } else { table(&analysis) })
+    let contents = staged.map(Staged::finish).transpose()?;
+    if as_json {
+        return super::say(&serde_json::to_string(&analysis)?);
+    }
+    super::say(&super::and_wrote(table(&analysis), out, contents))
 }
 
 fn table(analysis: &Analysis) -> String {

@@ -21,12 +21,15 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
     let contest = Contest::new(&matrix)?;
     let found = fly(&contest, args)?;
-    if let Some(staged) = staged {
+    if let Some(staged) = &staged {
         provenance(&staged.folder(), &matrix, &contest)?;
         staged.folder().comparison(&found)?;
-        staged.finish()?;
     }
-    super::say(&if args.json { serde_json::to_string(&found)? } else { comparison::render(&found) })
+    let contents = staged.map(Staged::finish).transpose()?;
+    if args.json {
+        return super::say(&serde_json::to_string(&found)?);
+    }
+    super::say(&super::and_wrote(comparison::render(&found), args.out.as_deref(), contents))
 }
 
 fn fly(contest: &Contest, args: &CompareArgs) -> Result<Comparison> {

@@ -23,7 +23,7 @@ mod tune;
 
 use std::io::Write as _;
 use std::net::SocketAddr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
@@ -372,6 +372,14 @@ fn execute(command: Option<Command>) -> Result<()> {
 fn note_idle_seeds(scenario: &Scenario, given: bool) {
     if given && !scenario.file.is_random() {
         complain(&format!("note: the seed makes no difference: `{}` has no random part", scenario.name));
+    }
+}
+
+/// A result, and where its folder has been written, if one was.
+fn and_wrote(text: String, out: Option<&Path>, contents: Option<String>) -> String {
+    match (out, contents) {
+        (Some(out), Some(contents)) => format!("{}\n\nwrote {}: {contents}", text.trim_end(), out.display()),
+        _ => text,
     }
 }
 

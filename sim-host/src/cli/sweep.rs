@@ -41,5 +41,8 @@ fn table(flown: &[Strength]) -> String {
          max: greatest errors of position and angles while it acts; held: slowest at most {} s, the paper's claim",
         DISTURBANCE_REMOVED.time_s
     ));
+    if !flown.iter().any(|strength| strength.held) {
+        lines.push("failed at every strength: perhaps without a disturbance too, as `run` shows".to_owned());
+    }
     lines.join("\n")
 }

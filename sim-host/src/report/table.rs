@@ -4,7 +4,7 @@ mod course;
 
 use std::fmt::Write as _;
 
-use super::metrics::{AxisFigures, Recovery};
+use super::metrics::{AxisFigures, Recovery, TRACKING_FROM_S, WIDE_BAND};
 use super::mission::{Mission, end_text};
 use super::paint::{Paint, Verdict};
 use super::summary::{Row, Summary};
@@ -75,7 +75,22 @@ fn followed(summary: &Summary) -> String {
     let short = (summary.survived && summary.axes.x.max_m.is_none())
         .then(|| entry("errors", "count from 4 s on, and the flight has ended: set `duration_s` to more"));
     let recovery = summary.recovery_s.as_ref().map(recovery);
-    [Some(table), jump, short, recovery].into_iter().flatten().collect()
+    let early = early_error(summary).map(|distance| {
+        entry(
+            "at first",
+            &format!("up to {distance:.2} m off within {TRACKING_FROM_S} s, of which the table tells nothing"),
+        )
+    });
+    [Some(table), early, jump, short, recovery].into_iter().flatten().collect()
+}
+
+/// The greatest distance from the reference (m), if errors count from later on, it matters, and no column shows it.
+fn early_error(summary: &Summary) -> Option<f64> {
+    let axes = &summary.axes;
+    let [x, y, z] = [axes.x.max_m?, axes.y.max_m?, axes.z.max_m?];
+    // No later distance is greater than this.
+    let later = (x * x + y * y + z * z).sqrt();
+    summary.distance_max_m.filter(|distance| !summary.settles && *distance > later.max(WIDE_BAND))
 }
 
 /// How far each axis was off.
@@ -105,7 +120,7 @@ fn settling_table(summary: &Summary) -> String {
         let claim = if claimed { seconds(Some(AVERAGE_FOLLOWS.time_s)) } else { String::new() };
         rows.push(["mean xyz".into(), seconds(Some(average)), blank_1, blank_2, blank_3, blank_4, claim]);
     }
-    aligned(&rows) + "yaw: within 0.05 rad and 0.002 rad; its errors are in mrad\n\n"
+    aligned(&rows) + "yaw: within 0.05 rad and 0.002 rad\n\n"
 }
 
 /// How roll, pitch and yaw followed, where they are what is followed.
@@ -379,7 +394,7 @@ y             0.000 s      0.000 s    0.000 mm    0.000 mm          –         
 z             0.000 s      0.000 s    0.000 mm    0.000 mm          –            0.350 s
 yaw           0.000 s      0.000 s  0.000 mrad  0.000 mrad          –
 mean xyz      0.333 s                                                            0.500 s
-yaw: within 0.05 rad and 0.002 rad; its errors are in mrad
+yaw: within 0.05 rad and 0.002 rad
 
 time-optimal bound  1.31 s to join the reference exactly; all of xyz within 5 cm from 1.000 s, 0.76 × the bound
 disturbance         from its onset until the error stays within 5 cm (2°): x 0.100 s, y 0.000 s, z 0.000 s, roll 0.000 s, pitch 0.000 s, yaw 0.000 s (paper: under 0.2 s)
