@@ -1,4 +1,4 @@
-//! Roll, pitch and yaw as people read them, for reports only: nothing that flies uses them.
+//! Roll, pitch and yaw as people read them, for rows and reports: nothing that flies uses them.
 
 use std::f64::consts::{PI, TAU};
 

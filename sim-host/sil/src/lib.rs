@@ -1,7 +1,8 @@
 //! Software in the loop: the firmware in lockstep with a plant, on its sensors, in its weather.
 //!
-//! All that decides a flight, and nothing that reads scenarios, records or draws: those are `sim-host`'s. What runs once
-//! a tick is compiled here, whole and once ([`AnyFlight`]); the rest can be built for speed of building.
+//! All that decides a flight, its rows and its contacts with the ground; nothing that reads scenarios, writes or draws:
+//! those are `sim-host`'s. What a scenario may ask for is compiled here, whole and once ([`AnyFlight`]), so that the rest
+//! can be built for speed of building.
 
 #![cfg_attr(
     test,

@@ -180,11 +180,19 @@ pub(super) fn summarise(
         settles: settles(scenario, metrics),
         time_optimal_s: scenario.file.time_optimal_s,
         aim: aim(scenario),
+        path_ends_s: path_ends_s(scenario),
         disturbance_onset_s: scenario.file.disturbance.map(|d| d.from_s),
         beyond_reach: beyond_reach(scenario, &outcome),
         end: outcome.end,
     };
     Summary::new(flight, metrics)
+}
+
+/// When the path of a scenario ends, if its flight ends before, s.
+fn path_ends_s(scenario: &Scenario) -> Option<f64> {
+    let Trajectory::Spline(path) = &scenario.file.trajectory else { return None };
+    let ends_s = f64::from(path.begin_ms + path.duration_ms) * 1e-3;
+    (!path.repeat && ends_s > scenario.file.duration_s).then_some(ends_s)
 }
 
 /// Whether it is of interest when each axis settled: in the paper's cases, and where the flight began away from its

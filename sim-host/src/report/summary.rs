@@ -41,6 +41,8 @@ pub struct Flight {
     pub settles: bool,
     /// What it is to follow, and how closely at its end.
     pub aim: Aim,
+    /// When the path that it follows ends, if the flight was to end before, s.
+    pub path_ends_s: Option<f64>,
     /// When a disturbance set in, where one did, s.
     pub disturbance_onset_s: Option<f64>,
     /// What was asked of it that it cannot do: to lift what its rotors cannot, or to follow what nothing can.
@@ -181,6 +183,9 @@ pub struct Summary {
     /// How roll and pitch followed, where they are what is followed.
     #[serde(skip)]
     pub roll_and_pitch: Option<[AxisFigures; 2]>,
+    /// When the path that it follows ends, if the flight was to end before, s.
+    #[serde(skip)]
+    pub path_ends_s: Option<f64>,
     /// When its reference last jumped, s.
     #[serde(skip)]
     pub reference_jump_s: Option<f64>,
@@ -215,6 +220,7 @@ impl Summary {
             end_error_m: finite(end.distance_m),
             distance_max_m: metrics.distance_max_m(),
             beyond_reach: flight.beyond_reach,
+            path_ends_s: flight.path_ends_s,
             missed: flight.aim.missed(&end),
             roll_and_pitch: tilt.map(|tilt| if survived { tilt } else { tilt.map(|axis| cleared(&axis)) }),
             ended: flight.end,
@@ -340,6 +346,7 @@ pub(super) mod tests {
             aim: Aim::IDEAL,
             disturbance_onset_s: None,
             beyond_reach: None,
+            path_ends_s: None,
             end: if survived { End::DurationReached } else { End::LeftReference },
         }
     }

@@ -68,6 +68,10 @@ fn followed(summary: &Summary) -> String {
         None if !summary.settles => error_table(summary),
         None => settling_table(summary) + &bound(summary),
     };
+    let position = summary.roll_and_pitch.is_some().then(|| position_entry(summary));
+    let path = summary.path_ends_s.map(|ends| {
+        entry("path", &format!("ends at {ends:.1} s, after the flight: set `duration_s` to more to see it whole"))
+    });
     let jump = summary.reference_jump_s.map(|t| {
         let text = format!("jumps at {t:.3} s: overshoot counts from there, times from the beginning");
         entry("reference", &text)
@@ -81,7 +85,7 @@ fn followed(summary: &Summary) -> String {
             &format!("up to {distance:.2} m off within {TRACKING_FROM_S} s, of which the table tells nothing"),
         )
     });
-    [Some(table), early, jump, short, recovery].into_iter().flatten().collect()
+    [Some(table), early, position, path, jump, short, recovery].into_iter().flatten().collect()
 }
 
 /// The greatest distance from the reference (m), if errors count from later on, it matters, and no column shows it.
@@ -134,6 +138,13 @@ fn attitude_table(summary: &Summary) -> String {
         rows.push(axis_row(name, axis, None));
     }
     aligned(&rows) + "\n"
+}
+
+/// How far the position was off, where the table is about angles.
+fn position_entry(summary: &Summary) -> String {
+    let axes = &summary.axes;
+    let [x, y, z] = [&axes.x, &axes.y, &axes.z].map(|axis| error(axis.max_m, "m"));
+    entry("position", &format!("at most {x} off in x, {y} in y, {z} in z after {TRACKING_FROM_S} s"))
 }
 
 fn axis_row(name: &str, axis: &AxisFigures, claim: Option<PaperClaim>) -> [String; 7] {
@@ -225,6 +236,9 @@ fn figures(summary: &Summary) -> String {
                 number(yaw, 4)
             ),
         );
+    }
+    if summary.survived && !has_rotors {
+        line("inputs", "direct and unlimited, switched every 10 µs: a row shows one side; `paper` draws their means");
     }
     if has_rotors {
         line("saturated", &format!("{:.2} % of the ticks", 100.0 * summary.saturated_fraction));

@@ -6,6 +6,7 @@
 mod common;
 
 mod analyse;
+mod any_flight;
 mod baselines;
 mod cli;
 mod console;

@@ -10,7 +10,6 @@ pub mod ground;
 pub mod paper;
 pub mod rigid_body;
 
-use crate::sensors::PlantFaults;
 use battery::BatteryState;
 use firmware::airframe::ROTORS;
 use firmware::signals::NavState;
@@ -102,6 +101,15 @@ pub struct Push {
     pub acceleration: Vector3<f64>,
     /// About the body's axes, rad/s².
     pub angular_acceleration: Vector3<f64>,
+}
+
+/// Effect of the faults on rotors and battery; 1 without a fault.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlantFaults {
+    /// Remaining fraction of each rotor's thrust.
+    pub rotor_effectiveness: [f64; ROTORS],
+    /// Remaining fraction of the battery's voltage.
+    pub battery_factor: f64,
 }
 
 /// A model that can be flown in lockstep.

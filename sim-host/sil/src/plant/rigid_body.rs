@@ -15,8 +15,7 @@ use nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3, Vector4};
 use super::battery::BatteryState;
 use super::effects::{Active, Effects, Sound};
 use super::ground::Ground;
-use super::{Constants, Motion, Plant, Push};
-use crate::sensors::PlantFaults;
+use super::{Constants, Motion, Plant, PlantFaults, Push};
 use firmware::airframe::ROTORS;
 
 /// Position, velocity, attitude (w, x, y, z) and body rates, in this order: one vector, so that the stages of RK4

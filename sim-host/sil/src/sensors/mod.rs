@@ -29,12 +29,12 @@ use firmware::sensors::Measurements;
 use firmware::signals::Tick;
 use nalgebra::{UnitQuaternion, Vector3};
 
-pub use faults::{Fault, FaultId, Faults, PlantFaults};
+pub use faults::{Fault, FaultId, Faults};
 pub use home::Home;
 pub use process::WarmUp;
 pub use suite::{SUITES, SuiteFile};
 
-use crate::plant::Motion;
+use crate::plant::{Motion, PlantFaults};
 use baro::Barometer;
 use battery::Monitor;
 use channel::Channel;

@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use super::process::{seconds, ticks};
 use crate::noise::gaussian::Stream;
+use crate::plant::PlantFaults;
 use running::Running;
 pub(super) use running::{Memory, Sample};
 
@@ -368,15 +369,6 @@ pub struct Faults {
     /// Greatest number of faults outside of slots.
     most: usize,
     slots: [Option<FaultId>; SLOTS],
-}
-
-/// Effect of the faults on rotors and battery; 1 without a fault.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlantFaults {
-    /// Remaining fraction of each rotor's thrust.
-    pub rotor_effectiveness: [f64; ROTORS],
-    /// Remaining fraction of the battery's voltage.
-    pub battery_factor: f64,
 }
 
 impl Faults {
