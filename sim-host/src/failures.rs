@@ -136,6 +136,15 @@ fn sensor(unit: Unit) -> Option<Sensor> {
     }
 }
 
+/// The unit of a failure, as its faults are called: `rotor 2 (index 1)`.
+pub fn unit_name(failure: &Failure) -> String {
+    match (failure.unit, failure.instance) {
+        (Unit::Motor, Some(index)) => format!("rotor {} (index {index})", index + 1),
+        (Unit::Motor, None) => "every rotor".to_owned(),
+        (unit, _) => sensor(unit).map_or("battery", Sensor::name).to_owned(),
+    }
+}
+
 /// The kind of fault. MAVLink specifies no magnitudes: these are far outside of normal operation.
 fn kind(unit: Unit, manner: Manner, instance: usize) -> Option<Kind> {
     /// What is left of an empty battery's voltage, and of a slow rotor's thrust.
