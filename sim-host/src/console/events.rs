@@ -10,8 +10,8 @@ use firmware::signals::{TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
 
 use super::line::Tone;
-use crate::plant::{Motion, Plant as _};
 use crate::plant::rigid_body::RigidBody;
+use crate::plant::{Motion, Plant as _};
 use crate::record::{Recorder as _, Row};
 use crate::report::timeline::fault_name;
 use crate::sil::Flight;
