@@ -50,20 +50,20 @@ fn is_number(word: &str) -> bool {
 }
 
 /// Takes PX4's `-i N` out of the words.
-fn take_instance(words: &mut Vec<&str>) -> Result<Option<usize>> {
+fn take_instance(words: &mut Vec<&str>) -> Result<Option<u8>> {
     let Some(place) = words.iter().position(|word| *word == "-i") else { return Ok(None) };
     let number = words.get(place + 1).copied().unwrap_or_default();
-    let instance = number.parse().ok().filter(|instance| (1..=ROTORS).contains(instance));
+    let instance = number.parse().ok().filter(|instance| (1..=ROTORS as u8).contains(instance));
     ensure!(instance.is_some(), "`-i` counts from 1 to {ROTORS}, as in `fault motor off -i 1`");
     words.drain(place..place + 2);
     Ok(instance)
 }
 
 /// Puts an instance, from 1, where the fault has its index. There is one of each sensor.
-fn number(table: &mut Table, instance: usize) -> Result<()> {
+fn number(table: &mut Table, instance: u8) -> Result<()> {
     let kind = table.get("kind").and_then(Value::as_str).unwrap_or_default();
     if kind == "rotor" {
-        insert(table, "index", Value::Integer(instance as i64 - 1))
+        insert(table, "index", Value::Integer(i64::from(instance) - 1))
     } else {
         ensure!(instance == 1, "there is one of it alone: leave out `-i {instance}`");
         Ok(())
