@@ -129,7 +129,17 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("field", "sensors.gnss.delay_s=2", &["`sensors.gnss.delay_s` must be between 0 and 1 s, not 2"]),
         ("field", "sensors.gnss.dealy_s=2", &["`sensors.gnss.dealy_s` is no key", "did you mean `delay_s`?"]),
         ("x500-hover", "fault.0.from_s=3", &["`fault` has no entries", "as a whole"]),
-        ("x500-hover", "command=[{order=\"rtl\"}]", &["`command.0.order`", "not `rtl`: did you mean `return`?"]),
+        ("x500-hover", "command=[{order=\"take-of\"}]", &["`command.0.order`", "did you mean `take-off`?"]),
+    ] {
+        refuses_settings(&folder, scenario, &[setting], parts);
+    }
+}
+
+#[test]
+fn an_order_that_cannot_be_carried_out_is_refused_when_it_is_read() {
+    let folder = Folder::new("orders");
+    for (scenario, setting, parts) in [
+        ("x500-hover", "command=[{order=\"rtl\"}]", &["`command.0.order`", "not `rtl`: did you mean `return`?"][..]),
         ("x500-hover", "command=[{order={loiter={}}}]", &["`command.0.order`", "not `loiter`: did you mean `hold`?"]),
         (
             "outdoor-hover",
@@ -152,7 +162,6 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
             &["`command.0.order.velocity.velocity_m_s.2` must be between -100 and 100 m/s, not 101"],
         ),
         ("field", "fault=[{sensor=\"gps\",kind=\"off\",from_s=1}]", &["`fault.0.sensor`", "did you mean `gnss`?"]),
-        ("x500-hover", "command=[{order=\"take-of\"}]", &["`command.0.order`", "did you mean `take-off`?"]),
     ] {
         refuses_settings(&folder, scenario, &[setting], parts);
     }
