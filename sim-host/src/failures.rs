@@ -5,6 +5,7 @@
 //! sensor=gnss kind=off                 from now on, or from_s=…
 //! gnss off                             the same
 //! rotor index=0 effectiveness=0.5      kind=rotor
+//! motor off -i 1                       the same of PX4's shell: rotor 1, of which nothing is left
 //! ```
 
 use anyhow::{Result, anyhow, bail, ensure};
@@ -16,45 +17,121 @@ use toml::{Table, Value};
 use crate::refusal::did_you_mean as meant;
 use crate::sensors::faults::{KINDS, Kind, SLOTS, Sensor};
 use crate::sensors::{Fault, Suite};
+use crate::words::as_pilots_say;
 
-/// Reads a fault from its words: `KEY=VALUE`, or the name of a sensor or of a kind alone. Without `from_s` it begins at
-/// `now`.
+/// Reads a fault from its words: `KEY=VALUE`, or the name of a sensor or of a kind alone; or as PX4 has it, `motor off
+/// -i 1`. Without `from_s` it begins at `now`.
 ///
 /// # Errors
 /// In one line, what is wrong with it.
 pub fn parse<'a>(words: impl Iterator<Item = &'a str>, now: Tick) -> Result<Fault> {
+    let mut words: Vec<&str> = words.collect();
+    let instance = take_instance(&mut words)?;
+    let (bare, mut words): (Vec<&str>, Vec<&str>) = words.into_iter().partition(|word| is_number(word));
+    // `motor off` is a rotor of which nothing is left.
+    let is_motor = words.iter().any(|word| matches!(*word, "motor" | "rotor"));
+    let count = words.len();
+    words.retain(|word| !(is_motor && *word == "off"));
+    let mut table = table(&words)?;
+    if words.len() < count {
+        table.entry("effectiveness").or_insert(Value::Float(0.0));
+    }
+    if let Some(instance) = instance {
+        number(&mut table, instance)?;
+    }
+    require_whole(&table, &bare)?;
+    table.entry("from_s").or_insert(Value::Float(f64::from(now) * TICK_S_EXACT));
+    Fault::try_from(table).map_err(|error| anyhow!("{}", error.replace("`fault.", "`")))
+}
+
+/// Whether a word is a number, and not the kind `nan`.
+fn is_number(word: &str) -> bool {
+    word.parse().is_ok_and(f64::is_finite)
+}
+
+/// Takes PX4's `-i N` out of the words.
+fn take_instance(words: &mut Vec<&str>) -> Result<Option<u8>> {
+    let Some(place) = words.iter().position(|word| *word == "-i") else { return Ok(None) };
+    let number = words.get(place + 1).copied().unwrap_or_default();
+    let instance = number.parse().ok().filter(|instance| (1..=ROTORS as u8).contains(instance));
+    ensure!(instance.is_some(), "`-i` counts from 1 to {ROTORS}, as in `fault motor off -i 1`");
+    words.drain(place..place + 2);
+    Ok(instance)
+}
+
+/// Puts an instance, from 1, where the fault has its index. There is one of each sensor.
+fn number(table: &mut Table, instance: u8) -> Result<()> {
+    let kind = table.get("kind").and_then(Value::as_str).unwrap_or_default();
+    if kind == "rotor" {
+        insert(table, "index", Value::Integer(i64::from(instance) - 1))
+    } else {
+        ensure!(instance == 1, "there is one of it alone: leave out `-i {instance}`");
+        Ok(())
+    }
+}
+
+fn table(words: &[&str]) -> Result<Table> {
     let mut table = Table::new();
     for word in words {
         let (key, value) = key_and_value(word)?;
-        let given = plain(&value);
-        if let Some(before) = table.insert(key.to_owned(), value) {
-            bail!("`{key}` is given twice, as `{}` and `{given}`: keep one", plain(&before));
-        }
+        insert(&mut table, key, value)?;
     }
-    if table.get("kind").is_some_and(|kind| kind.as_str() == Some("rotor")) && table.len() == 1 {
-        bail!("say which rotor (index=0 is rotor 1) and how much of it is left: fault rotor index=0 effectiveness=0");
+    Ok(table)
+}
+
+fn insert(table: &mut Table, key: &str, value: Value) -> Result<()> {
+    let given = plain(&value);
+    match table.insert(key.to_owned(), value) {
+        Some(before) => bail!("`{key}` is given twice, as `{}` and `{given}`: keep one", plain(&before)),
+        None => Ok(()),
     }
+}
+
+/// Refuses a fault that lacks a key of its kind, and numbers without one.
+fn require_whole(table: &Table, bare: &[&str]) -> Result<()> {
     let is_of_a_sensor = table.contains_key("sensor");
     let kinds = || KINDS.into_iter().filter(|kind| !is_of_a_sensor || !matches!(*kind, "rotor" | "collapse"));
-    ensure!(table.contains_key("kind"), "say how it fails: kind={}", kinds().collect::<Vec<_>>().join("|"));
-    table.entry("from_s").or_insert(Value::Float(f64::from(now) * TICK_S_EXACT));
-    Fault::try_from(table).map_err(|error| anyhow!("{error}"))
+    let kind = table.get("kind").and_then(Value::as_str);
+    let Some(kind) = kind else { bail!("say how it fails: kind={}", kinds().collect::<Vec<_>>().join("|")) };
+    let missing: Vec<&str> = needs(kind).iter().filter(|key| !table.contains_key(**key)).copied().collect();
+    if kind == "rotor" && missing.contains(&"index") {
+        bail!("say which rotor (index=0 is rotor 1) and how much of it is left: fault rotor index=0 effectiveness=0");
+    }
+    let with = |value: &str| missing.iter().map(|key| format!("`{key}={value}`")).collect::<Vec<_>>().join(" and ");
+    match (bare, missing.as_slice()) {
+        ([], []) => Ok(()),
+        ([number, ..], []) => bail!("`{number}` is too much: the times are `from_s=` and `to_s=`"),
+        ([number], [_]) => bail!("`{number}` has no key: write {}", with(number)),
+        _ => bail!("`{kind}` needs {}", with("…")),
+    }
+}
+
+/// The keys that a kind of fault cannot do without.
+fn needs(kind: &str) -> &'static [&'static str] {
+    match kind {
+        "drift" => &["rate"],
+        "noise" => &["sigma"],
+        "spikes" => &["probability", "size"],
+        "delayed" => &["extra_s"],
+        "glitch" => &["size_m"],
+        "loss" | "duplicate" => &["probability"],
+        "time-jump" => &["shift_s"],
+        "rotor" => &["index", "effectiveness"],
+        "collapse" => &["factor"],
+        _ => &[],
+    }
 }
 
 /// A word as the key and the value that it stands for.
 fn key_and_value(word: &str) -> Result<(&str, Value)> {
     let sensors = Sensor::ALL.map(Sensor::name);
-    // As PX4 calls them.
-    let word = match word {
-        "gps" => "gnss",
-        "compass" => "mag",
-        "motor" => "rotor",
-        other => other,
-    };
+    let is_known = |word: &&str| sensors.contains(word) || KINDS.contains(word);
+    let word = as_pilots_say(word).filter(is_known).unwrap_or(word);
     let (key, text) = match word.split_once('=') {
         Some(pair) => pair,
         None if sensors.contains(&word) => ("sensor", word),
         None if KINDS.contains(&word) => ("kind", word),
+        None if word == "ok" => bail!("`clear` ends all faults; for one, give it a `to_s=`"),
         None => bail!("`{word}` is no sensor and no kind of fault: {}", meant(word, &[&sensors[..], &KINDS].concat())),
     };
     match key {
@@ -136,6 +213,15 @@ fn sensor(unit: Unit) -> Option<Sensor> {
     }
 }
 
+/// The unit of a failure, as its faults are called: `rotor 2 (index 1)`.
+pub fn unit_name(failure: &Failure) -> String {
+    match (failure.unit, failure.instance) {
+        (Unit::Motor, Some(index)) => format!("rotor {} (index {index})", index + 1),
+        (Unit::Motor, None) => "every rotor".to_owned(),
+        (unit, _) => sensor(unit).map_or("battery", Sensor::name).to_owned(),
+    }
+}
+
 /// The kind of fault. MAVLink specifies no magnitudes: these are far outside of normal operation.
 fn kind(unit: Unit, manner: Manner, instance: usize) -> Option<Kind> {
     /// What is left of an empty battery's voltage, and of a slow rotor's thrust.
@@ -210,6 +296,26 @@ mod tests {
     }
 
     #[test]
+    fn motors_fail_as_in_px4() {
+        for (number, index) in [(1, 0), (4, 3)] {
+            let kind = Kind::Rotor { index, effectiveness: 0.0 };
+            assert_eq!(fault(&format!("motor off -i {number}")), Fault::starting(None, kind, 1500));
+        }
+        assert_eq!(fault("motor off index=2"), fault("rotor index=2 effectiveness=0"));
+        assert_eq!(fault("gps off -i 1"), fault("gnss off"));
+        assert_eq!(fault("mag stuck"), fault("sensor=mag kind=stuck"));
+    }
+
+    #[test]
+    fn with_what_a_kind_needs_it_is_a_fault() {
+        for kind in KINDS {
+            let keys: Vec<String> = needs(kind).iter().map(|key| format!("{key}=1")).collect();
+            let sensor = if matches!(kind, "rotor" | "collapse") { "" } else { "gnss" };
+            fault(&format!("{sensor} {kind} {}", keys.join(" ")));
+        }
+    }
+
+    #[test]
     fn what_is_listed_can_be_typed_again() {
         for line in ["gnss off", "collapse factor=0.85 from_s=3 to_s=5", "gnss glitch size_m=5"] {
             let asked = fault(line);
@@ -220,6 +326,20 @@ mod tests {
     #[test]
     fn bad_lines_are_refused_by_what_is_wrong_with_them() {
         for (line, culprit) in [
+            ("rotor index=0", "`rotor` needs `effectiveness=…`"),
+            ("rotor index=0 0.5", "`0.5` has no key: write `effectiveness=0.5`"),
+            ("rotor index=9 effectiveness=0", "`index` must be between 0 and 3, not 9"),
+            ("motor 1", "say which rotor (index=0 is rotor 1)"),
+            ("motor off", "say which rotor (index=0 is rotor 1)"),
+            ("motor off -i 5", "`-i` counts from 1 to 4"),
+            ("motor off -i", "`-i` counts from 1 to 4"),
+            ("motor off -i 1 index=0", "`index` is given twice, as `0` and `0`"),
+            ("gps off -i 2", "there is one of it alone: leave out `-i 2`"),
+            ("gps ok", "`clear` ends all faults"),
+            ("collapse 0.7", "`0.7` has no key: write `factor=0.7`"),
+            ("collapse", "`collapse` needs `factor=…`"),
+            ("gnss spikes 1", "`spikes` needs `probability=…` and `size=…`"),
+            ("gnss off 3", "`3` is too much: the times are `from_s=` and `to_s=`"),
             ("explode", "`explode` is no sensor and no kind"),
             ("", "kind="),
             ("sensor=gnss", "kind="),

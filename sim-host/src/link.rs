@@ -68,12 +68,23 @@ pub fn address(text: &str, default_port: u16) -> anyhow::Result<SocketAddr> {
     chosen.copied().with_context(|| format!("the host `{host}` is not known: use an address, as 127.0.0.1:{port}"))
 }
 
-fn cannot_listen(listen: SocketAddr, error: &std::io::Error) -> anyhow::Error {
+/// The same address with the port beside its own.
+fn beside(address: SocketAddr) -> SocketAddr {
+    let port = address.port();
+    SocketAddr::new(address.ip(), if port == u16::MAX { port - 1 } else { port + 1 })
+}
+
+fn cannot_listen(listen: SocketAddr, peers: &[SocketAddr], error: &std::io::Error) -> anyhow::Error {
     let (ip, port) = (listen.ip(), listen.port());
     match error.kind() {
         ErrorKind::AddrInUse => {
-            let other = SocketAddr::new(ip, if port == u16::MAX { port - 1 } else { port + 1 });
-            anyhow!("{listen} is in use (another `sim-host serve`?): stop it, or choose another with --listen {other}")
+            let peer = peers.first().copied().unwrap_or_else(|| elsewhere(listen));
+            anyhow!(
+                "{listen} is in use (another `sim-host serve`?): stop it, or fly another vehicle for another ground \
+                 station with --listen {} --peer {}",
+                beside(listen),
+                beside(peer)
+            )
         }
         ErrorKind::AddrNotAvailable => {
             anyhow!("{ip} is no address of this machine: use --listen 127.0.0.1:{port}, or :{port} for all of its own")
@@ -132,7 +143,7 @@ impl UdpLink {
                 listen.port()
             );
         }
-        let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, &error))?;
+        let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, peers, &error))?;
         let own = socket.local_addr().unwrap_or(listen);
         if let Some(peer) = peers.iter().find(|peer| is_own(own, peer)) {
             bail!(
@@ -254,8 +265,15 @@ mod tests {
     fn a_busy_address_is_named_with_a_remedy_in_one_line() {
         let first = UdpLink::bind(local(), &[]).expect("a free port");
         let address = first.local_address().expect("bound");
-        let error = format!("{:#}", UdpLink::bind(address, &[]).expect_err("in use"));
-        assert!(error.contains(&address.to_string()) && error.contains("--listen") && error.lines().count() == 1);
+        let peers = DEFAULT_PEERS.map(|peer| peer.parse().expect("an address"));
+        let error = format!("{:#}", UdpLink::bind(address, &peers).expect_err("in use"));
+        // Both vehicles are system 1: a ground station that hears both takes them for one.
+        let expected = format!(
+            "{address} is in use (another `sim-host serve`?): stop it, or fly another vehicle for another ground \
+             station with --listen {} --peer 127.0.0.1:14551",
+            beside(address)
+        );
+        assert_eq!(error, expected);
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod airframe_tests;
 mod csv;
 mod files;
 mod load;
+mod orders;
 mod settings;
 #[cfg(test)]
 mod tests;

@@ -145,7 +145,8 @@ pub fn read<T: DeserializeOwned>(name: &str, kind: &'static str, built_in: &[(&s
 /// Whether a name that is not built in means a file.
 fn is_file_name(name: &str) -> bool {
     let path = Path::new(name);
-    name.contains(['/', '\\']) || path.extension().is_some_and(|extension| extension == "toml") || path.is_dir()
+    let is_toml = path.extension().is_some_and(|extension| extension == "toml");
+    name.contains(['/', '\\']) || is_toml || path.is_file() || path.is_dir()
 }
 
 fn unknown(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Error {

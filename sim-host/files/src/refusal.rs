@@ -127,7 +127,7 @@ pub fn typed<T: DeserializeOwned>(table: Table) -> Result<T> {
 }
 
 /// An f32 as the f64 with the same decimals: 0.05 and not 0.05000000074505806.
-fn shortest(value: f32) -> f64 {
+pub fn shortest(value: f32) -> f64 {
     value.to_string().parse().unwrap_or(f64::from(value))
 }
 

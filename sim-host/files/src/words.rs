@@ -8,6 +8,22 @@ pub fn counted<T: Copy + Display + PartialEq + From<u8>>(count: T, noun: &str) -
     format!("{count} {noun}{plural}")
 }
 
+/// What we call something for which pilots have another word, those of PX4 and ArduPilot.
+pub fn as_pilots_say(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "rtl" => "return",
+        "loiter" | "brake" => "hold",
+        "takeoff" => "take-off",
+        "goto" | "reposition" | "waypoint" => "go-to",
+        "mission" | "trajectory" | "start" => "follow",
+        "terminate" => "kill",
+        "gps" => "gnss",
+        "compass" => "mag",
+        "motor" => "rotor",
+        _ => return None,
+    })
+}
+
 /// A line as a terminal shows it: what would act on the terminal is escaped, and what nobody reads to its end shortened.
 pub fn printable(line: &str) -> String {
     const WORD: usize = 240;

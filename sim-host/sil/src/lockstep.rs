@@ -34,7 +34,7 @@ pub enum End {
     /// It was flown for as long as the scenario says.
     #[default]
     DurationReached,
-    /// It went further than 50 m from its reference.
+    /// It went further than 50 m from its reference, while armed or without ground.
     LeftReference,
     /// Its motion was no longer finite.
     NotFinite,
@@ -378,9 +378,20 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
 
     /// What a row shows, unless the flight has ended before.
     fn judge(&mut self, row: &Row) {
-        if self.outcome.survived() {
-            self.outcome.end = row.end();
+        if !self.outcome.survived() {
+            return;
         }
+        match row.end() {
+            // Guidance has it where it believes to be, which without sensors may be anywhere.
+            End::LeftReference if self.is_parked() => {}
+            end => self.outcome.end = end,
+        }
+    }
+
+    /// Whether it is disarmed above ground, so that it follows no reference: it stands there, or is about to hit it.
+    #[cold]
+    fn is_parked(&self) -> bool {
+        self.plant.has_ground() && !self.autopilot.inner.commander_output().armed
     }
 
     /// A motor command acts on the plant until the next; the tick ends. Returns false once the vehicle is lost.

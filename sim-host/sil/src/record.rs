@@ -54,7 +54,7 @@ impl Row {
         }
     }
 
-    /// Whether the flight ends here, and why.
+    /// Whether a flight that follows its reference ends here, and why.
     pub fn end(&self) -> End {
         let near = self.position.iter().zip(&self.reference).all(|(is, ought)| (is - ought).abs() < LOST_M);
         let mut rest = self.velocity.iter().chain(&self.attitude).chain(&self.rates);

@@ -1,6 +1,6 @@
 //! A flight's contact with the ground: the first and the last touchdown, and whether the vehicle was damaged.
 
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::Quaternion;
 use serde::Serialize;
 
 use crate::plant::ground::Ground;
@@ -84,13 +84,8 @@ impl Touchdown {
 
     /// Whether a foot touches the ground.
     fn touches(&self, row: &Row) -> bool {
-        let position = Vector3::from(row.position);
-        if self.ground.height_above(&position) > self.ground.foot_radius {
-            return false;
-        }
         let [w, x, y, z] = row.attitude;
-        let attitude = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
-        self.ground.clearances(&position, &attitude).iter().any(|clearance| *clearance <= 0.0)
+        self.ground.touches(&row.position.into(), &Quaternion::new(w, x, y, z))
     }
 
     /// A foot is on the ground; `before` is the velocity in the row before, if none was.

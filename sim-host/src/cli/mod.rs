@@ -184,8 +184,13 @@ struct Which {
 }
 
 impl Which {
+    /// The scenario; what of it comes after its end is told, and flown without.
     fn load(&self) -> Result<Scenario> {
-        Scenario::load(&self.scenario, &self.settings.set)
+        let scenario = Scenario::load(&self.scenario, &self.settings.set)?;
+        for late in scenario.file.too_late() {
+            complain(&format!("note: {late}: it never begins"));
+        }
+        Ok(scenario)
     }
 }
 

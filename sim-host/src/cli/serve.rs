@@ -39,7 +39,11 @@ fn greeting(scenario: &Scenario, listen: SocketAddr, peers: &[SocketAddr]) -> St
         scenario.name,
         scenario.file.summary,
         addresses.join(" and "),
-        hint(14550, "QGroundControl connects by itself; MAVProxy: mavproxy.py --master=udp:127.0.0.1:14550\n"),
+        hint(
+            14550,
+            "Ground stations that listen on UDP port 14550 connect by themselves; MAVProxy: \
+             mavproxy.py --master=udp:127.0.0.1:14550\n"
+        ),
         hint(14540, "MAVSDK: udpin://0.0.0.0:14540\n"),
     )
 }

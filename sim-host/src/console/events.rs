@@ -10,8 +10,8 @@ use firmware::signals::{TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
 
 use super::line::Tone;
-use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
+use crate::plant::{Motion, Plant as _};
 use crate::record::{Recorder as _, Row};
 use crate::report::timeline::fault_name;
 use crate::sil::Flight;
@@ -127,7 +127,8 @@ impl Watch {
     }
 
     fn look_at_ground(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
-        let landed = flight.autopilot.inner.commander_output().landed;
+        let commander = flight.autopilot.inner.commander_output();
+        let landed = commander.landed;
         if let Some((contact, place)) = self.contact
             && contact.descent_m_s >= HARDEST_M_S
         {
@@ -146,8 +147,10 @@ impl Watch {
         if let Some((contact, place)) = self.contact
             && now_s - contact.t_s >= UNAWARE_AFTER_S
         {
-            let how = self.describe(&contact, &place);
-            tell(Tone::Alarm, format!("on the ground without knowing it: {how}; `kill` stops the rotors"));
+            if commander.armed {
+                let how = self.describe(&contact, &place);
+                tell(Tone::Alarm, format!("on the ground without knowing it: {how}; `kill` stops the rotors"));
+            }
             self.contact = None;
         }
     }
@@ -165,7 +168,7 @@ impl Watch {
                 self.home = flight.plant().motion().position;
                 tell(Tone::Plain, "armed: the rotors idle".to_owned());
             }
-            (true, false) if commander.landed => tell(Tone::Good, "disarmed".to_owned()),
+            (true, false) if commander.landed || stands(flight) => tell(Tone::Good, "disarmed".to_owned()),
             (true, false) => tell(Tone::Alarm, "disarmed in the air: the rotors are stopped".to_owned()),
             _ if mode != self.mode => tell(Tone::Plain, format!("mode: {} → {}", self.mode.name(), mode.name())),
             _ => {}
@@ -202,6 +205,12 @@ fn position_text(lost: &mut bool, known: bool, armed: bool) -> Option<&'static s
     } else {
         (armed && !was_lost).then_some("navigation: position unknown")
     }
+}
+
+/// Whether it is on the ground, whatever it believes.
+fn stands(flight: &Flight<RigidBody>) -> bool {
+    let Motion { position, attitude, .. } = flight.plant().motion();
+    flight.plant().ground().is_some_and(|ground| ground.touches(&position, &attitude))
 }
 
 /// A detector of the next touchdown, if there is a ground.

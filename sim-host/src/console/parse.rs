@@ -9,7 +9,7 @@ use firmware::commander::{FARTHEST_M, FASTEST_M_S, Request, TAKE_OFF_HEIGHT_M, T
 use firmware::signals::Tick;
 
 use crate::failures;
-use crate::refusal::did_you_mean;
+use crate::refusal::{did_you_mean, shortest};
 use crate::sensors::Fault;
 use crate::serve::SPEEDS;
 
@@ -189,12 +189,12 @@ pub const COMMANDS: &[Entry] = &[
     ),
     Entry::new(
         &["wind"],
-        "[NORTH WEST [UP]]",
+        "[NORTH WEST [UP] or speed= from=]",
         "set the steady wind (m/s, where the air moves to), or say what it is",
         Reads::With(wind),
     )
     .with_details(
-        "Or as forecasts have it, `wind speed=5 from=270`: from the west (degrees clockwise from north). \
+        "As forecasts have it, `wind speed=5 from=270` comes from the west (degrees clockwise from north). \
          Turbulence and gusts of the scenario stay",
     ),
     Entry::new(
@@ -205,7 +205,7 @@ pub const COMMANDS: &[Entry] = &[
     )
     .with_details(
         "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5` (rotor 1), \
-         `fault collapse factor=0.8`; from now on for good, or `from_s=` and `to_s=` (s). The keys are those of \
+         `fault motor off -i 1` (the same rotor, all of it), `fault collapse factor=0.8`; from now on for good, or `from_s=` and `to_s=` (s). The keys are those of \
          `[[fault]]` in docs/simulation.md",
     ),
     Entry::new(&["faults"], "", "list the faults that act, and those to come", Reads::Nothing(Command::Faults)),
@@ -335,15 +335,10 @@ fn none_missing(needed: &[Number], values: &[Option<f64>]) -> Result<()> {
 }
 
 fn take_off(words: &[&str], _: Tick) -> Result<Command> {
-    let (low, high) = (round(*TAKE_OFF_HEIGHTS_M.start()), round(*TAKE_OFF_HEIGHTS_M.end()));
+    let (low, high) = (shortest(*TAKE_OFF_HEIGHTS_M.start()), shortest(*TAKE_OFF_HEIGHTS_M.end()));
     let [height] = numbers(words, 0, &[Number { key: "height", unit: " m", range: low..=high }])?;
     let height_m = height.map_or(TAKE_OFF_HEIGHT_M, |height| height as f32);
     Ok(Command::Request(Request::TakeOff { height_m }))
-}
-
-/// A constant of the firmware, rounded to the decimals in its source.
-fn round(value: f32) -> f64 {
-    (f64::from(value) * 1e3).round() / 1e3
 }
 
 fn go_to(words: &[&str], _: Tick) -> Result<Command> {

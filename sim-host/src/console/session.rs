@@ -118,7 +118,7 @@ impl Session {
     fn take_failures(&mut self) {
         for failure in self.flight.autopilot.inner.take_failures() {
             if failure.manner == Manner::Well {
-                self.say(Tone::Plain, format!("ground station: {:?} works again", failure.unit).to_lowercase());
+                self.say(Tone::Plain, format!("ground station: {} works again", failures::unit_name(&failure)));
             }
             for (slot, fault) in failures::of(&failure, self.flight.next_tick()) {
                 // The firmware is allowed failures on sensors alone, where this cannot fail.
@@ -162,7 +162,7 @@ impl Session {
         }
         let (tone, outcome) = match reply.outcome {
             Outcome::Accepted => (Tone::Plain, "accepted".to_owned()),
-            Outcome::TemporarilyRejected(refusal) => (Tone::Refused, refused(refusal)),
+            Outcome::TemporarilyRejected(refusal) => (Tone::Refused, refused(&request, refusal)),
             Outcome::Denied => (Tone::Refused, "denied: a value is out of its range".to_owned()),
         };
         self.say(tone, format!("{who}{}: {outcome}", describe(&request)));
@@ -378,11 +378,13 @@ fn describe(request: &Request) -> String {
 }
 
 /// The commander's reason, and a remedy.
-fn refused(refusal: Refusal) -> String {
+fn refused(request: &Request, refusal: Refusal) -> String {
     let remedy = match refusal {
         Refusal::Disarmed => "; `arm` first",
         Refusal::OnGround => "; `takeoff` first",
         Refusal::NoNavigation | Refusal::NotAligned | Refusal::NoPosition | Refusal::NoHeight => "; wait for sensors",
+        // It stays so until the vehicle is armed again, also of a rotor that works.
+        Refusal::RotorFailed if matches!(request, Request::Arm { .. }) => "; once it works (`clear`), `arm force`",
         _ => "",
     };
     format!("refused, {}{remedy}", refusal.reason())

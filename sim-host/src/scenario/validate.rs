@@ -4,6 +4,7 @@ use anyhow::{Result, ensure};
 use firmware::config::Start;
 use firmware::guidance::Trajectory;
 
+use super::orders::commands;
 use super::trajectory::flyable;
 use super::{AttitudeWave, Disturbance, Gust, PlantKind, Scenario, ScenarioFile, ScheduledPush, Truth, Wind, World};
 use crate::airframe::{AirframeFile, ROTOR_LAG_MAX_S, THRUST_TO_WEIGHT};
@@ -69,6 +70,25 @@ impl Scenario {
     }
 }
 
+impl ScenarioFile {
+    /// The faults, pushes and gusts that begin when the flight has ended. A flight that is shortened may well leave some
+    /// out, and `serve` flies on, so that they are no mistake by themselves.
+    pub fn too_late(&self) -> Vec<Refusal> {
+        let faults = self.fault.iter().enumerate().map(|(i, fault)| (format!("fault.{i}"), fault.from_s));
+        let pushes = self.push.iter().enumerate().map(|(i, push)| (format!("push.{i}"), push.from_s));
+        let gusts = self.wind.iter().flat_map(|wind| wind.gust.iter().enumerate());
+        let gusts = gusts.map(|(i, gust)| (format!("wind.gust.{i}"), gust.from_s));
+        let all = faults.chain(pushes).chain(gusts);
+        all.filter_map(|(key, from_s)| too_late(&key, from_s, self.duration_s)).collect()
+    }
+}
+
+/// What begins at `key` once the flight has ended is refused.
+fn too_late(key: &str, from_s: f64, duration_s: f64) -> Option<Refusal> {
+    let rule = format!("must be before the end of the flight, `duration_s` = {duration_s}");
+    (from_s >= duration_s).then(|| Refusal::new(format!("{key}.from_s"), rule).given(from_s))
+}
+
 fn optional(f: &ScenarioFile) -> Result<()> {
     for (key, value, low, high) in [
         ("time_optimal_s", f.time_optimal_s, 1e-3, 1e4),
@@ -115,6 +135,7 @@ fn world(f: &ScenarioFile) -> Result<()> {
     truth(&f.truth)?;
     start(f)?;
     f.fault.iter().enumerate().try_for_each(|(i, fault)| on_board(i, fault, f.sensors.as_ref()))?;
+    commands(f)?;
     f.push.iter().enumerate().try_for_each(|(i, one)| push(&format!("push.{i}"), one))?;
     f.wind.as_ref().map_or(Ok(()), wind)
 }
@@ -164,7 +185,7 @@ fn push(key: &str, push: &ScheduledPush) -> Result<()> {
 }
 
 /// Values of an array of which none is further from 0 than `most`.
-fn each<T: Into<f64> + Copy + std::fmt::Display>(key: &str, values: &[T], most: f64) -> Result<()> {
+pub(super) fn each<T: Into<f64> + Copy + std::fmt::Display>(key: &str, values: &[T], most: f64) -> Result<()> {
     values.iter().enumerate().try_for_each(|(i, value)| within(&format!("{key}.{i}"), *value, -most, most))
 }
 
@@ -288,9 +309,8 @@ fn disturbance(d: &Disturbance, duration_s: f64) -> Result<()> {
     ] {
         within(&format!("disturbance.{key}"), value, 0.0, 1e9)?;
     }
-    if d.from_s >= duration_s {
-        let rule = format!("must be before the end of the flight, `duration_s` = {duration_s}");
-        return Err(Refusal::new("disturbance.from_s", rule).given(d.from_s).into());
+    if let Some(late) = too_late("disturbance", d.from_s, duration_s) {
+        return Err(late.into());
     }
     period("disturbance", d.from_s, d.to_s)?;
     within("disturbance.hold_s", d.hold_s, 1e-3, 1e3)?;

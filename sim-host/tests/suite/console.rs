@@ -257,6 +257,41 @@ fn killed_in_the_air_it_falls_and_that_is_told() {
 }
 
 #[test]
+fn after_a_crash_it_is_told_to_be_neither_flying_nor_in_the_air() {
+    let mut bench = Bench::new("field");
+    bench.arm_and_climb(5.0);
+    for index in 0..4 {
+        bench.enter(&format!("fault rotor index={index} effectiveness=0"));
+    }
+    bench.until("CRASHED: touched down at", 5.0);
+    bench.enter("disarm force");
+    bench.fly(15.0);
+    let after = &bench.printed[bench.seen..];
+    let wrong = ["in the air", "on the ground without knowing it"];
+    assert!(!after.iter().any(|line| wrong.iter().any(|text| line.contains(text))), "{after:#?}");
+    assert!(after.iter().any(|line| line.ends_with("] disarmed")), "{after:#?}");
+}
+
+#[test]
+fn a_rotor_that_works_again_is_flown_after_arming_by_force() {
+    let mut bench = Bench::new("field");
+    bench.arm_and_climb(3.0);
+    // INJECT_FAILURE: motor 2 off, and later well again.
+    bench.session.tick(&command_long(420, [101.0, 1.0, 2.0]));
+    bench.until("mode: hold → motor-out", 1.0);
+    let hold = bench.enter("hold");
+    assert_eq!(text(&hold), refusal("hold", Refusal::RotorFailed, ""), "in the air");
+    bench.until("] disarmed", 30.0);
+    let refused = refusal("arm", Refusal::RotorFailed, "; once it works (`clear`), `arm force`");
+    assert_eq!(text(&bench.enter("arm")), refused);
+    bench.session.tick(&command_long(420, [101.0, 0.0, 2.0]));
+    bench.until("ground station: rotor 2 (index 1) works again", 0.1);
+    assert_eq!(text(&bench.enter("arm force")), "arm without checks: accepted");
+    assert_eq!(text(&bench.enter("takeoff 2")), "take-off to 2 m: accepted");
+    bench.until("mode: take-off → hold", 10.0);
+}
+
+#[test]
 fn a_velocity_goes_on_until_the_next_command() {
     let mut bench = Bench::new("field");
     bench.arm_and_climb(5.0);

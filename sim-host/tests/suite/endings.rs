@@ -48,6 +48,21 @@ fn a_hard_touchdown_is_a_crash_and_the_flight_goes_on() {
 }
 
 #[test]
+fn a_vehicle_that_stands_disarmed_is_not_lost() {
+    let folder = Folder::new("parked");
+    // Without an IMU the estimate runs away, and with it where guidance has the vehicle; or it begins elsewhere.
+    let blind = "fault=[{sensor=\"imu\",kind=\"off\",from_s=3.0,to_s=13.0}]";
+    let command = "command=[{at_s=20.0,order=\"arm\"}]";
+    let far = "trajectory.figure-eight.center_m=[200.0,0.0,5.0]";
+    for settings in [[blind, command], [far, "wind.mean_m_s.0=0.0"]] {
+        let set = settings.map(|setting| ["--set", setting]).concat();
+        let flight = [&["run", "field", "--seed", "2", "--set", "duration_s=25", "--json"], &set[..]].concat();
+        let json = folder.json(&flight);
+        assert_eq!((&json["end"], &json["duration_s"]), (&"never-flew".into(), &25.0.into()), "{settings:?}");
+    }
+}
+
+#[test]
 fn a_refused_command_is_told_as_refused_and_once() {
     // A place before take-off, and an arming that is repeated twice a second while there is no position.
     let command = "command=[{at_s=1.0,order=\"arm\"},{at_s=8.0,order={go-to={position_m=[8.0,0.0,5.0],yaw_deg=0.0}}},{at_s=8.5,order={take-off={height_m=2.0}}}]";

@@ -136,6 +136,38 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
 }
 
 #[test]
+fn an_order_that_cannot_be_carried_out_is_refused_when_it_is_read() {
+    let folder = Folder::new("orders");
+    for (scenario, setting, parts) in [
+        ("x500-hover", "command=[{order=\"rtl\"}]", &["`command.0.order`", "not `rtl`: did you mean `return`?"][..]),
+        ("x500-hover", "command=[{order={loiter={}}}]", &["`command.0.order`", "not `loiter`: did you mean `hold`?"]),
+        (
+            "outdoor-hover",
+            "command=[{at_s=1.0,order={go-to={position_m=[5.0,0.0,-10.0],yaw_deg=0.0}}}]",
+            &["`command.0.order.go-to.position_m.2` must be above the ground, which is at 0 m, not -10: z points up"],
+        ),
+        (
+            "outdoor-hover",
+            "command=[{at_s=1.0,order={go-to={position_m=[2e4,0.0,10.0],yaw_deg=0.0}}}]",
+            &["`command.0.order.go-to.position_m.0` must be between -10000 and 10000 m, not 20000"],
+        ),
+        (
+            "outdoor-hover",
+            "command=[{at_s=1.0,order={take-off={height_m=0.2}}}]",
+            &["`command.0.order.take-off.height_m` must be between 0.3 and 100 m, not 0.2"],
+        ),
+        (
+            "outdoor-hover",
+            "command=[{at_s=1.0,order={velocity={velocity_m_s=[0.0,0.0,101.0]}}}]",
+            &["`command.0.order.velocity.velocity_m_s.2` must be between -100 and 100 m/s, not 101"],
+        ),
+        ("field", "fault=[{sensor=\"gps\",kind=\"off\",from_s=1}]", &["`fault.0.sensor`", "did you mean `gnss`?"]),
+    ] {
+        refuses_settings(&folder, scenario, &[setting], parts);
+    }
+}
+
+#[test]
 fn a_fault_that_cannot_be_is_named_with_its_key() {
     let folder = Folder::new("faults");
     for (fault, parts) in [
@@ -153,6 +185,35 @@ fn a_fault_that_cannot_be_is_named_with_its_key() {
     ] {
         refuses_settings(&folder, "x500-hover", &[&format!("fault=[{{{fault},from_s=1}}]")], parts);
     }
+}
+
+#[test]
+fn what_begins_after_the_flight_is_told() {
+    let folder = Folder::new("late");
+    let late = [
+        ("fault=[{kind=\"rotor\",index=0,effectiveness=0.5,from_s=7.5}]", "fault.0.from_s", "7.5"),
+        ("push=[{from_s=1.0,to_s=9.0},{from_s=2.0,to_s=3.0}]", "push.1.from_s", "2"),
+        (
+            "wind={mean_m_s=[0.0,0.0,0.0],gust=[{from_s=3.0,rise_s=1.0,peak_m_s=[1.0,0.0,0.0]}]}",
+            "wind.gust.0.from_s",
+            "3",
+        ),
+    ];
+    for (setting, key, from_s) in late {
+        let flight = ["run", "field", "--json", "--set", "duration_s=2", "--set", setting];
+        let (_, said) = folder.prints(&flight);
+        let end = "must be before the end of the flight, `duration_s` = 2";
+        assert_eq!(said, format!("sim-host: note: `{key}` {end}, not {from_s}: it never begins\n"), "{setting}");
+    }
+}
+
+#[test]
+fn a_scenario_may_have_any_name_as_long_as_it_is_there() {
+    let folder = Folder::new("names");
+    folder.file("README.md", "# Missions\n\nfly high\n");
+    folder.file("mission.txt", "duration_s = 1.0\nstart_position_m = [0.0, 0.0, \"2\"]\n");
+    folder.refuses(&["run", "README.md"], &["scenario `README.md`, line 3: "]);
+    folder.refuses(&["run", "mission.txt"], &["scenario `mission.txt`, line 2: `start_position_m.2` must be a number"]);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use serde::de::{Error, Expected, Unexpected};
 use toml::Value;
 
 use super::{Refusal, nearest};
-use crate::words::counted;
+use crate::words::{as_pilots_say, counted};
 
 /// As many keys are listed; of a table that has more, the documentation tells.
 const LISTED: usize = 16;
@@ -182,7 +182,8 @@ fn unknown_key(path: &str, name: &str, known: &[&str]) -> Refusal {
 
 fn unknown_choice(path: &str, name: &str, known: &[&str]) -> Refusal {
     let refusal = Refusal::new(path, format!("must be one of {}", known.join(", "))).given(format!("`{name}`"));
-    match nearest(name, known.iter().copied()) {
+    let pilots = as_pilots_say(name).filter(|word| known.contains(word));
+    match pilots.or_else(|| nearest(name, known.iter().copied())) {
         Some(near) => refusal.remedy(format!("did you mean `{near}`?")),
         None => refusal,
     }

@@ -1,6 +1,6 @@
 //! Ground contact: four feet on a flat, level ground, each a spring and damper with Coulomb friction.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use super::Motion;
 
@@ -94,6 +94,15 @@ impl Ground {
     /// Heights of the feet above the ground, m; negative in contact.
     pub fn clearances(&self, position: &Vector3<f64>, attitude: &UnitQuaternion<f64>) -> [f64; 4] {
         self.feet().map(|arm| self.height_above(&(position + attitude * arm)))
+    }
+
+    /// Whether a foot of a body there is on it.
+    pub fn touches(&self, position: &Vector3<f64>, attitude: &Quaternion<f64>) -> bool {
+        if self.height_above(position) > self.foot_radius {
+            return false;
+        }
+        let attitude = UnitQuaternion::new_normalize(*attitude);
+        self.clearances(position, &attitude).iter().any(|clearance| *clearance <= 0.0)
     }
 
     /// Force on a foot at a height, from its velocity without and due to the rotation about the body's z axis.

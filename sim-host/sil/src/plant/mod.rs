@@ -147,6 +147,11 @@ pub trait Plant {
         None
     }
 
+    /// Whether there is ground below it.
+    fn has_ground(&self) -> bool {
+        false
+    }
+
     /// Its battery, if it has one.
     fn battery(&self) -> Option<BatteryState> {
         None

@@ -324,6 +324,10 @@ fn normalise(state: &mut State) {
 }
 
 impl Plant for RigidBody {
+    fn has_ground(&self) -> bool {
+        self.ground.is_some()
+    }
+
     #[inline]
     fn motion(&self) -> Motion {
         unpack(&self.state)

@@ -103,7 +103,7 @@ fn mistakes_are_answered_in_a_line_that_says_what_to_type() {
         ("land now", "land: `now` is too much: type `land`"),
         ("kill -9", "kill: `-9` is too much: type `kill`"),
         ("wind 1 2 3 4", "wind: say NORTH WEST [UP], or speed= and from="),
-        ("wind 1 2 3 4 5 6", "wind: `6` is too much: type `wind [NORTH WEST [UP]]`"),
+        ("wind 1 2 3 4 5 6", "wind: `6` is too much: type `wind [NORTH WEST [UP] or speed= from=]`"),
         ("wind north", "wind: NORTH must be a number, not `north`"),
         ("faults all", "faults: `all` is too much: type `faults`"),
         ("clear gnss", "clear: `gnss` is too much: type `clear`"),
@@ -147,6 +147,10 @@ fn the_manual_has_the_same_table() {
     let table: Vec<String> =
         COMMANDS.iter().map(|entry| format!("| `{}` | {} |", entry.usage(), entry.summary())).collect();
     assert_eq!(rows, table);
+    let other_names = COMMANDS.iter().flat_map(|entry| &entry.names[1..]);
+    for name in other_names {
+        assert!(section.contains(&format!("`{name}`")), "{name}");
+    }
 }
 
 #[test]

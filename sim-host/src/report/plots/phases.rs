@@ -64,7 +64,9 @@ fn spans_of(timeline: &Timeline, (begins, ends): (EventKind, EventKind)) -> Vec<
 fn events(scenario: &Scenario, rows: &[Row], timeline: &Timeline) -> Vec<(f64, String)> {
     let of = |kind: EventKind| timeline.events.iter().find(|event| event.kind == kind).map(|event| event.t_s);
     let landed = of(EventKind::Touchdown).or_else(|| touchdown(scenario, rows));
-    let lost = rows.last().filter(|row| row.end() != End::DurationReached).map(|row| row.t);
+    // A vehicle that is lost is flown no further.
+    let cut_off = rows.last().filter(|_| rows.len() < scenario.ticks() as usize);
+    let lost = cut_off.filter(|row| row.end() != End::DurationReached).map(|row| row.t);
     let named =
         [(landed, TOUCHDOWN), (of(EventKind::Crash), "crash"), (of(EventKind::Disarmed), DISARMED), (lost, "lost")];
     let mut events: Vec<_> = named.into_iter().filter_map(|(t, name)| Some((t?, name.to_owned()))).collect();
