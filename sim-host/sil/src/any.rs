@@ -36,7 +36,7 @@ pub enum AnyFlight {
     Decoupled(Box<Decoupled>),
 }
 
-/// `$work` with `$flight`, whichever it is.
+/// Does `$work` with whichever `$flight` it is.
 macro_rules! with {
     ($any:ident, $flight:ident => $work:expr) => {
         match $any {

@@ -195,7 +195,9 @@ impl Lockstep for Decoupled {
     }
 
     fn interrupt(&mut self) {
-        self.outcome.end = End::Interrupted;
+        if self.outcome.survived() {
+            self.outcome.end = End::Interrupted;
+        }
     }
 
     fn outcome(&self) -> Outcome {

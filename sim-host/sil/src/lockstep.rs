@@ -115,13 +115,15 @@ pub trait Lockstep {
     /// First half: sense and control.
     fn control(&mut self);
 
-    /// What the tick shows, between its halves.
+    /// What the tick shows, between its halves, with a judgement: whether the vehicle is lost is decided where somebody
+    /// looks.
     fn look(&mut self) -> Seen<'_>;
 
-    /// Second half: the motor command acts on the plant. Returns false once a look has shown that the vehicle is lost.
+    /// Second half: the motor command acts on the plant for 1 ms. Returns false once a look has shown that the vehicle is
+    /// lost, or the flight is ended; a driver then stops.
     fn act(&mut self) -> bool;
 
-    /// Ends the flight as the user's wish.
+    /// Ends the flight as the user's wish, unless it has ended before.
     fn interrupt(&mut self);
 
     /// How the flight has gone so far.
@@ -498,7 +500,9 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Lockstep for Flight<P, A, L> {
     }
 
     fn interrupt(&mut self) {
-        self.outcome.end = End::Interrupted;
+        if self.outcome.survived() {
+            self.outcome.end = End::Interrupted;
+        }
     }
 
     fn outcome(&self) -> Outcome {

@@ -113,6 +113,8 @@ fn fly<W: std::io::Write>(
             break;
         }
     }
+    // As at the end of every flight, a last look tells whether the vehicle was lost in the last tick.
+    flight.look();
     let wall_s = start.elapsed().as_secs_f64();
     pil.finish()?;
     let (((metrics, truth), bar), touchdown) = recorder;
