@@ -77,6 +77,6 @@ pub mod tune;
 use glissade_files::{files, refusal, words};
 pub use glissade_sil as sil;
 pub use glissade_sil::{
-    airframe, angles, baseline, controller, decoupled, geodesy, noise, pilot, plant, record, reference, sensors,
-    touchdown, weather, world,
+    airframe, angles, baseline, controller, decoupled, geodesy, noise, outcome, pilot, plant, record, reference,
+    sensors, touchdown, weather, world,
 };

@@ -13,8 +13,9 @@ use firmware::control::sliding::SlidingAxis;
 use firmware::guidance::{Guidance, Trajectory};
 use nalgebra::Vector3;
 
-use crate::lockstep::{End, Lockstep, Outcome};
+use crate::lockstep::Lockstep;
 use crate::noise::{Disturbed, Noise};
+use crate::outcome::{End, Outcome};
 use crate::plant::Constants;
 use crate::plant::paper::{self, PaperInput, PaperState};
 use crate::record::{Row, Seen};

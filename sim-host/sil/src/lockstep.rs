@@ -4,7 +4,6 @@
 //! its motor command acts on the plant from t to t + 1 ms. Nothing here allocates, and nothing depends on the clock on the wall.
 
 use anyhow::{Context as _, Result, ensure};
-use firmware::airframe::ROTORS;
 use firmware::autopilot::Autopilot;
 use firmware::commander::Request;
 use firmware::control::attitude::SlidingAttitude;
@@ -18,96 +17,16 @@ use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::angles::roll_pitch_yaw;
+use crate::delay::Delay;
 use crate::noise::{Disturbed, Noise};
+use crate::outcome::{End, Outcome};
 use crate::pilot::Pilot;
 use crate::plant::{Motion, Plant};
 use crate::record::{Activity, Navigation, Recorder, Row, Seen};
 use crate::reference;
 use crate::sensors::faults::Kind;
 use crate::sensors::{BatteryTruth, Fault, FaultId, Suite, Truth};
-use crate::touchdown::{Contact, Crash, Touchdown};
 use crate::weather::Weather;
-
-/// Why a flight ended, by the truth and not by what the vehicle believes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum End {
-    /// It was flown for as long as the scenario says.
-    #[default]
-    DurationReached,
-    /// It went further than 50 m from its reference, while armed or without ground.
-    LeftReference,
-    /// Its motion was no longer finite.
-    NotFinite,
-    /// The user ended it.
-    Interrupted,
-    /// It stood on the ground all the time.
-    NeverFlew,
-    /// It hit the ground; what is simulated goes on.
-    Crashed(Crash),
-}
-
-impl End {
-    /// As JSON has it.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::DurationReached => "duration-reached",
-            Self::LeftReference => "left-reference",
-            Self::NotFinite => "not-finite",
-            Self::Interrupted => "interrupted",
-            Self::NeverFlew => "never-flew",
-            Self::Crashed(_) => "crashed",
-        }
-    }
-
-    /// Whether it was flown to its end, unharmed.
-    pub fn survived(&self) -> bool {
-        matches!(self, Self::DurationReached)
-    }
-
-    /// Whether the simulation ended there because the vehicle was lost.
-    pub fn is_lost(&self) -> bool {
-        matches!(self, Self::LeftReference | Self::NotFinite)
-    }
-
-    /// The same with what contact with the ground has shown.
-    #[must_use]
-    pub fn after(self, touchdown: &Touchdown) -> Self {
-        match touchdown.crash() {
-            Some(crash) => Self::Crashed(crash),
-            None if self == Self::DurationReached && !touchdown.has_flown() => Self::NeverFlew,
-            None => self,
-        }
-    }
-}
-
-/// How a flight went.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outcome {
-    /// Ticks flown.
-    pub ticks: u32,
-    /// Ticks in which the mixer could not give the whole demand.
-    pub saturated_ticks: u32,
-    /// Why it ended.
-    pub end: End,
-    /// The first touchdown after it had flown, where there is ground.
-    pub touchdown: Option<Contact>,
-    /// The last touchdown; the same one, unless it has flown again.
-    pub landing: Option<Contact>,
-}
-
-impl Outcome {
-    /// Whether it was flown to its end, unharmed.
-    pub fn survived(&self) -> bool {
-        self.end.survived()
-    }
-
-    /// The same with what contact with the ground has shown, where there is ground.
-    #[must_use]
-    pub fn after(self, touchdown: Option<&Touchdown>) -> Self {
-        let Some(seen) = touchdown else { return self };
-        Self { end: self.end.after(seen), touchdown: seen.first(), landing: seen.last(), ..self }
-    }
-}
 
 /// A simulation that advances by ticks of 1 ms, each in two halves with a look between them: what is recorded of a tick
 /// is what the firmware saw, before its command acts.
@@ -154,38 +73,6 @@ pub trait Lockstep {
         }
         self.look();
         self.outcome()
-    }
-}
-
-/// The longest delay between a motor command and the rotors, ticks.
-pub const DELAY_TICKS_MAX: usize = 16;
-
-/// Motor commands on their way to the rotors: a ring of as many as the delay has ticks.
-#[derive(Clone, Debug)]
-struct Delay {
-    on_the_way: [[f64; ROTORS]; DELAY_TICKS_MAX],
-    ticks: usize,
-    /// Which of them arrives next.
-    next: usize,
-}
-
-impl Delay {
-    /// Of one tick to [`DELAY_TICKS_MAX`]; `omega` (rad/s) arrives until the first command does.
-    fn new(ticks: usize, omega: [f64; ROTORS]) -> Self {
-        Self { on_the_way: [omega; DELAY_TICKS_MAX], ticks: ticks.clamp(1, DELAY_TICKS_MAX), next: 0 }
-    }
-
-    /// What arrives now.
-    fn arriving(&self) -> [f64; ROTORS] {
-        self.on_the_way[self.next]
-    }
-
-    /// Sends a command, and returns what arrives. Out of the way of the flights without a delay.
-    #[cold]
-    fn pass(&mut self, command: [f64; ROTORS]) -> [f64; ROTORS] {
-        let place = self.next;
-        self.next = (place + 1) % self.ticks;
-        core::mem::replace(&mut self.on_the_way[place], command)
     }
 }
 

@@ -6,7 +6,7 @@ use firmware::estimator::covariance::Covariance;
 use firmware::signals::{NavHealth, NavState, Tick};
 use nalgebra::Vector3;
 
-use crate::lockstep::End;
+use crate::outcome::End;
 use crate::plant::Motion;
 use crate::plant::battery::BatteryState;
 

@@ -1,8 +1,8 @@
 //! A flight's contact with the ground: the first and the last touchdown, and whether the vehicle was damaged.
 
 use nalgebra::Quaternion;
-use serde::Serialize;
 
+use crate::outcome::{Contact, Crash, End, Outcome};
 use crate::plant::ground::Ground;
 use crate::record::{Recorder, Row};
 
@@ -13,32 +13,6 @@ const AIRBORNE_M: f64 = 0.5;
 pub const HARDEST_M_S: f64 = 4.0;
 /// Cosine of the greatest tilt on the ground, 60°: beyond it, rotors touch before feet do.
 pub const UPRIGHT: f64 = 0.5;
-
-/// A touchdown.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Contact {
-    /// The first row with a foot on the ground, s.
-    pub t_s: f64,
-    /// Downwards, in the last row in the air, m/s: in the next, the ground has begun to brake it.
-    pub descent_m_s: f64,
-    /// Along the ground, in the last row in the air, m/s.
-    pub drift_m_s: f64,
-    /// Where, m.
-    pub position_m: [f64; 3],
-    /// Horizontal distance from where the flight began, m.
-    pub from_start_m: f64,
-}
-
-/// The contact with the ground that damaged the vehicle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Crash {
-    /// When, s.
-    pub t_s: f64,
-    /// Downwards, in the last row in the air, m/s; 0 where it tipped over on the ground.
-    pub descent_m_s: f64,
-    /// Tilt at the contact, rad.
-    pub tilt_rad: f64,
-}
 
 /// Looks for touchdowns after the vehicle has been half a metre above the ground, and for the first contact that it does
 /// not survive: faster than 4 m/s downwards, or tilted by more than 60°.
@@ -116,6 +90,20 @@ fn crash(row: &Row, before: Option<[f64; 3]>) -> Option<Crash> {
     let descent_m_s = before.map_or(0.0, |[_, _, z]| -z);
     let survives = descent_m_s < HARDEST_M_S && upright > UPRIGHT;
     (!survives).then(|| Crash { t_s: row.t, descent_m_s, tilt_rad: libm::acos(upright.clamp(-1.0, 1.0)) })
+}
+
+impl Outcome {
+    /// The same with what contact with the ground has shown, where there is ground.
+    #[must_use]
+    pub fn after(self, touchdown: Option<&Touchdown>) -> Self {
+        let Some(seen) = touchdown else { return self };
+        let end = match seen.crash() {
+            Some(crash) => End::Crashed(crash),
+            None if self.survived() && !seen.has_flown() => End::NeverFlew,
+            None => self.end,
+        };
+        Self { end, touchdown: seen.first(), landing: seen.last(), ..self }
+    }
 }
 
 impl Recorder for Touchdown {

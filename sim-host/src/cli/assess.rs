@@ -51,7 +51,7 @@ fn load(args: &AssessArgs) -> Result<Vec<Scenario>> {
     /// Simulated time that is flown unasked, s.
     const LONGEST_S: f64 = 1000.0;
     if !args.scenarios.is_empty() {
-        return args.scenarios.iter().map(|name| Scenario::load(name, &args.settings.set)).collect();
+        return args.scenarios.iter().map(|name| super::load(name, &args.settings.set)).collect();
     }
     let all = scenario::list()?;
     let all = all.iter().map(|listed| Scenario::load(listed.name, &args.settings.set)).collect::<Result<Vec<_>>>()?;

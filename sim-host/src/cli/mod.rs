@@ -184,13 +184,8 @@ struct Which {
 }
 
 impl Which {
-    /// The scenario; what of it comes after its end is told, and flown without.
     fn load(&self) -> Result<Scenario> {
-        let scenario = Scenario::load(&self.scenario, &self.settings.set)?;
-        for late in scenario.file.too_late() {
-            complain(&format!("note: {late}: it never begins"));
-        }
-        Ok(scenario)
+        load(&self.scenario, &self.settings.set)
     }
 }
 
@@ -378,6 +373,15 @@ fn note_idle_seeds(scenario: &Scenario, given: bool) {
     if given && !scenario.file.is_random() {
         complain(&format!("note: the seed makes no difference: `{}` has no random part", scenario.name));
     }
+}
+
+/// A scenario; what of it comes after its end is told, and flown without.
+fn load(name: &str, settings: &[String]) -> Result<Scenario> {
+    let scenario = Scenario::load(name, settings)?;
+    for late in scenario.file.too_late() {
+        complain(&format!("note: {late}: it never begins"));
+    }
+    Ok(scenario)
 }
 
 /// A result, and where its folder has been written, if one was.

@@ -10,12 +10,13 @@ use firmware::signals::{TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
 
 use super::line::Tone;
+use crate::outcome::Contact;
 use crate::plant::rigid_body::RigidBody;
 use crate::plant::{Motion, Plant as _};
 use crate::record::{Recorder as _, Row};
 use crate::report::timeline::fault_name;
 use crate::sil::Flight;
-use crate::touchdown::{Contact, HARDEST_M_S, Touchdown};
+use crate::touchdown::{HARDEST_M_S, Touchdown};
 
 /// Whether the commander's output has come into effect in the tick before this one.
 pub(super) fn is_due(next_tick: Tick) -> bool {

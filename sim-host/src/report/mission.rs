@@ -147,8 +147,8 @@ pub fn end_text(end: &End, t: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::outcome::{Contact, Crash};
     use crate::report::timeline::Timeline;
-    use crate::touchdown::{Contact, Crash};
 
     const TAKE_OFF: Order = Order::TakeOff { height_m: 5.0 };
 

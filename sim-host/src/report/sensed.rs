@@ -8,9 +8,9 @@ use nalgebra::UnitQuaternion;
 use serde::Serialize;
 
 use super::estimate::{Belief, EstimateWriter, Sampler};
+use crate::outcome::Contact;
 use crate::record::{Navigation, Recorder, Row};
 use crate::statistics::MeanSquare;
-use crate::touchdown::Contact;
 
 /// Root mean squares of what the vehicle's beliefs were off by while it was armed; null if it never was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

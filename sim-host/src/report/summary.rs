@@ -12,9 +12,9 @@ use super::mission::Mission;
 use super::out::write_file;
 use super::sensed::Sensed;
 use super::timeline::{Course, Leg, Timeline, order_text};
+use crate::outcome::Crash;
 use crate::pilot::Order;
 use crate::sil::End;
-use crate::touchdown::Crash;
 
 /// What the loop knows about a flight and its rows do not tell.
 #[derive(Clone, Debug, PartialEq)]

@@ -91,9 +91,9 @@ fn metres(value: Option<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::outcome::Contact;
     use crate::report::summary::Place;
     use crate::report::timeline::Timeline;
-    use crate::touchdown::Contact;
 
     fn told() -> Told {
         let phase = |name: &str, from_s, to_s, error: Option<f64>| Phase {
