@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use anyhow::{Result, ensure};
+use anyhow::{Context as _, Result, ensure};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use crate::controller::TuningFile;
@@ -276,7 +276,7 @@ impl<'a> Contest<'a> {
         let mut entries: Vec<(&Case, &str, Scenario)> = Vec::new();
         for case in &self.cases {
             for (name, tuning) in &self.tunings {
-                entries.push((case, name, case.scenario.clone().flown_by(tuning.controller.clone())?));
+                entries.push((case, name, flown_by(case, name, tuning)?));
             }
         }
         let seeds = self.matrix.file.seeds;
@@ -322,6 +322,12 @@ impl<'a> Contest<'a> {
             flights,
         }
     }
+}
+
+/// A case's scenario under a tuning; what is refused of it is the tuning's.
+fn flown_by(case: &Case, name: &str, tuning: &TuningFile) -> Result<Scenario> {
+    let flown = case.scenario.clone().flown_by(tuning.controller.clone());
+    flown.with_context(|| format!("tuning `{name}`"))
 }
 
 /// Refuses paths whose files have the same name: tables and files could not tell them apart.

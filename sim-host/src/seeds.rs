@@ -37,7 +37,7 @@ impl FromStr for Seeds {
 
     fn from_str(text: &str) -> Result<Self> {
         let (first, last) = text.split_once("..").with_context(|| match text.parse::<u64>() {
-            Ok(one) => format!("seeds are a range, first and last: use {one}..{one}, or --seed {one} for one flight"),
+            Ok(one) => format!("seeds are a range, first and last: use {one}..{one} for one flight"),
             Err(_) => "seeds are a range, first and last: use A..B, as in 1..8".to_owned(),
         })?;
         let (first, last) = (number(first)?, number(last.trim_start_matches('='))?);
@@ -86,7 +86,7 @@ mod tests {
     fn a_range_that_is_none_says_what_it_ought_to_be() {
         for (bad, expected) in [
             ("", "use A..B"),
-            ("5", "use 5..5, or --seed 5"),
+            ("5", "use 5..5 for one flight"),
             ("9..3", "9..3 runs backwards: use 3..9"),
             ("a..b", "`a` is not a seed"),
             ("1..", "`` is not a seed"),

@@ -40,9 +40,9 @@ pub struct Verdict {
     pub expected: Expectation,
     /// The percentile found.
     pub found: Option<f64>,
-    /// Whether it is within the bounds.
-    pub met: bool,
-    /// Seeds that it takes to judge it; with fewer flown, `met` says nothing.
+    /// Whether it is within the bounds; none where too few seeds were flown to judge it.
+    pub met: Option<bool>,
+    /// Seeds that it takes to judge it.
     pub seeds_needed: u64,
 }
 
@@ -151,10 +151,10 @@ fn report(scenario: &str, seeds: Seeds, assess: &Assess, flights: &[Measures]) -
             None => root_mean_square(&values),
         };
         let found = found.filter(|value| value.is_finite());
-        let met = found.is_some_and(|value| {
-            expected.at_most.is_none_or(|most| value <= most) && expected.at_least.is_none_or(|least| value >= least)
-        });
-        Verdict { expected: *expected, found, met, seeds_needed: expected.seeds_needed() }
+        let met = expected.holds(found);
+        let seeds_needed = expected.seeds_needed();
+        let met = (seeds.count() >= seeds_needed).then_some(met);
+        Verdict { expected: *expected, found, met, seeds_needed }
     };
     let (nis, nees) = (nis(flights), nees(flights));
     let is_judged = seeds.count() >= SEEDS_FOR_BANDS;
@@ -266,17 +266,12 @@ fn nees(flights: &[Measures]) -> Option<Nees> {
 impl Report {
     /// Whether all expectations are met.
     pub fn is_met(&self) -> bool {
-        let is_met = |verdict: &Verdict| verdict.met || self.lacks_seeds(verdict);
-        self.verdicts.iter().all(is_met) && self.consistent != Some(false)
-    }
-
-    fn lacks_seeds(&self, verdict: &Verdict) -> bool {
-        self.seeds.count() < verdict.seeds_needed
+        self.verdicts.iter().all(|verdict| verdict.met != Some(false)) && self.consistent != Some(false)
     }
 
     /// Seeds that it takes to judge everything, where there are too few.
     pub fn seeds_needed(&self) -> Option<u64> {
-        let lacking = self.verdicts.iter().filter(|verdict| self.lacks_seeds(verdict));
+        let lacking = self.verdicts.iter().filter(|verdict| verdict.met.is_none());
         lacking.map(|verdict| verdict.seeds_needed).chain(self.bands_need).max()
     }
 
@@ -336,9 +331,9 @@ impl Report {
                 (None, None) => String::new(),
             };
             let verdict = match met {
-                _ if self.lacks_seeds(verdict) => format!("too few seeds, {seeds_needed} needed"),
-                true => "met".to_owned(),
-                false => "NOT MET".to_owned(),
+                None => format!("too few seeds, {seeds_needed} needed"),
+                Some(true) => "met".to_owned(),
+                Some(false) => "NOT MET".to_owned(),
             };
             let (name, percent) = (expected.measure.name(), expected.percentile);
             let of = percent.map_or_else(|| "rms".to_owned(), |percent| format!("p{percent}"));

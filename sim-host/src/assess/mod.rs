@@ -65,6 +65,13 @@ pub struct Expectation {
 const LONGEST_S: f64 = 1e6;
 
 impl Expectation {
+    /// Whether a value is there and within the bounds, however many seeds it is from.
+    pub fn holds(&self, found: Option<f64>) -> bool {
+        found.is_some_and(|value| {
+            self.at_most.is_none_or(|most| value <= most) && self.at_least.is_none_or(|least| value >= least)
+        })
+    }
+
     fn validate(&self, key: &str) -> Result<()> {
         within(&format!("{key}.percentile"), self.percentile.unwrap_or(0.0), 0.0, 100.0)?;
         ensure!(

@@ -10,11 +10,15 @@ use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavResult};
 const HEADER: usize = consts::STX_SIZE + consts::v2::MIN_HEADER_SIZE;
 /// More answers are not awaited: acknowledgements may be lost, where too many are asked for.
 const AWAITED_MAX: usize = 16;
+/// More commands that are unsupported are told each time: no ground station has so many.
+const UNSUPPORTED_MAX: usize = 64;
 
 /// The acknowledgements that are still to come of what the commander has answered, and was told.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
     awaited: Vec<Origin>,
+    /// Commands that were told to be unsupported: some stations ask again every other second, for good.
+    unsupported: Vec<Origin>,
 }
 
 impl Answers {
@@ -33,10 +37,19 @@ impl Answers {
             let origin = Origin::Station { sender, command: ack.command };
             if let Some(place) = self.awaited.iter().position(|awaited| *awaited == origin) {
                 self.awaited.remove(place);
-            } else if let Some(text) = refusal(&ack) {
+            } else if let Some(text) = refusal(&ack).filter(|_| !self.was_told(&ack, origin)) {
                 tell(text);
             }
         }
+    }
+
+    /// Whether a command was told to be unsupported before.
+    fn was_told(&mut self, ack: &COMMAND_ACK_DATA, origin: Origin) -> bool {
+        let before = self.unsupported.contains(&origin);
+        if ack.result == MavResult::MAV_RESULT_UNSUPPORTED && !before && self.unsupported.len() < UNSUPPORTED_MAX {
+            self.unsupported.push(origin);
+        }
+        before && ack.result == MavResult::MAV_RESULT_UNSUPPORTED
     }
 }
 

@@ -61,7 +61,7 @@ pub enum Aim {
         /// rad.
         within_rad: f64,
     },
-    /// Stated roll, pitch and yaw: there is no position loop.
+    /// Stated roll, pitch and yaw, while the position is held by inputs of its own.
     Attitude,
 }
 
@@ -77,7 +77,10 @@ impl Aim {
             Self::Position { within_m, within_rad } => (distance_m >= within_m, yaw_rad >= within_rad),
             Self::Attitude => {
                 let off = tilt_rad.max(yaw_rad);
-                return (off >= WIDE_BAND).then(|| format!("up to {} off its reference", degrees(off)));
+                if off >= WIDE_BAND {
+                    return Some(format!("up to {} off its reference", degrees(off)));
+                }
+                (distance_m >= WIDE_BAND, false)
             }
         };
         match (position, heading) {

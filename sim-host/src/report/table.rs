@@ -4,7 +4,7 @@ mod course;
 
 use std::fmt::Write as _;
 
-use super::metrics::{AxisFigures, Recovery, TRACKING_FROM_S, WIDE_BAND};
+use super::metrics::{AxisFigures, Recovery, TRACKING_FROM_S};
 use super::mission::{Mission, end_text};
 use super::paint::{Paint, Verdict};
 use super::summary::{Row, Summary};
@@ -68,7 +68,6 @@ fn followed(summary: &Summary) -> String {
         None if !summary.settles => error_table(summary),
         None => settling_table(summary) + &bound(summary),
     };
-    let position = summary.roll_and_pitch.is_some().then(|| position_entry(summary));
     let path = summary.path_ends_s.map(|ends| {
         entry("path", &format!("ends at {ends:.1} s, after the flight: set `duration_s` to more to see it whole"))
     });
@@ -80,13 +79,14 @@ fn followed(summary: &Summary) -> String {
         .then(|| entry("errors", "count from 4 s on, and the flight has ended: set `duration_s` to more"));
     let recovery = summary.recovery_s.as_ref().map(recovery);
     let early = early_error(summary).map(|distance| {
-        entry(
-            "at first",
-            &format!("up to {distance:.2} m off within {TRACKING_FROM_S} s, of which the table tells nothing"),
-        )
+        let distance = error(Some(distance), "m");
+        entry("at first", &format!("up to {distance} off within {TRACKING_FROM_S} s, of which the table tells nothing"))
     });
-    [Some(table), early, position, path, jump, short, recovery].into_iter().flatten().collect()
+    [Some(table), early, path, jump, short, recovery].into_iter().flatten().collect()
 }
+
+/// An error that is worth a line, m.
+const MATTERS_M: f64 = 1e-3;
 
 /// The greatest distance from the reference (m), if errors count from later on, it matters, and no column shows it.
 fn early_error(summary: &Summary) -> Option<f64> {
@@ -94,7 +94,7 @@ fn early_error(summary: &Summary) -> Option<f64> {
     let [x, y, z] = [axes.x.max_m?, axes.y.max_m?, axes.z.max_m?];
     // No later distance is greater than this.
     let later = (x * x + y * y + z * z).sqrt();
-    summary.distance_max_m.filter(|distance| !summary.settles && *distance > later.max(WIDE_BAND))
+    summary.distance_max_m.filter(|distance| !summary.settles && *distance > later.max(MATTERS_M))
 }
 
 /// How far each axis was off.
@@ -130,21 +130,15 @@ fn settling_table(summary: &Summary) -> String {
 /// How roll, pitch and yaw followed, where they are what is followed.
 fn attitude_table(summary: &Summary) -> String {
     let mut rows = vec![
-        ["axis", "within 50 mrad", "within 2 mrad", "RMS", "maximum", "overshoot", ""].map(String::from),
-        ["", "from", "from", "after 4 s", "after 4 s", "", ""].map(String::from),
+        ["axis", "within 5 cm,", "within 2 mm,", "RMS", "maximum", "overshoot", ""].map(String::from),
+        ["", "50 mrad from", "2 mrad from", "after 4 s", "after 4 s", "", ""].map(String::from),
     ];
-    let [roll, pitch] = summary.roll_and_pitch.unwrap_or_default();
-    for (name, axis) in [("roll", &roll), ("pitch", &pitch), ("yaw", &summary.axes.yaw)] {
+    let ([roll, pitch], axes) = (summary.roll_and_pitch.unwrap_or_default(), &summary.axes);
+    let positions = [("x", &axes.x), ("y", &axes.y), ("z", &axes.z)];
+    for (name, axis) in positions.into_iter().chain([("roll", &roll), ("pitch", &pitch), ("yaw", &axes.yaw)]) {
         rows.push(axis_row(name, axis, None));
     }
     aligned(&rows) + "\n"
-}
-
-/// How far the position was off, where the table is about angles.
-fn position_entry(summary: &Summary) -> String {
-    let axes = &summary.axes;
-    let [x, y, z] = [&axes.x, &axes.y, &axes.z].map(|axis| error(axis.max_m, "m"));
-    entry("position", &format!("at most {x} off in x, {y} in y, {z} in z after {TRACKING_FROM_S} s"))
 }
 
 fn axis_row(name: &str, axis: &AxisFigures, claim: Option<PaperClaim>) -> [String; 7] {
@@ -238,7 +232,10 @@ fn figures(summary: &Summary) -> String {
         );
     }
     if summary.survived && !has_rotors {
-        line("inputs", "direct and unlimited, switched every 10 µs: a row shows one side; `paper` draws their means");
+        line(
+            "inputs",
+            "direct and unlimited; where a law switches them, a row shows one side (`paper`: means at Table 1's gains)",
+        );
     }
     if has_rotors {
         line("saturated", &format!("{:.2} % of the ticks", 100.0 * summary.saturated_fraction));
@@ -467,9 +464,10 @@ seed      x RMS      y RMS      z RMS  end
     #[test]
     fn an_attitude_case_is_judged_by_its_angles() {
         let text = render(&Summary::new(Flight { aim: Aim::Attitude, ..flight(true) }, &metrics()), Paint::PLAIN);
-        let rows: Vec<&str> = text.lines().skip(4).take(3).collect();
-        let row = |name: &str| format!("{name:<5}         0.000 s        0.000 s  0.000 mrad  0.000 mrad          –");
+        let rows: Vec<&str> = text.lines().skip(7).take(3).collect();
+        let row = |name: &str| format!("{name:<5}       0.000 s       0.000 s  0.000 mrad  0.000 mrad          –");
         assert_eq!(rows, ["roll", "pitch", "yaw"].map(row), "{text}");
+        assert!(text.lines().nth(4).is_some_and(|line| line.starts_with("x ")), "{text}");
         assert!(!text.contains("mean xyz"), "{text}");
     }
 

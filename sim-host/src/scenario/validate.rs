@@ -109,6 +109,7 @@ fn world(f: &ScenarioFile) -> Result<()> {
         ("ground", f.ground),
         ("truth.rotor_effectiveness", f.truth.rotor_effectiveness != Truth::default().rotor_effectiveness),
         ("truth.rotor_lag_s", f.truth.rotor_lag_s.is_some()),
+        ("rotor_lag_s", f.rotor_lag_s.is_some_and(|lag| lag > 0.0)),
         ("actuation_delay_s", f.actuation_delay_s.is_some()),
         ("start_velocity_m_s", f.start_velocity_m_s.is_some()),
         ("start_attitude_deg", f.start_attitude_deg.is_some()),
@@ -128,6 +129,11 @@ fn world(f: &ScenarioFile) -> Result<()> {
             "`{key}` is modelled on the plant `rigid-body` alone: leave it out, or set `plant = \"rigid-body\"`"
         );
     }
+    ensure!(
+        f.thrust_to_weight.is_none() || f.plant != PlantKind::PaperDecoupled,
+        "`thrust_to_weight` limits nothing on the plant `paper-decoupled`, whose inputs are direct: leave it out, or set \
+         `plant = \"rigid-body\"`"
+    );
     if f.start == Start::OnGround && !f.ground {
         let refusal = Refusal::new("start", "is `on-ground`, and there is no ground");
         return Err(refusal.remedy("set `ground = true` on the plant `rigid-body`, or `start = \"in-flight\"`").into());

@@ -226,6 +226,8 @@ fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
     for (command, parameters, told) in [
         // DO_REPOSITION, to offboard (PX4's main mode 6), neither arm nor disarm.
         (192, [0.0; 3], &["command 192: unsupported"][..]),
+        // The same again, as stations do every other second.
+        (192, [0.0; 3], &[]),
         (176, [1.0, 6.0, 0.0], &["command 176 (DO_SET_MODE): denied"]),
         (400, [2.0, 0.0, 0.0], &["command 400 (COMPONENT_ARM_DISARM): denied"]),
         // A message that it has not: ground stations ask for many.

@@ -147,7 +147,8 @@ fn fly(scenario: &Scenario, seed: u64) -> Seen {
 /// Names of what is expected of a scenario and not met under so many seeds.
 fn unmet(scenario: &Scenario, seeds: u64, is_judged: impl Fn(&Expectation) -> bool) -> Vec<String> {
     let report = ensemble::fly(scenario, Seeds { first: 1, last: seeds }, || ()).expect("can be flown");
-    let unmet = report.verdicts.iter().filter(|verdict| is_judged(&verdict.expected) && !verdict.met);
+    let unmet =
+        report.verdicts.iter().filter(|verdict| is_judged(&verdict.expected) && !verdict.expected.holds(verdict.found));
     unmet.map(|verdict| format!("{}: {verdict:?}", scenario.name)).collect()
 }
 

@@ -11,7 +11,7 @@ fn ranges_of_seeds_and_numbers_of_threads_say_what_they_may_be() {
     for (seeds, part) in [
         ("9..3", "9..3 runs backwards: use 3..9"),
         ("1..0", "1..0 runs backwards: use 0..1"),
-        ("5", "--seed 5"),
+        ("5", "use 5..5 for one flight"),
         ("a..b", "`a` is not a seed"),
         ("1..99999999", "more than 1000000"),
         ("1..99999999999999999999", "0 to 18446744073709551615"),
