@@ -112,7 +112,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         }
     }
 
-    /// With motor commands that act `ticks` later, at most [`DELAY_TICKS_MAX`]; until the first of them does, the
+    /// With motor commands that act `ticks` later, at most [`DELAY_TICKS_MAX`](crate::DELAY_TICKS_MAX); until the first of them does, the
     /// rotors keep their speeds.
     #[must_use]
     pub fn with_actuation_delay(mut self, ticks: usize) -> Self {
