@@ -22,8 +22,7 @@ use crate::plant::rigid_body::RigidBody;
 use crate::record::Recorder;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sensors::Suite;
-use crate::sil::{AnyFlight, UnderLaws};
-use crate::sil::{Flight, Lockstep as _, Outcome};
+use crate::sil::{AnyFlight, Flight, Lockstep as _, Outcome, UnderLaws};
 use crate::touchdown::Touchdown;
 use crate::weather::Weather;
 
@@ -41,8 +40,7 @@ pub fn rigid_body(scenario: &Scenario, seed: u64) -> RigidBody {
 /// The ground of a scenario, if any.
 pub fn ground(scenario: &Scenario) -> Option<Ground> {
     let (file, c) = (&scenario.file, scenario.constants());
-    let height = file.world.ground_height_m.unwrap_or(file.start_position_m[2]);
-    file.ground.then(|| Ground::for_vehicle(height, c.mass, c.gravity, c.inertia.z))
+    file.ground.then(|| Ground::for_vehicle(file.ground_height_m(), c.mass, c.gravity, c.inertia.z))
 }
 
 /// A plant with the firmware of a scenario in its loop, flying by its own sliding mode laws.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::controller::Controller;
 use crate::refusal::did_you_mean;
-use crate::scenario::{Scenario, beside, is_of_controller, tuning};
+use crate::scenario::{Scenario, airframe_of, beside, is_of_controller, tuning};
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
 
@@ -74,8 +74,6 @@ pub struct Matrix {
     pub name: String,
     /// Its contents.
     pub file: MatrixFile,
-    /// `KEY=VALUE` settings of every scenario, before those of the disturbances.
-    settings: Vec<String>,
     /// Its cells before some were selected.
     whole: usize,
 }
@@ -116,20 +114,19 @@ impl Matrix {
             *controller = beside(name, controller);
         }
         file.validate().with_context(|| format!("matrix `{name}`"))?;
-        let disturbing = file.disturbances.iter_mut().flat_map(|disturbance| &mut disturbance.set);
-        for setting in disturbing.chain(&mut file.set) {
-            if let Some(airframe) = files::airframe_of(setting) {
-                *setting = format!("airframe={}", beside(name, airframe));
+        for setting in file.settings_mut() {
+            if let Some(airframe) = airframe_of(setting) {
+                *setting = format!("airframe={}", beside(name, &airframe));
             }
         }
+        file.set.extend_from_slice(settings);
         let whole = file.cells().count();
-        let settings = [file.set.as_slice(), settings].concat();
-        Ok(Self { name: name.to_owned(), file, settings, whole })
+        Ok(Self { name: name.to_owned(), file, whole })
     }
 
     /// `KEY=VALUE` settings of every scenario.
     pub fn settings(&self) -> &[String] {
-        &self.settings
+        &self.file.set
     }
 
     /// The number of its cells before some were selected.
@@ -171,7 +168,7 @@ impl Matrix {
     }
 
     fn case(&self, scenario: &str, disturbance: &DisturbanceEntry, fallback: &Controller) -> Result<Case> {
-        let settings = [self.settings.as_slice(), &disturbance.set].concat();
+        let settings = [self.file.set.as_slice(), &disturbance.set].concat();
         let context = || format!("matrix `{}`, disturbance `{}`", self.name, disturbance.name);
         let loaded = Scenario::load_for(&beside(&self.name, scenario), &settings, fallback).with_context(context)?;
         require_counted(&loaded).with_context(context)?;
@@ -186,6 +183,11 @@ impl MatrixFile {
             let applies = |disturbance: &&DisturbanceEntry| disturbance.applies_to(scenario);
             self.disturbances.iter().filter(applies).map(move |disturbance| (scenario, disturbance))
         })
+    }
+
+    /// All settings, of every scenario and of each disturbance.
+    fn settings_mut(&mut self) -> impl Iterator<Item = &mut String> {
+        self.disturbances.iter_mut().flat_map(|disturbance| &mut disturbance.set).chain(&mut self.set)
     }
 
     /// Keeps only some scenarios, here and where disturbances name them, so that what is left is a matrix too.

@@ -26,7 +26,7 @@ use crate::sensors::{Fault, Home, SuiteFile};
 pub use crate::world::{AttitudeWave, Disturbance, Gust, ScheduledPush, Tumble, Wind};
 pub(crate) use load::beside;
 pub use load::tuning;
-pub(crate) use settings::{is_of_controller, value};
+pub(crate) use settings::{airframe_of, is_of_controller, value};
 pub use world::{BatteryStart, Truth, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.

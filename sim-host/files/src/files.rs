@@ -21,7 +21,7 @@ macro_rules! built_in {
 }
 
 /// Larger files than this are none of ours, bytes.
-const LARGEST: u64 = 1 << 20;
+pub const LARGEST: u64 = 1 << 20;
 
 /// A file that has been read: what it is, its name or path, and its text.
 #[derive(Clone, Debug)]

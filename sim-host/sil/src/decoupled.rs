@@ -119,7 +119,7 @@ impl Decoupled {
     }
 
     /// Eq. 25–31 on the measured state.
-    fn control_under(&mut self, disturbed: &Disturbed) -> Demands {
+    fn demands_under(&mut self, disturbed: &Disturbed) -> Demands {
         let measured: Vector3<f32> = (self.state.position + disturbed.position).cast();
         let velocity: Vector3<f32> = self.state.velocity.cast();
         let flat = self.guidance.at(self.step);
@@ -158,12 +158,6 @@ impl Decoupled {
         }
     }
 
-    /// Eq. 25–31 and the disturbances, at this step.
-    fn decide(&mut self) {
-        let disturbed = *self.noise.at(self.step);
-        self.demands = self.control_under(&disturbed);
-    }
-
     /// The demands act until the next step.
     fn advance(&mut self) {
         let input = PaperInput { force: self.demands.force, torque: self.demands.torque, spin: 0.0 };
@@ -174,21 +168,20 @@ impl Decoupled {
 
 impl Lockstep for Decoupled {
     fn control(&mut self) {
-        self.decide();
+        let disturbed = *self.noise.at(self.step);
+        self.demands = self.demands_under(&disturbed);
     }
 
     fn look(&mut self) -> Seen<'_> {
         let row = self.row();
-        if self.outcome.survived() {
-            self.outcome.end = row.end();
-        }
+        self.outcome.end_by(row.end());
         Seen { row, activity: None, navigation: None }
     }
 
     fn act(&mut self) -> bool {
         self.advance();
         for _ in 1..STEPS_A_ROW {
-            self.decide();
+            self.control();
             self.advance();
         }
         self.outcome.ticks += 1;
@@ -196,9 +189,7 @@ impl Lockstep for Decoupled {
     }
 
     fn interrupt(&mut self) {
-        if self.outcome.survived() {
-            self.outcome.end = End::Interrupted;
-        }
+        self.outcome.end_by(End::Interrupted);
     }
 
     fn outcome(&self) -> Outcome {

@@ -112,8 +112,8 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         }
     }
 
-    /// With motor commands that act `ticks` later, at most [`DELAY_TICKS_MAX`](crate::DELAY_TICKS_MAX); until the first of them does, the
-    /// rotors keep their speeds.
+    /// With motor commands that act `ticks` later, at most [`DELAY_TICKS_MAX`](crate::DELAY_TICKS_MAX); until the first
+    /// of them does, the rotors keep their speeds.
     #[must_use]
     pub fn with_actuation_delay(mut self, ticks: usize) -> Self {
         self.delay = (ticks > 0).then(|| Box::new(Delay::new(ticks, self.plant.omega())));
@@ -267,13 +267,10 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
 
     /// What a row shows, unless the flight has ended before.
     fn judge(&mut self, row: &Row) {
-        if !self.outcome.survived() {
-            return;
-        }
         match row.end() {
             // Guidance has it where it believes to be, which without sensors may be anywhere.
             End::LeftReference if self.is_parked() => {}
-            end => self.outcome.end = end,
+            end => self.outcome.end_by(end),
         }
     }
 
@@ -387,9 +384,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Lockstep for Flight<P, A, L> {
     }
 
     fn interrupt(&mut self) {
-        if self.outcome.survived() {
-            self.outcome.end = End::Interrupted;
-        }
+        self.outcome.end_by(End::Interrupted);
     }
 
     fn outcome(&self) -> Outcome {

@@ -64,6 +64,13 @@ impl Outcome {
     pub fn survived(&self) -> bool {
         self.end.survived()
     }
+
+    /// It has ended for this reason, unless it has ended before.
+    pub(crate) fn end_by(&mut self, end: End) {
+        if self.survived() {
+            self.end = end;
+        }
+    }
 }
 
 /// A touchdown.

@@ -35,7 +35,7 @@ pub(super) fn run() -> Result<()> {
 /// Where the pictures are, and which to look at first.
 fn pictures(folder: &Path, contents: &str) -> String {
     let first = telling(folder).map_or_else(String::new, |path| format!("; look first at {}", path.display()));
-    format!("wrote {}: {contents}{first}", folder.display())
+    super::wrote(folder, contents) + &first
 }
 
 /// The figure that tells most: of a pilot's flight, of a disturbed one, of any other.

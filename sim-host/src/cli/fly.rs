@@ -10,7 +10,7 @@ use firmware::guidance::Trajectory;
 use serde::Serialize;
 use toml::{Table, Value};
 
-use crate::files::read_regular;
+use crate::files::{LARGEST, read_regular};
 use crate::flight;
 use crate::record::Row;
 use crate::report::estimate::Belief;
@@ -28,8 +28,6 @@ const FIGURES_UP_TO_S: f64 = 600.0;
 
 /// By which a provenance.toml is known to be ours.
 pub(super) const PROGRAM: &str = "sim-host";
-/// A larger one is not ours, bytes.
-const PROVENANCE_MAX: u64 = 1 << 20;
 
 /// What came of a flight, and how long it took, s.
 pub(super) struct Flown {
@@ -239,7 +237,7 @@ pub(super) fn seed_beside(scenario: &str) -> Option<u64> {
 /// The provenance of the flight that has left a scenario.toml, if one has: it stands in the provenance.toml beside it.
 fn provenance_beside(scenario: &str) -> Option<Table> {
     let path = Path::new(scenario);
-    let text = read_regular(&path.with_file_name("provenance.toml"), PROVENANCE_MAX).ok()?;
+    let text = read_regular(&path.with_file_name("provenance.toml"), LARGEST).ok()?;
     let flown: Table = text.parse().ok()?;
     let is_ours = flown.get("program").and_then(Value::as_str) == Some(PROGRAM);
     (path.file_name()? == "scenario.toml" && is_ours).then_some(flown)

@@ -387,9 +387,14 @@ fn load(name: &str, settings: &[String]) -> Result<Scenario> {
 /// A result, and where its folder has been written, if one was.
 fn and_wrote(text: String, out: Option<&Path>, contents: Option<String>) -> String {
     match (out, contents) {
-        (Some(out), Some(contents)) => format!("{}\n\nwrote {}: {contents}", text.trim_end(), out.display()),
+        (Some(out), Some(contents)) => format!("{}\n\n{}", text.trim_end(), wrote(out, &contents)),
         _ => text,
     }
+}
+
+/// Where a folder has been written, and what it holds.
+fn wrote(folder: &Path, contents: &str) -> String {
+    format!("wrote {}: {contents}", folder.display())
 }
 
 /// Writes a result to standard output. A reader that has gone away is not an error.

@@ -53,7 +53,7 @@ fn one(args: &RunArgs, scenario: &Scenario, seed: u64, staged: Option<Staged>) -
 fn report(args: &RunArgs, text: &str, staged: Option<Staged>) -> Result<()> {
     let contents = staged.map(Staged::finish).transpose()?;
     match (contents, &args.out) {
-        (Some(contents), Some(out)) if !args.json => super::say(&format!("{text}wrote {}: {contents}", out.display())),
+        (Some(contents), Some(out)) if !args.json => super::say(&(text.to_owned() + &super::wrote(out, &contents))),
         _ if args.json => super::say(text),
         _ => super::say(
             &(text.to_owned() + &table::entry("figures", "none without `--out DIR`, which also keeps truth.csv")),

@@ -45,11 +45,14 @@ impl Answers {
 
     /// Whether a command was told to be unsupported before.
     fn was_told(&mut self, ack: &COMMAND_ACK_DATA, origin: Origin) -> bool {
+        if ack.result != MavResult::MAV_RESULT_UNSUPPORTED {
+            return false;
+        }
         let before = self.unsupported.contains(&origin);
-        if ack.result == MavResult::MAV_RESULT_UNSUPPORTED && !before && self.unsupported.len() < UNSUPPORTED_MAX {
+        if !before && self.unsupported.len() < UNSUPPORTED_MAX {
             self.unsupported.push(origin);
         }
-        before && ack.result == MavResult::MAV_RESULT_UNSUPPORTED
+        before
     }
 }
 

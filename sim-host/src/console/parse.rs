@@ -205,7 +205,8 @@ pub const COMMANDS: &[Entry] = &[
     )
     .with_details(
         "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5` (rotor 1), \
-         `fault motor off -i 1` (the same rotor, all of it), `fault collapse factor=0.8`; from now on for good, or `from_s=` and `to_s=` (s). The keys are those of \
+         `fault motor off -i 1` (the same rotor, all of it), `fault collapse factor=0.8`; from now on for good, or \
+         `from_s=` and `to_s=` (s). The keys are those of \
          `[[fault]]` in docs/simulation.md",
     ),
     Entry::new(&["faults"], "", "list the faults that act, and those to come", Reads::Nothing(Command::Faults)),

@@ -5,12 +5,9 @@ use std::path::Path;
 use anyhow::{Context as _, Result};
 
 use super::{Matrix, MatrixFile};
-use crate::controller::TuningFile;
-use crate::files::read_regular;
-use crate::scenario::{Scenario, beside};
-
-/// As much of a file as can be an airframe, bytes.
-const LARGEST: u64 = 1 << 20;
+use crate::controller::{Controller, TuningFile};
+use crate::files::{LARGEST, read_regular};
+use crate::scenario::{Scenario, airframe_of, beside};
 
 /// The name of a built-in file unchanged; of a path, the file's name without its extension, and without what
 /// [`Matrix::files`] puts before it.
@@ -35,27 +32,24 @@ impl Matrix {
         for (name, tuning) in tunings {
             kept.push((format!("tuning-{name}.toml"), toml::to_string(tuning).context("cannot write a tuning")?));
         }
-        let mut file = MatrixFile {
-            controllers: kept.iter().map(|(name, _)| name.clone()).collect(),
-            set: self.settings.clone(),
-            ..self.file.clone()
-        };
+        let mut file =
+            MatrixFile { controllers: kept.iter().map(|(name, _)| name.clone()).collect(), ..self.file.clone() };
+        let (_, first) = tunings.first().context("no controller was flown")?;
         for name in &self.file.scenarios {
             if Path::new(name).extension().is_some() {
-                let kept_as = self.keep_scenario(name, &mut kept)?;
+                let kept_as = self.keep_scenario(name, &first.controller, &mut kept)?;
                 file.rename_scenario(name, &kept_as);
             }
         }
-        let disturbing = file.disturbances.iter_mut().flat_map(|disturbance| &mut disturbance.set);
-        disturbing.chain(&mut file.set).try_for_each(|setting| keep_airframe(setting, &mut kept))?;
+        file.settings_mut().try_for_each(|setting| keep_airframe(setting, &mut kept))?;
         kept.push(("matrix.toml".to_owned(), toml::to_string(&file).context("cannot write the matrix")?));
         Ok(kept)
     }
 
     /// Adds a scenario without the settings of the matrix; returns the name of its file.
-    fn keep_scenario(&self, name: &str, kept: &mut Files) -> Result<String> {
+    fn keep_scenario(&self, name: &str, controller: &Controller, kept: &mut Files) -> Result<String> {
         let stem = short_name(name);
-        let scenario = Scenario::load_for(&beside(&self.name, name), &[], &self.fallback()?)?;
+        let scenario = Scenario::load_for(&beside(&self.name, name), &[], controller)?;
         let (scenario_file, airframe_file) = (format!("scenario-{stem}.toml"), format!("airframe-{stem}.toml"));
         let [scenario, airframe] = scenario.files_for_any_controller(&airframe_file)?;
         kept.extend([(scenario_file.clone(), scenario), (airframe_file, airframe)]);
@@ -79,17 +73,12 @@ impl MatrixFile {
 /// Adds the airframe's file that a setting names, and lets the setting name the copy.
 fn keep_airframe(setting: &mut String, kept: &mut Files) -> Result<()> {
     let Some(path) = airframe_of(setting).filter(|path| Path::new(path).is_file()) else { return Ok(()) };
-    let text = read_regular(Path::new(path), LARGEST).with_context(|| format!("cannot read airframe file `{path}`"))?;
-    let name = format!("airframe-{}.toml", short_name(path));
+    let text =
+        read_regular(Path::new(&path), LARGEST).with_context(|| format!("cannot read airframe file `{path}`"))?;
+    let name = format!("airframe-{}.toml", short_name(&path));
     *setting = format!("airframe={name}");
     if !kept.iter().any(|(known, _)| *known == name) {
         kept.push((name, text));
     }
     Ok(())
-}
-
-/// The airframe that a setting names, without its quotes.
-pub(super) fn airframe_of(setting: &str) -> Option<&str> {
-    let (key, value) = setting.split_once('=')?;
-    (key.trim() == "airframe").then(|| value.trim().trim_matches(['"', '\'']))
 }

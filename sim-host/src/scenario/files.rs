@@ -18,9 +18,7 @@ impl Scenario {
         let tuning = TuningFile { summary, controller: self.controller.clone() };
         Ok([("scenario.toml", text(&file)?), ("airframe.toml", text(&self.airframe)?), ("tuning.toml", text(&tuning)?)])
     }
-}
 
-impl Scenario {
     /// The scenario without gains, for whatever controller flies it, and its airframe, which is to lie beside it by this
     /// name.
     ///

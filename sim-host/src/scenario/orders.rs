@@ -13,7 +13,7 @@ const TURNS_DEG: f64 = 720.0;
 
 /// Refuses the first command that cannot be carried out.
 pub(super) fn commands(f: &ScenarioFile) -> Result<()> {
-    let ground_m = f.ground.then(|| f.world.ground_height_m.unwrap_or(f.start_position_m[2]));
+    let ground_m = f.ground.then(|| f.ground_height_m());
     let mut commands = f.command.iter().enumerate();
     commands.try_for_each(|(i, command)| order(&format!("command.{i}.order"), &command.order, ground_m))
 }

@@ -57,6 +57,12 @@ pub(crate) fn is_of_controller(text: &str) -> bool {
     Setting::parse(text).is_ok_and(|setting| setting.is_of_gains() || setting.split().0 == "tuning")
 }
 
+/// The airframe that a `KEY=VALUE` names.
+pub(crate) fn airframe_of(text: &str) -> Option<String> {
+    let setting = Setting::parse(text).ok().filter(|setting| setting.key == "airframe")?;
+    setting.value.as_str().map(str::to_owned)
+}
+
 /// A value as TOML has it; what is none, or more than one, is a string.
 pub(crate) fn value(text: &str) -> Value {
     let table = format!("value = {text}").parse::<Table>().ok().filter(|table| table.len() == 1);

@@ -149,7 +149,7 @@ fn world(f: &ScenarioFile) -> Result<()> {
 /// What acts on the airframe's own figures: whether the airframe has them, and how far each may go.
 fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
     let start_z = f.start_position_m[2];
-    let ground_m = f.world.ground_height_m.unwrap_or(start_z);
+    let ground_m = f.ground_height_m();
     within("world.ground_height_m", ground_m, -LENGTH_MAX_M, LENGTH_MAX_M)?;
     if ground_m > start_z {
         let rule = format!("must not be above the start, `start_position_m.2` = {start_z}");

@@ -81,6 +81,11 @@ impl ScenarioFile {
         self.start_velocity_m_s.is_some() || self.start_attitude_deg.is_some() || self.start_rates_rad_s.is_some()
     }
 
+    /// Height of the ground where there is some, or would be, m.
+    pub fn ground_height_m(&self) -> f64 {
+        self.world.ground_height_m.unwrap_or(self.start_position_m[2])
+    }
+
     /// The motion with which a flight under `seed` begins.
     pub fn start_motion(&self, seed: u64) -> Motion {
         let position = Vector3::from(self.start_position_m);
