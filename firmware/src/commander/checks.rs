@@ -28,8 +28,11 @@ impl Commander {
     /// Whether navigation, battery and rotors are fit for a flight.
     fn check_systems(&self, input: &CommanderInput) -> Result<(), Refusal> {
         let health = &input.health;
-        if input.nav_fresh && !(health.attitude && health.heading) {
+        if input.nav_fresh && !health.attitude {
             return Err(Refusal::NotAligned);
+        }
+        if input.nav_fresh && !health.heading {
+            return Err(Refusal::NoHeading);
         }
         check_position(input)?;
         if self.battery.charge() == Charge::Critical {

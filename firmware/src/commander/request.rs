@@ -113,8 +113,10 @@ pub enum Outcome {
 pub enum Refusal {
     /// No valid motion from the sensors.
     NoNavigation,
-    /// No valid estimate of roll and pitch, or of the heading.
+    /// No valid estimate of roll and pitch.
     NotAligned,
+    /// No valid estimate of the heading.
+    NoHeading,
     /// No valid estimate of position or velocity.
     NoPosition,
     /// No valid estimate of the height.

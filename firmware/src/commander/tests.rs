@@ -209,7 +209,7 @@ fn arming_is_refused_with_the_reason_and_lets_the_rotors_idle() {
     for (input, refusal) in [
         (spoil(&|i| i.nav_fresh = false), Refusal::NoNavigation),
         (spoil(&|i| i.health.attitude = false), Refusal::NotAligned),
-        (spoil(&|i| i.health.heading = false), Refusal::NotAligned),
+        (spoil(&|i| i.health.heading = false), Refusal::NoHeading),
         (spoil(&|i| i.health.position = false), Refusal::NoPosition),
         (spoil(&|i| i.health.velocity = false), Refusal::NoPosition),
         (spoil(&|i| i.health.height = false), Refusal::NoHeight),

@@ -45,6 +45,7 @@ impl Refusal {
         match self {
             Self::NoNavigation => "no sensor data",
             Self::NotAligned => "no valid attitude estimate",
+            Self::NoHeading => "no valid heading estimate",
             Self::NoPosition => "no valid position estimate",
             Self::NoHeight => "no valid height estimate",
             Self::NotLevel => "vehicle not level",
@@ -106,6 +107,7 @@ mod tests {
         let refusals = [
             Refusal::NoNavigation,
             Refusal::NotAligned,
+            Refusal::NoHeading,
             Refusal::NoPosition,
             Refusal::NoHeight,
             Refusal::NotLevel,

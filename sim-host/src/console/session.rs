@@ -382,7 +382,9 @@ fn refused(request: &Request, refusal: Refusal) -> String {
     let remedy = match refusal {
         Refusal::Disarmed => "; `arm` first",
         Refusal::OnGround => "; `takeoff` first",
-        Refusal::NoNavigation | Refusal::NotAligned | Refusal::NoPosition | Refusal::NoHeight => "; wait for sensors",
+        Refusal::NoNavigation | Refusal::NotAligned | Refusal::NoHeading | Refusal::NoPosition | Refusal::NoHeight => {
+            "; wait for sensors"
+        }
         // It stays so until the vehicle is armed again, also of a rotor that works.
         Refusal::RotorFailed if matches!(request, Request::Arm { .. }) => "; once it works (`clear`), `arm force`",
         _ => "",
