@@ -2,7 +2,8 @@
 //!
 //! The error is the distance from the scenario's own trajectory. It counts from the end of the joining path, if there
 //! is one, because guidance follows the trajectory only from there; from the step, if there is one; otherwise from the
-//! first tick.
+//! first tick. With a pilot it counts while the trajectory is flown, or, where the pilot asks for none, while the
+//! vehicle holds a place or moves to one in the air: then it is the distance from where the commander wants it.
 
 use anyhow::Result;
 use firmware::guidance::Trajectory;
@@ -10,9 +11,11 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use serde::Serialize;
 
 use crate::flight;
-use crate::record::{Recorder, Row};
+use crate::pilot::Order;
+use crate::record::{Activity, Recorder, Row};
 use crate::report::measures::{Settling, Size, Variation};
 use crate::report::metrics::{WIDE_BAND, errors};
+use crate::report::timeline::controls_position;
 use crate::scenario::Scenario;
 use crate::sil::Outcome;
 
@@ -44,10 +47,36 @@ pub struct Score {
     pub saturated_fraction: f64,
 }
 
+/// When a flight counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Counts {
+    /// From a time on, s.
+    From(f64),
+    /// With a pilot who asks for it: while the trajectory is flown, once it has been joined for so long, s.
+    Following(f64),
+    /// With a pilot who does not: while a position is controlled.
+    Flying,
+}
+
+impl Counts {
+    fn of(scenario: &Scenario) -> Self {
+        let script = &scenario.file.command;
+        match () {
+            () if script.is_empty() => Self::From(counts_from_s(scenario)),
+            () if script.iter().any(|command| command.order == Order::Follow) => Self::Following(joined_s(scenario)),
+            () => Self::Flying,
+        }
+    }
+}
+
 /// Scores a flight.
 #[derive(Clone, Debug)]
 pub struct Scorer {
-    from_s: f64,
+    counts: Counts,
+    /// Time of the first row that counted, s.
+    began_s: Option<f64>,
+    /// The newest row of a flight with a pilot, until it is known what the vehicle does.
+    newest: Row,
     distance: Size,
     settling: Settling,
     attitude: Size,
@@ -60,17 +89,34 @@ pub struct Scorer {
 impl Scorer {
     /// Before the first row of a flight of `scenario`.
     pub fn new(scenario: &Scenario) -> Self {
-        let from_s = counts_from_s(scenario);
         Self {
-            from_s,
+            counts: Counts::of(scenario),
+            began_s: None,
+            newest: Row::default(),
             distance: Size::default(),
             settling: Settling::new(WIDE_BAND),
             attitude: Size::default(),
             sunk: Size::default(),
             torque: Size::default(),
             omega: Size::default(),
-            chattering: Variation::from(from_s),
+            chattering: Variation::from(f64::NEG_INFINITY),
         }
+    }
+
+    /// Takes a row that counts.
+    fn count(&mut self, row: &Row) {
+        self.began_s.get_or_insert(row.t);
+        let [x, y, z, _] = errors(row);
+        let distance = Vector3::new(x, y, z).norm();
+        self.distance.take(distance);
+        self.settling.take(row.t, distance);
+        self.attitude.take(attitude_error(row));
+        // Above the trajectory, z < 0, no altitude is lost; NaN stays NaN.
+        self.sunk.take(if z < 0.0 { 0.0 } else { z });
+        let [_, roll, pitch, yaw] = row.u;
+        self.torque.take(Vector3::new(roll, pitch, yaw).norm());
+        row.omega.iter().for_each(|omega| self.omega.take(*omega));
+        self.chattering.take(row.t, row.omega_command);
     }
 
     /// The score of the finished flight.
@@ -87,7 +133,7 @@ impl Scorer {
         Score {
             rms_m: self.distance.rms(),
             max_m: self.distance.max(),
-            settle_s: self.settling.after(self.from_s),
+            settle_s: self.began_s.and_then(|began| self.settling.after(began)),
             attitude_max_rad: self.attitude.max(),
             altitude_lost_m: self.sunk.max(),
             torque_rms_n_m: self.torque.rms(),
@@ -101,20 +147,26 @@ impl Scorer {
 
 impl Recorder for Scorer {
     fn record(&mut self, row: &Row) {
-        if row.t < self.from_s {
-            return;
+        match self.counts {
+            Counts::From(from_s) if row.t < from_s => {}
+            Counts::From(_) => self.count(row),
+            Counts::Following(_) | Counts::Flying => self.newest = *row,
         }
-        let [x, y, z, _] = errors(row);
-        let distance = Vector3::new(x, y, z).norm();
-        self.distance.take(distance);
-        self.settling.take(row.t, distance);
-        self.attitude.take(attitude_error(row));
-        // Above the trajectory, z < 0, no altitude is lost; NaN stays NaN.
-        self.sunk.take(if z < 0.0 { 0.0 } else { z });
-        let [_, roll, pitch, yaw] = row.u;
-        self.torque.take(Vector3::new(roll, pitch, yaw).norm());
-        row.omega.iter().for_each(|omega| self.omega.take(*omega));
-        self.chattering.take(row.t, row.omega_command);
+    }
+
+    fn observe(&mut self, activity: &Activity) {
+        let is_counted = match self.counts {
+            Counts::From(_) => false,
+            Counts::Following(joined_s) => {
+                let start_s = activity.commander.flight_start().map(|tick| f64::from(tick) / 1e3);
+                start_s.is_some_and(|start| activity.t >= start + joined_s)
+            }
+            Counts::Flying => controls_position(activity.commander),
+        };
+        if is_counted {
+            let row = self.newest;
+            self.count(&row);
+        }
     }
 }
 
@@ -128,13 +180,20 @@ pub fn fly(scenario: &Scenario, seed: u64) -> Result<Score> {
     Ok(scorer.score(&outcome))
 }
 
-/// Start of the judged time of a scenario's flight, s.
+/// Start of the judged time of a flight without a pilot, s; with one, it is known when the trajectory is flown.
 pub fn counts_from_s(scenario: &Scenario) -> f64 {
-    let joined_s = scenario.file.join.as_ref().map_or(0.0, |join| f64::from(join.duration_s));
-    match scenario.file.trajectory {
-        Trajectory::Step { at_s, .. } => joined_s.max(f64::from(at_s)),
-        _ => joined_s,
+    if !scenario.file.command.is_empty() {
+        return 0.0;
     }
+    match scenario.file.trajectory {
+        Trajectory::Step { at_s, .. } => joined_s(scenario).max(f64::from(at_s)),
+        _ => joined_s(scenario),
+    }
+}
+
+/// How long the trajectory is joined, s.
+fn joined_s(scenario: &Scenario) -> f64 {
+    scenario.file.join.as_ref().map_or(0.0, |join| f64::from(join.duration_s))
 }
 
 /// The angle between the attitude and the desired one, rad.
@@ -147,6 +206,8 @@ fn attitude_error(row: &Row) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use firmware::commander::{CommanderOutput, Directive, Mode};
+
     use super::*;
     use crate::sil::End;
 
@@ -164,6 +225,11 @@ mod tests {
 
     fn level(t: f64) -> Row {
         Row { t, attitude: [1.0, 0.0, 0.0, 0.0], ..Row::default() }
+    }
+
+    fn on_the_ground() -> CommanderOutput {
+        let scenario = Scenario::load("indoor-helix", &[]).expect("valid");
+        firmware::autopilot::Autopilot::new(&scenario.flight_config()).expect("valid").inner.commander_output().clone()
     }
 
     fn assert_is(value: Option<f64>, expected: f64) {
@@ -196,6 +262,24 @@ mod tests {
         // A step at 1 s counts from there.
         assert_eq!(counts_from_s(&Scenario::load("x500-step", &[]).expect("valid")), 1.0);
         assert_eq!(counts_from_s(&Scenario::load("x500-recovery", &[]).expect("valid")), 0.0);
+    }
+
+    #[test]
+    fn a_flight_with_a_pilot_counts_while_its_trajectory_is_flown() {
+        let mut scorer = Scorer::new(&Scenario::load("indoor-helix", &[]).expect("valid"));
+        // 3 m off while it takes off and joins, which takes 4 s from 16 s on; then 1 cm.
+        for k in 0..30_000_u32 {
+            let t = f64::from(k) / 1e3;
+            let mode = if t < 10.0 { Mode::TakeOff } else { Mode::Follow };
+            let directive = if t < 16.0 { Directive::Idle } else { Directive::Follow { since: 16_000 } };
+            let commander = CommanderOutput { mode, directive, ..on_the_ground() };
+            scorer.record(&Row { position: [if t < 20.0 { 3.0 } else { 0.01 }, 0.0, 0.0], ..level(t) });
+            scorer.observe(&Activity { t, commander: &commander, given: 3, battery: None });
+        }
+        let score = scorer.score(&Outcome { ticks: 30_000, end: End::DurationReached, ..Outcome::default() });
+        assert_is(score.rms_m, 0.01);
+        assert_is(score.max_m, 0.01);
+        assert_is(score.settle_s, 0.0);
     }
 
     #[test]

@@ -251,17 +251,16 @@ impl TimelineRecorder {
         }
     }
 
-    /// The name of what is being done, and whether a position is controlled in it.
-    fn doing(&self, commander: &CommanderOutput) -> (&'static str, Option<usize>, bool) {
+    /// The name of what is being done, with a number where it is done more than once.
+    fn doing(&self, commander: &CommanderOutput) -> (&'static str, Option<usize>) {
         match commander.mode {
-            Mode::Disarmed if self.armed_before => ("disarmed", None, false),
-            Mode::Disarmed => ("before arming", None, false),
-            Mode::Idle if self.flown => ("landed", None, false),
-            Mode::Idle => ("armed", None, false),
-            Mode::GoTo => ("go-to", Some(self.legs_given()), true),
-            Mode::Follow if matches!(commander.directive, Directive::GoTo { .. }) => ("join", None, true),
-            mode @ (Mode::Descent | Mode::MotorOut) => (mode.name(), None, false),
-            mode => (mode.name(), None, true),
+            Mode::Disarmed if self.armed_before => ("disarmed", None),
+            Mode::Disarmed => ("before arming", None),
+            Mode::Idle if self.flown => ("landed", None),
+            Mode::Idle => ("armed", None),
+            Mode::GoTo => ("go-to", Some(self.legs_given())),
+            Mode::Follow if matches!(commander.directive, Directive::GoTo { .. }) => ("join", None),
+            mode => (mode.name(), None),
         }
     }
 
@@ -293,7 +292,7 @@ impl Recorder for TimelineRecorder {
         self.armed_before |= commander.armed;
         // Once disarmed, what comes is another flight.
         self.flown = commander.armed && (self.flown || !matches!(commander.mode, Mode::Disarmed | Mode::Idle));
-        let (name, number, controlled) = self.doing(commander);
+        let (name, number) = self.doing(commander);
         let is_same = self.course.timeline.phases.last().is_some_and(|phase| is_named(&phase.name, name, number));
         if !is_same {
             self.close();
@@ -301,10 +300,15 @@ impl Recorder for TimelineRecorder {
             let phase = Phase { name, from_s: activity.t, to_s: activity.t, ..Phase::default() };
             self.course.timeline.phases.push(phase);
         }
-        if controlled {
+        if controls_position(commander) {
             self.error.take(self.distance_m);
         }
     }
+}
+
+/// Whether the vehicle controls its position.
+pub fn controls_position(commander: &CommanderOutput) -> bool {
+    !matches!(commander.mode, Mode::Disarmed | Mode::Idle | Mode::Descent | Mode::MotorOut)
 }
 
 fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
