@@ -19,7 +19,8 @@ pub(super) fn refuse(error: &clap::Error) -> ExitCode {
     }
     let text = error.to_string();
     let (complaint, tip) = complaint(&text);
-    let tip = misplaced_scenario(error)
+    let tip = settings_of_paper(error)
+        .or_else(|| misplaced_scenario(error))
         .or(tip)
         .or_else(|| meant_command(error))
         .map_or(String::new(), |tip| format!(": {tip}"));
@@ -42,6 +43,15 @@ fn complaint(text: &str) -> (String, Option<String>) {
 fn misplaced_scenario(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
     scenario::is_built_in(word).then(|| format!("it is a scenario, which `sim-host run {word}` flies"))
+}
+
+/// `sim-host paper` flies what the paper states; another flight is made of one of its scenarios.
+fn settings_of_paper(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
+    let of_paper = std::env::args().nth(1).is_some_and(|command| command == "paper");
+    let remedy =
+        "`paper` flies the paper's own numbers; fly others as `sim-host run paper-ideal --set KEY=VALUE --out DIR`";
+    (of_paper && ["--set", "--seed"].iter().any(|flag| word.starts_with(flag))).then(|| remedy.to_owned())
 }
 
 /// The command that an unknown one may have meant, or all.

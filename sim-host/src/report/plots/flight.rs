@@ -7,7 +7,8 @@ use firmware::config::Start;
 use firmware::guidance::Trajectory;
 
 use super::backdrop::Backdrop;
-use super::{disturbance, estimate, path, phases, rotors, tracking};
+use super::inputs::Inputs;
+use super::{disturbance, estimate, inputs, path, phases, rotors, tracking};
 use crate::noise::Noise;
 use crate::pilot::{Command, Order};
 use crate::record::Row;
@@ -57,6 +58,8 @@ pub struct Figures<'a> {
     pub places: Vec<Option<[f64; 3]>>,
     /// Phases, faults and events.
     pub(super) backdrop: Backdrop,
+    /// The inputs of the decoupled model, where it is flown.
+    pub(super) inputs: Option<Inputs>,
 }
 
 impl<'a> Figures<'a> {
@@ -82,6 +85,7 @@ impl<'a> Figures<'a> {
             disturbance: applied(scenario, seed),
             places: places(&file.command, &course.legs),
             backdrop,
+            inputs: Inputs::of(scenario),
         }
     }
 
@@ -98,9 +102,10 @@ impl<'a> Figures<'a> {
             files.push(tracking::position(folder, self)?);
         }
         files.push(tracking::attitude(folder, self)?);
-        // The paper's decoupled equations have no rotors, and switch their inputs a hundred times between two rows:
-        // rows tell nothing of them. The figures of `paper` show their means.
-        if self.rows.is_empty() || rotors::turn(self.rows) {
+        // The paper's decoupled equations have no rotors.
+        if let Some(of) = &self.inputs {
+            files.push(inputs::inputs(folder, self, of)?);
+        } else if self.rows.is_empty() || rotors::turn(self.rows) {
             files.push(rotors::rotors(folder, self)?);
         }
         if self.kind == Kind::Tracking && tracking::errs(self.rows).next().is_some() {
@@ -145,7 +150,7 @@ fn places(script: &[Command], legs: &[Leg]) -> Vec<Option<[f64; 3]>> {
 
 /// The disturbances of a scenario as they were applied, a sample each tick: on the accelerations, or, where there are
 /// none, on the outputs.
-fn applied(scenario: &Scenario, seed: u64) -> Option<Disturbance> {
+pub(super) fn applied(scenario: &Scenario, seed: u64) -> Option<Disturbance> {
     let d = scenario.file.disturbance?;
     let mut noise = Noise::new(Some(&d), seed, 1000.0);
     let sample = |tick: u32| {

@@ -1,9 +1,9 @@
 //! The figures of a flight, an analysis, a comparison and a search, as SVG files that any browser shows.
 //!
 //! ```text
-//! Figures ─► tracking, rotors, path, disturbance, phases, estimate ─► Panel ─► page ─► svg ─► *.svg
-//!                                                        │             │ axis: ranges, units, ticks
-//!                                         series: points of lines      │ backdrop: phases, faults, events
+//! Figures ─► tracking, rotors, inputs, path, disturbance, phases, estimate ─► Panel ─► page ─► svg ─► *.svg
+//!                                                                │             │ axis: ranges, units, ticks
+//!                                                 series: points of lines      │ backdrop: phases, faults, events
 //! ```
 //!
 //! Rules, the same in every figure:
@@ -24,6 +24,7 @@ mod convergence;
 mod disturbance;
 mod estimate;
 mod flight;
+mod inputs;
 mod page;
 mod panel;
 pub mod paper;

@@ -2,10 +2,6 @@
 //!
 //! The text gives no time windows. Where two lines coincide after the approach, the approach and the error are shown:
 //! the first second holds every time that the paper names; its times are marked.
-//!
-//! On the surface a control input switches every 10 µs (its mean ± m K, or ± I K). What is drawn is its mean over the
-//! millisecond from one row to the next, as the motion tells it, in the band within which it switches: single values
-//! taken every millisecond would show one side of the switching alone.
 
 use std::path::{Path, PathBuf};
 
@@ -15,22 +11,19 @@ use super::axis::{Quantity, Unit};
 use super::backdrop::Backdrop;
 use super::disturbance::{applied_panel, error_panel};
 use super::flight::{Disturbance, Figures};
+use super::inputs::{APPROACH_S, Inputs, SWITCHES};
 use super::page::{grid, save, size_of};
 use super::panel::{ANGLES, POSITIONS, Panel};
 use super::path;
 use super::series::{Points, angle_over_time, angles_deg, over_time, thin_path};
 use super::style::{Color, INK, Key, Role, palette};
 use super::tracking::phase_panel;
-use crate::angles::roll_pitch_yaw;
-use crate::decoupled::STEP_S;
 use crate::paper::claims::{ALTITUDE_AT_REST, ALTITUDE_ERROR, Y_FOLLOWS, Z_FOLLOWS};
 use crate::paper::flights::{Flights, Flown, SEED};
 use crate::record::Row;
 use crate::report::metrics::errors;
 use crate::report::timeline::Course;
 
-/// What is shown of the approach, s.
-const APPROACH_S: f64 = 1.0;
 /// Height of a panel: of four in a figure, of six or nine, and of twelve.
 const HIGH: u32 = 310;
 const MIDDLE: u32 = 250;
@@ -39,7 +32,6 @@ const LOW: u32 = 215;
 const DISTANCES: (f64, f64) = (-5.0, 2.0);
 const FOLLOWING: [Key; 3] = [Key::Reference, Key::Flown, Key::Start];
 const SURFACE: Key = Key::Line("surface s = 0", Role::Series(palette::GREEN));
-const SWITCHES: Key = Key::Series("switches within", palette::BAND);
 
 /// Draws all into `folder`. Returns the files written, in the paper's order.
 ///
@@ -69,19 +61,11 @@ fn altitude(folder: &Path, flown: &Flown) -> Result<PathBuf> {
         (settled, &format!("{settled} s: {:.0} mm, paper 2 mm", millimetres(settled))),
     ]);
     let error = Panel { backdrop: claimed, ..titled("b) tracking error", error_panel(start, 2)) };
-    let constants = flown.scenario.constants();
-    let mean = |pair: &[Row]| {
-        let acceleration = (pair[1].velocity[2] - pair[0].velocity[2]) / (pair[1].t - pair[0].t);
-        constants.mass * (acceleration + constants.gravity) + constants.drag.z * pair[0].velocity[2]
-    };
-    let thrust: Points = start.windows(2).map(|pair| (pair[0].t, mean(pair))).collect();
-    let gain = f64::from(flown.control().z.gain);
-    let sliding = Sliding { from_s: reached(start, 5, gain), swing: constants.mass * gain };
     let panels = [
         titled("a) altitude", tracking(&flown.rows, 2)),
         error,
         surface(flown, 2, "c) phase plot"),
-        switched("d) control input", Quantity::new("U1", Unit::Newton), thrust, &sliding),
+        input(flown, "d) control input", 0),
     ];
     let path = folder.join("figure-2-altitude.svg");
     let legend = [FOLLOWING.as_slice(), &[SURFACE, SWITCHES]].concat();
@@ -116,21 +100,11 @@ fn attitude(folder: &Path, flown: &Flown) -> Result<PathBuf> {
     let start = approach(&flown.rows);
     let panels: Vec<Panel> = (0..3)
         .flat_map(|axis| {
-            let (name, input) = (ANGLES[axis], format!("U{}", axis + 2));
-            let control = flown.control();
-            let gains = [&control.roll, &control.pitch, &control.yaw][axis];
-            let gain = f64::from(gains.gain);
-            let swing = flown.scenario.constants().inertia[axis] * gain;
-            let sliding = Sliding { from_s: reached(start, axis, gain), swing };
+            let name = ANGLES[axis];
             [
                 titled(&format!("{name}: tracking"), angle(&flown.rows, axis)),
                 titled(&format!("{name}: error of the first second"), error_panel(start, axis + 3)),
-                switched(
-                    &format!("{name}: control input"),
-                    Quantity::new(input, Unit::NewtonMetre),
-                    mean_torque(flown, start, axis),
-                    &sliding,
-                ),
+                input(flown, &format!("{name}: control input"), axis + 1),
             ]
         })
         .collect();
@@ -261,40 +235,12 @@ fn surface(flown: &Flown, axis: usize, title: &str) -> Panel {
     Panel { lines, places: at_rest.map(place).into_iter().collect(), ..panel }
 }
 
-/// From when on a control input switches, and by how much around its mean.
-struct Sliding {
-    from_s: f64,
-    swing: f64,
-}
-
-/// When a sliding variable comes within what a step of the decoupled model moves it by, s.
-fn reached(rows: &[Row], variable: usize, gain: f64) -> f64 {
-    let row = rows.iter().find(|row| row.s[variable].abs() <= gain * STEP_S);
-    row.map_or(f64::INFINITY, |row| row.t)
-}
-
-/// A control input by its mean, with the band within which it switches.
-fn switched(title: &str, up: Quantity, mean: Points, sliding: &Sliding) -> Panel {
-    let edge = |by: f64| mean.iter().filter(|(t, _)| *t > sliding.from_s).map(|(t, u)| (*t, u + by)).collect();
-    let band = Some((edge(-sliding.swing), edge(sliding.swing)));
-    Panel { band, span: Some((0.0, APPROACH_S)), ..Panel::over_time(title, up, vec![(Role::Flown, mean)]) }
-}
-
-/// The torque about an axis (N m) as the motion tells it: Eq. 2 for U2, U3 or U4, with Ωr = 0.
-fn mean_torque(flown: &Flown, rows: &[Row], axis: usize) -> Points {
-    let constants = flown.scenario.constants();
-    let (inertia, drag) = (&constants.inertia, &constants.rotational_drag);
-    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-    let torque = |rows: &[Row]| {
-        let [before, now, after] = [0, 1, 2].map(|i| roll_pitch_yaw(rows[i].attitude));
-        let h = rows[1].t - rows[0].t;
-        let rate = |i: usize| (after[i] - before[i]) / (2.0 * h);
-        let acceleration = (after[axis] - 2.0 * now[axis] + before[axis]) / (h * h);
-        let gyroscopic = (inertia[next] - inertia[last]) * rate(next) * rate(last);
-        let torque = inertia[axis] * acceleration + drag[axis] * rate(axis) * rate(axis).abs() - gyroscopic;
-        (rows[1].t, torque)
-    };
-    rows.windows(3).map(torque).collect()
+/// U1 to U4, by index from 0, of the first second.
+fn input(flown: &Flown, title: &str, input: usize) -> Panel {
+    let start = approach(&flown.rows);
+    let inputs = Inputs::new(&flown.scenario, flown.control());
+    let mean = inputs.mean(start, input, None);
+    Panel { span: Some((0.0, APPROACH_S)), ..inputs.panel(title, start, input, mean) }
 }
 
 fn from_above(title: &str, flown: &Flown) -> Panel {

@@ -64,6 +64,7 @@ pub(super) fn figures(rows: &[Row]) -> Figures<'_> {
         beliefs: &[],
         disturbance: Some(Disturbance { samples: samples(), on_accelerations: true, acting: (5.0, 10.0) }),
         places: vec![],
+        inputs: None,
         backdrop: backdrop::Backdrop::default(),
     }
 }

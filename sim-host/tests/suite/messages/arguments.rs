@@ -49,6 +49,12 @@ fn ranges_of_seeds_and_numbers_of_threads_say_what_they_may_be() {
 }
 
 #[test]
+fn the_papers_flights_are_not_changed_but_others_are() {
+    let remedy = "`sim-host run paper-ideal --set KEY=VALUE --out DIR`";
+    Folder::new("paper-set").refuses(&["paper", "--set", "control.z.gain=3"], &["'--set'", remedy]);
+}
+
+#[test]
 fn seeds_that_make_no_difference_are_said_once() {
     let folder = Folder::new("idle");
     let note = "the seed makes no difference: `helix` has no random part";
