@@ -1,6 +1,6 @@
 //! Robustness of a scenario: its disturbances' standard deviations are scaled up until it fails.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use serde::Serialize;
 
 use crate::flight;
@@ -57,7 +57,7 @@ impl Recorder for Extremes {
 /// was held and the first that was not, `refinements` times. In the order in which they were flown.
 ///
 /// # Errors
-/// The scenario has no disturbance.
+/// The scenario has no disturbance, or is still on its way to its reference when it begins.
 pub fn sweep(scenario: &Scenario, seed: u64, refinements: u32) -> Result<Vec<Strength>> {
     let base = scenario.file.disturbance.with_context(|| {
         format!(
@@ -107,6 +107,14 @@ fn fly(scenario: &Scenario, base: &Disturbance, factor: f64, seed: u64) -> Resul
     let outcome = flight::fly(&scenario, seed, &mut recorder)?;
     let (metrics, extremes) = recorder;
     let recovery = if outcome.survived() { metrics.recovery(base.from_s) } else { Recovery::default() };
+    ensure!(
+        recovery.away().is_empty(),
+        "scenario `{}`: when its disturbance begins, {} is further off than 5 cm (2°) already: set `disturbance.from_s` to \
+         more than {}, or gains that follow",
+        scenario.name,
+        recovery.away().join(", "),
+        base.from_s
+    );
     let in_time = |time: &Option<f64>| time.is_some_and(|time| time <= DISTURBANCE_REMOVED.time_s);
     Ok(Strength {
         factor,
@@ -141,5 +149,13 @@ mod tests {
     fn a_scenario_without_a_disturbance_is_refused() {
         let scenario = Scenario::load("helix", &[]).expect("valid");
         assert!(sweep(&scenario, 1, 0).is_err());
+    }
+
+    #[test]
+    fn a_disturbance_that_begins_on_the_way_is_refused() {
+        let settings = ["duration_s=3", "disturbance={from_s=0.3,to_s=2.5,hold_s=0.001,acceleration_m_s2=0.1}"];
+        let scenario = Scenario::load("helix", &settings.map(String::from)).expect("valid");
+        let error = sweep(&scenario, 1, 0).expect_err("x and y start metres away").to_string();
+        assert!(error.contains("x, y") && error.contains("`disturbance.from_s`"), "{error}");
     }
 }

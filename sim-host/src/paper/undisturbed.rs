@@ -137,9 +137,7 @@ fn y_follows(ideal: &Flown, y: &Approach) -> Line {
 }
 
 fn attitude(flown: &Flown, uy: f64) -> Line {
-    let recovery = flown.metrics.recovery(0.0);
-    let here =
-        [recovery.roll, recovery.pitch, recovery.yaw].into_iter().try_fold(0.0_f64, |t, axis| Some(t.max(axis?)));
+    let here = flown.metrics.angles_settled_s().into_iter().try_fold(0.0_f64, |t, axis| Some(t.max(axis?)));
     let why = format!(
         "its references come from Eq. 11, which has no solution here: at the start Eq. 31 asks for Uy = {uy:.2}, and an arc \
          sine takes 1 at most. Flown are stated angles (0.5 sin t, 0.4 cos t, 0.3 cos t/2 rad)."

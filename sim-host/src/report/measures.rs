@@ -5,20 +5,22 @@
 pub struct Settling {
     band: f64,
     since: Option<f64>,
+    /// When it was outside last: from when on.
+    left: Option<f64>,
 }
 
 impl Settling {
     /// Settled means |e| < `band`, in the error's unit.
     pub fn new(band: f64) -> Self {
-        Self { band, since: None }
+        Self { band, since: None, left: None }
     }
 
     /// Takes the error at time `t` (s). A NaN is outside of every band.
     pub fn take(&mut self, t: f64, error: f64) {
         if error.abs() < self.band {
             self.since.get_or_insert(t);
-        } else {
-            self.since = None;
+        } else if self.since.take().is_some() || self.left.is_none() {
+            self.left = Some(t);
         }
     }
 
@@ -30,6 +32,11 @@ impl Settling {
     /// How long after `onset_s` that was: 0 if the error has not left the band since.
     pub fn after(&self, onset_s: f64) -> Option<f64> {
         self.since.map(|since| (since - onset_s).max(0.0))
+    }
+
+    /// Whether it was outside at `onset_s` already, and not inside since, or only when it settled.
+    pub fn was_outside_at(&self, onset_s: f64) -> bool {
+        self.left.is_some_and(|left| left <= onset_s) && self.since.is_none_or(|since| since > onset_s)
     }
 }
 

@@ -97,7 +97,8 @@ pub struct EndErrors {
     pub yaw_rad: f64,
 }
 
-/// Time from a disturbance's onset until the error stays within 5 cm, or 2° for an angle, s.
+/// Time from a disturbance's onset until the error stays within 5 cm, or 2° for an angle, s. `None` if it does not, and
+/// if it was outside at the onset already, which is not the disturbance's doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Recovery {
     /// North.
@@ -112,12 +113,23 @@ pub struct Recovery {
     pub roll: Option<f64>,
     /// Pitch.
     pub pitch: Option<f64>,
+    /// Which of x, y, z, roll, pitch, yaw were outside at the onset already.
+    #[serde(skip)]
+    pub outside: [bool; 6],
 }
 
 impl Recovery {
+    /// The names of what [`as_array`](Self::as_array) has.
+    pub const NAMES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+
     /// x, y, z, roll, pitch, yaw.
     pub fn as_array(&self) -> [Option<f64>; 6] {
         [self.x, self.y, self.z, self.roll, self.pitch, self.yaw]
+    }
+
+    /// The names of those that were outside at the onset already.
+    pub fn away(&self) -> Vec<&'static str> {
+        Self::NAMES.into_iter().zip(self.outside).filter_map(|(name, outside)| outside.then_some(name)).collect()
     }
 }
 
@@ -287,9 +299,18 @@ impl Metrics {
         if !self.last_t.is_some_and(|last| last > onset_s) {
             return Recovery::default();
         }
-        let [x, y, z, _] = self.axes.map(|axis| axis.wide.after(onset_s));
-        let [roll, pitch, yaw] = self.angles.map(|angle| angle.after(onset_s));
-        Recovery { x, y, z, yaw, roll, pitch }
+        let [x, y, z, _] = self.axes.map(|axis| axis.wide);
+        let [roll, pitch, yaw] = self.angles;
+        let all = [x, y, z, roll, pitch, yaw];
+        let outside = all.map(|settling| settling.was_outside_at(onset_s));
+        let [x, y, z, roll, pitch, yaw] =
+            all.map(|settling| settling.after(onset_s).filter(|_| !settling.was_outside_at(onset_s)));
+        Recovery { x, y, z, yaw, roll, pitch, outside }
+    }
+
+    /// From when on roll, pitch and yaw stay within 2° of what is desired, s.
+    pub fn angles_settled_s(&self) -> [Option<f64>; 3] {
+        self.angles.map(|angle| angle.since())
     }
 }
 

@@ -137,13 +137,29 @@ fn effort_is_the_rms_of_each_component() {
 #[test]
 fn recovery_counts_from_the_onset() {
     let onset = 5.0;
-    let kicked = |t: f64| if (onset..onset + 0.2).contains(&t) { 0.06 } else { 0.0 };
+    let kicked = |t: f64| if t > onset && t < onset + 0.2 { 0.06 } else { 0.0 };
     let metrics = fly(8.0, |t| Row { position: [kicked(t), kicked(t) / 2.0, -kicked(t)], ..hover(t) });
     let recovery = metrics.recovery(onset);
     assert_near(recovery.x, 0.2, 1e-12);
     assert_eq!(recovery.y, Some(0.0), "3 cm never left the band");
     assert_eq!(recovery.yaw, Some(0.0));
-    assert_eq!(fly(8.0, |t| Row { position: [t, 0.0, 0.0], ..hover(t) }).recovery(onset).x, None);
+    let leaving = |t: f64| if t > 6.0 { t } else { 0.0 };
+    let gone = fly(8.0, |t| Row { position: [leaving(t), 0.0, 0.0], ..hover(t) }).recovery(onset);
+    assert_eq!((gone.x, gone.away()), (None, vec![]));
+}
+
+#[test]
+fn what_was_off_before_the_onset_is_not_the_disturbances_doing() {
+    let onset = 5.0;
+    // x arrives at 6 s, y has never been there, z arrives at 4 s and is pushed out once more at 6 s.
+    let arriving = |t: f64| if t < 6.0 { 1.0 } else { 0.0 };
+    let pushed = |t: f64| if t < 4.0 || (6.0..6.5).contains(&t) { 1.0 } else { 0.0 };
+    let metrics = fly(8.0, |t| Row { position: [arriving(t), 1.0, pushed(t)], ..hover(t) });
+    let recovery = metrics.recovery(onset);
+    assert_eq!((recovery.x, recovery.y, recovery.away()), (None, None, vec!["x", "y"]));
+    assert_near(recovery.z, 1.5, 1e-12);
+    let at_once = metrics.recovery(0.0);
+    assert_eq!(at_once.away(), ["x", "y"], "z has been inside since, and was pushed out by the disturbance");
 }
 
 #[test]
