@@ -24,7 +24,7 @@ use crate::scenario::{Group, PlantKind, Scenario};
 use crate::sil::{End, Outcome};
 
 /// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
-const FIGURES_UP_TO_S: f64 = 600.0;
+pub(super) const FIGURES_UP_TO_S: f64 = 600.0;
 
 /// By which a provenance.toml is known to be ours.
 pub(super) const PROGRAM: &str = "sim-host";
@@ -66,7 +66,7 @@ pub(super) fn fly_into(
     };
     let taken = take(scenario, seed, visible, folder.truth()?, is_drawn.then(Vec::new), sensed)?;
     folder.summary(&taken.summary)?;
-    draw(scenario, seed, folder, &taken)?;
+    draw(scenario, settings, seed, folder, &taken)?;
     Ok(taken.summary)
 }
 
@@ -243,10 +243,10 @@ fn provenance_beside(scenario: &str) -> Option<Table> {
     (path.file_name()? == "scenario.toml" && is_ours).then_some(flown)
 }
 
-fn draw(scenario: &Scenario, seed: u64, folder: &OutFolder, taken: &Taken) -> Result<()> {
+fn draw(scenario: &Scenario, settings: &[String], seed: u64, folder: &OutFolder, taken: &Taken) -> Result<()> {
     let Taken { rows, beliefs, course, .. } = taken;
     if !rows.is_empty() {
-        folder.figures(&Figures::new(scenario, seed, rows, beliefs, course))?;
+        folder.figures(&Figures::new(scenario, seed, rows, beliefs, course).with_settings(settings))?;
     }
     Ok(())
 }

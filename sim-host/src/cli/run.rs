@@ -15,6 +15,13 @@ use crate::words::counted;
 pub(super) fn run(args: &RunArgs) -> Result<()> {
     let scenario = args.which.load()?;
     super::note_idle_seeds(&scenario, args.seeds.is_some() || args.seed.is_some_and(|seed| seed != 1));
+    let duration_s = scenario.file.duration_s;
+    if args.out.is_some() && duration_s > fly::FIGURES_UP_TO_S {
+        super::complain(&format!(
+            "note: no figures: they are drawn of flights up to {} s, and `duration_s` is {duration_s}",
+            fly::FIGURES_UP_TO_S
+        ));
+    }
     interrupt::listen();
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
     match args.seeds {

@@ -59,6 +59,8 @@ pub struct Watch {
     landed: bool,
     mode: Mode,
     ready: Steady<Result<(), Refusal>>,
+    /// Why it could not be armed, since it last could.
+    reasons: Vec<Refusal>,
     position: Steady<bool>,
     /// Whether it was told that the position is unknown, and not yet that it is known again.
     lost: bool,
@@ -79,6 +81,7 @@ impl Watch {
             landed: commander.landed,
             mode: commander.mode,
             ready: Steady::new(),
+            reasons: Vec::new(),
             position: Steady { told: Some(true), seen: None },
             lost: false,
             home: flight.plant().motion().position,
@@ -188,13 +191,25 @@ impl Watch {
         if commander.armed {
             return;
         }
-        if let Some(ready) = self.ready.see(tick, commander.armable) {
-            match ready {
-                Ok(()) => tell(Tone::Good, "ready to arm".to_owned()),
-                Err(refusal) => tell(Tone::Refused, format!("not ready to arm: {}", refusal.reason())),
-            }
+        if let Some(ready) = self.ready.see(tick, commander.armable)
+            && let Some((tone, text)) = ready_text(&mut self.reasons, ready)
+        {
+            tell(tone, text);
         }
     }
+}
+
+/// What is said of whether it can be armed: each reason why not once, until it can. After a crash they take turns.
+fn ready_text(reasons: &mut Vec<Refusal>, ready: Result<(), Refusal>) -> Option<(Tone, String)> {
+    let Err(refusal) = ready else {
+        reasons.clear();
+        return Some((Tone::Good, "ready to arm".to_owned()));
+    };
+    let is_new = !reasons.contains(&refusal);
+    is_new.then(|| {
+        reasons.push(refusal);
+        (Tone::Refused, format!("not ready to arm: {}", refusal.reason()))
+    })
 }
 
 /// What is said of a position that has become known or unknown. On the ground whether it may be armed tells of one that
@@ -239,6 +254,23 @@ mod tests {
         assert_eq!(say(false, true), Some("navigation: position unknown"));
         assert_eq!(say(true, false), Some("navigation: position known again"));
         assert_eq!(say(true, true), None, "armed again");
+    }
+
+    #[test]
+    fn reasons_that_take_turns_are_told_once_until_it_can_be_armed() {
+        let mut reasons = Vec::new();
+        let mut says = |ready| ready_text(&mut reasons, ready).map(|(_, text)| text);
+        let (level, moving) = (Err(Refusal::NotLevel), Err(Refusal::Moving));
+        let told: Vec<String> =
+            [level, moving, level, moving, Ok(()), level].into_iter().filter_map(&mut says).collect();
+        let not_ready = |reason: &str| format!("not ready to arm: {reason}");
+        let expected = [
+            not_ready("vehicle not level"),
+            not_ready("vehicle moving"),
+            "ready to arm".to_owned(),
+            not_ready("vehicle not level"),
+        ];
+        assert_eq!(told, expected);
     }
 
     #[test]

@@ -221,9 +221,18 @@ pub const COMMANDS: &[Entry] = &[
 /// # Errors
 /// One line with the mistake and what to type instead.
 pub fn parse(line: &str, now: Tick) -> Result<Option<Command>> {
-    let words: Vec<&str> = line.split_whitespace().take_while(|word| !word.starts_with('#')).collect();
+    let mut words: Vec<&str> = line.split_whitespace().take_while(|word| !word.starts_with('#')).collect();
+    from_px4(&mut words);
     let Some((name, arguments)) = words.split_first() else { return Ok(None) };
     entry(name)?.read(arguments, now).map(Some)
+}
+
+/// PX4's shell has its vehicle's commands below another one, and a flag for `force`.
+fn from_px4(words: &mut Vec<&str>) {
+    if words.len() > 1 && words[0].eq_ignore_ascii_case("commander") {
+        words.remove(0);
+        words.iter_mut().filter(|word| **word == "-f").for_each(|word| *word = "force");
+    }
 }
 
 /// The command of a name, whatever its case.

@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use firmware::config::Start;
+use firmware::control::sliding::{AxisGains, Surface};
 use firmware::guidance::Trajectory;
 
 use super::backdrop::Backdrop;
 use super::inputs::Inputs;
 use super::{disturbance, estimate, inputs, path, phases, rotors, tracking};
+use crate::controller::Controller;
 use crate::noise::Noise;
 use crate::pilot::{Command, Order};
 use crate::record::Row;
@@ -58,6 +60,8 @@ pub struct Figures<'a> {
     pub places: Vec<Option<[f64; 3]>>,
     /// Phases, faults and events.
     pub(super) backdrop: Backdrop,
+    /// Gains of x, y and z, where the phase portraits end on their surfaces.
+    pub(super) surfaces: Option<[AxisGains; 3]>,
     /// The inputs of the decoupled model, where it is flown.
     pub(super) inputs: Option<Inputs>,
 }
@@ -85,8 +89,24 @@ impl<'a> Figures<'a> {
             disturbance: applied(scenario, seed),
             places: places(&file.command, &course.legs),
             backdrop,
+            surfaces: surfaces(scenario),
             inputs: Inputs::of(scenario),
         }
+    }
+
+    /// The same with the settings of the command line in the headings, as far as there is room.
+    #[must_use]
+    pub fn with_settings(mut self, settings: &[String]) -> Self {
+        /// Characters.
+        const ROOM: usize = 60;
+        let text = settings.join(", ");
+        if text.is_empty() {
+            return self;
+        }
+        let is_long = text.chars().count() > ROOM;
+        let text: String = text.chars().take(if is_long { ROOM - 1 } else { ROOM }).collect();
+        self.of = format!("{}, with {text}{}", self.of, if is_long { "…" } else { "" });
+        self
     }
 
     /// Draws every figure that applies into `folder`. Returns the files written.
@@ -136,6 +156,15 @@ impl<'a> Figures<'a> {
         let end = (last * 1e3 + 1.0).round() / 1e3;
         (last > first).then_some((first, if end.fract() == 0.0 { end } else { last }))
     }
+}
+
+/// Gains of x, y and z whose linear surfaces are those of the errors that are drawn: where a joining path is followed,
+/// the law's errors are others.
+fn surfaces(scenario: &Scenario) -> Option<[AxisGains; 3]> {
+    let Controller::Smc(control) = &scenario.controller else { return None };
+    let gains = [control.x, control.y, control.z];
+    let are_drawn = scenario.file.join.is_none() && gains.iter().all(|gains| gains.surface == Surface::Linear);
+    are_drawn.then_some(gains)
 }
 
 /// Where a script leads to, and nothing in place of what was refused, so that places keep the numbers of their phases.

@@ -17,7 +17,7 @@ use super::panel::{ANGLES, POSITIONS, Panel};
 use super::path;
 use super::series::{Points, angle_over_time, angles_deg, over_time, thin_path};
 use super::style::{Color, INK, Key, Role, palette};
-use super::tracking::phase_panel;
+use super::tracking::{SURFACE, phase_panel, with_surface};
 use crate::paper::claims::{ALTITUDE_AT_REST, ALTITUDE_ERROR, Y_FOLLOWS, Z_FOLLOWS};
 use crate::paper::flights::{Flights, Flown, SEED};
 use crate::record::Row;
@@ -31,7 +31,6 @@ const LOW: u32 = 215;
 /// Distances are shown from a hundredth of a millimetre on, as logarithms of metres.
 const DISTANCES: (f64, f64) = (-5.0, 2.0);
 const FOLLOWING: [Key; 3] = [Key::Reference, Key::Flown, Key::Start];
-const SURFACE: Key = Key::Line("surface s = 0", Role::Series(palette::GREEN));
 
 /// Draws all into `folder`. Returns the files written, in the paper's order.
 ///
@@ -218,21 +217,14 @@ fn angle(rows: &[Row], axis: usize) -> Panel {
 /// A phase portrait with the surface s = 0 that it ends on; where the paper says that z is at rest, a ring.
 fn surface(flown: &Flown, axis: usize, title: &str) -> Panel {
     let control = flown.control();
-    let lambda = f64::from([&control.x, &control.y, &control.z][axis].lambda);
-    let panel = titled(title, phase_panel(&flown.rows, axis));
-    let rates = || panel.lines.iter().flat_map(|(_, points)| points).map(|p| p.1).filter(|rate| rate.is_finite());
-    let (low, high) = rates().fold((0.0_f64, 0.0_f64), |(low, high), rate| (low.min(rate), high.max(rate)));
-    // A little further than it is slid along, so that it shows.
-    let (steep, over) = (1.15 * low, 0.6 * high.min(-low));
-    let line = vec![(-over / lambda, over), (-steep / lambda, steep)];
+    let gains = [&control.x, &control.y, &control.z][axis];
+    let panel = titled(title, with_surface(phase_panel(&flown.rows, axis), gains));
     let at_rest = (axis == 2).then(|| flown.at(ALTITUDE_AT_REST.time_s)).flatten();
     let place = |row: &Row| {
         let error = errors(row)[axis];
-        ((error, -lambda * error), format!("{} s", ALTITUDE_AT_REST.time_s))
+        ((error, -f64::from(gains.lambda) * error), format!("{} s", ALTITUDE_AT_REST.time_s))
     };
-    let surface = (Role::Series(palette::GREEN), line);
-    let lines = std::iter::once(surface).chain(panel.lines.iter().cloned()).collect();
-    Panel { lines, places: at_rest.map(place).into_iter().collect(), ..panel }
+    Panel { places: at_rest.map(place).into_iter().collect(), ..panel }
 }
 
 /// U1 to U4, by index from 0, of the first second.

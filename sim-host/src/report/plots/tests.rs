@@ -64,6 +64,7 @@ pub(super) fn figures(rows: &[Row]) -> Figures<'_> {
         beliefs: &[],
         disturbance: Some(Disturbance { samples: samples(), on_accelerations: true, acting: (5.0, 10.0) }),
         places: vec![],
+        surfaces: None,
         inputs: None,
         backdrop: backdrop::Backdrop::default(),
     }
@@ -170,6 +171,19 @@ fn axes_have_units_and_figures_have_headings() {
     says("phase", &[">y error, m<", ">y error rate, m/s<", "start"]);
     says("disturbance", &["disturbance, m/s²", "disturbance, rad/s²"]);
     says("path", &["x (north), m", "y (west), m", "z (up), m", "from above", "height"]);
+}
+
+#[test]
+fn settings_stand_in_the_headings_as_far_as_there_is_room() {
+    let rows = made_up(1.0);
+    let of = |settings: &[&str]| {
+        let settings: Vec<String> = settings.iter().map(|setting| (*setting).to_owned()).collect();
+        figures(&rows).with_settings(&settings).of
+    };
+    assert_eq!(of(&[]), "made-up, seed 1");
+    assert_eq!(of(&["control.z.gain=1", "ground=true"]), "made-up, seed 1, with control.z.gain=1, ground=true");
+    let long = "x".repeat(70);
+    assert_eq!(of(&[&long]), format!("made-up, seed 1, with {}…", "x".repeat(59)));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use firmware::control::sliding::{AxisGains, SlidingAxis};
 use firmware::schedule::OUTER;
 use firmware::signals::TICK_S;
 
@@ -11,7 +12,7 @@ use super::flight::{Figures, Kind};
 use super::page::{grid, save, size_of};
 use super::panel::{ANGLES, DIRECTIONS, POSITIONS, Panel};
 use super::series::{BREAK, Points, angle_over_time, angles_deg, gaps, over_time, phase, thin_series};
-use super::style::{Key, Role};
+use super::style::{Key, Role, palette};
 use crate::record::Row;
 use crate::report::metrics::{TRACKING_FROM_S, angle_errors, errors};
 
@@ -21,6 +22,10 @@ const PANEL: u32 = 235;
 const SHRINKS: f64 = 8.0;
 /// A position error that never exceeds this is noise, and its portrait a dot, m.
 const PORTRAIT_FROM_M: f64 = 1e-3;
+
+const SURFACE_ROLE: Role = Role::Series(palette::GREEN);
+/// The legend of a sliding surface.
+pub(super) const SURFACE: Key = Key::Line("surface s = 0", SURFACE_ROLE);
 
 /// The error of one axis in the unit of its panel, of a row.
 type ErrorOf = fn(&Row, usize) -> f64;
@@ -86,12 +91,17 @@ fn demanded(rows: &[Row]) -> Vec<Row> {
 /// # Errors
 /// As [`position`].
 pub(super) fn portraits(folder: &Path, figures: &Figures) -> Result<PathBuf> {
-    let panels: Vec<_> = errs(figures.rows).map(|axis| phase_panel(figures.rows, axis)).collect();
+    let panel = |axis: usize| {
+        let panel = phase_panel(figures.rows, axis);
+        figures.surfaces.map_or(panel.clone(), |gains| with_surface(panel, &gains[axis]))
+    };
+    let panels: Vec<_> = errs(figures.rows).map(panel).collect();
     let columns = panels.len().max(1);
     let path = folder.join("phase.svg");
     let heading = figures.heading("Phase portraits of the position error");
     let jumps = panels.iter().any(Panel::jumps).then_some(Key::Jump);
-    let legend: Vec<Key> = [Key::Flown, Key::Start].into_iter().chain(jumps).collect();
+    let surface = figures.surfaces.map(|_| SURFACE);
+    let legend: Vec<Key> = [Key::Flown, Key::Start].into_iter().chain(surface).chain(jumps).collect();
     save(&path, size_of(1, 400), &heading, &legend, |area| grid(area, columns, &panels))?;
     Ok(path)
 }
@@ -109,6 +119,29 @@ pub(super) fn phase_panel(rows: &[Row], axis: usize) -> Panel {
     let points = phase(rows, axis);
     let lines = vec![(Role::Jump, gaps(&points)), (Role::Flown, points)];
     Panel { lines, ..Panel::path(name, error, rate, vec![]) }
+}
+
+/// A phase portrait with the surface s = 0 on which it ends, as far as rates like those flown go.
+pub(super) fn with_surface(panel: Panel, gains: &AxisGains) -> Panel {
+    /// From one end to the other.
+    const SAMPLES: u32 = 200;
+    let flown = || panel.lines.iter().flat_map(|(_, points)| points).filter(|point| point.0.is_finite());
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
+    };
+    let (left, right) = range(&mut flown().map(|point| point.0));
+    let (low, high) = range(&mut flown().map(|point| point.1));
+    // A little further than it is slid along, so that it shows.
+    let (steepest, over) = (1.15 * low.min(-high), 0.6 * high.max(-low));
+    let mut axis = SlidingAxis::new(gains, TICK_S);
+    let (left, width) = (left - 0.1 * (right - left), 1.2 * (right - left));
+    let error = |i: u32| left + width * f64::from(i) / f64::from(SAMPLES);
+    // At rest s is λ e, or what stands for it far away; on the surface ė is as much the other way.
+    let mut on_surface = |error: f64| (error, -f64::from(axis.correction(error as f32, 0.0, true).s));
+    let line: Points =
+        (0..=SAMPLES).map(|i| on_surface(error(i))).filter(|(_, rate)| (steepest..=over).contains(rate)).collect();
+    let lines = std::iter::once((SURFACE_ROLE, line)).chain(panel.lines.iter().cloned()).collect();
+    Panel { lines, ..panel }
 }
 
 /// Saves a row of panels for each axis: what was flown beside the reference, the error, and, where the approach would

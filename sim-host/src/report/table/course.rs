@@ -29,9 +29,13 @@ pub(super) fn render(told: &Told, sensed: Option<&Sensed>) -> String {
     text + "\n"
 }
 
+/// The shortest phase that has a row, s: half of the last digit of its times.
+const SHORTEST_S: f64 = 0.05;
+
 fn phases(phases: &[Phase]) -> String {
     let mut rows = vec![["phase", "from", "to", "error RMS", "maximum"].map(String::from)];
-    for phase in phases {
+    // What the vehicle passed through in less than a row shows is no phase of the flight.
+    for phase in phases.iter().filter(|phase| phase.to_s - phase.from_s >= SHORTEST_S) {
         let times = [phase.from_s, phase.to_s].map(|t| format!("{t:.1} s"));
         let [from, to] = times;
         rows.push([phase.name.clone(), from, to, metres(phase.error_rms_m), metres(phase.error_max_m)]);
@@ -109,7 +113,11 @@ mod tests {
             places: vec![Place { order: "take-off to 5 m".into(), off_m: 0.21 }],
             battery: Some([1.0, 0.823]),
             timeline: Timeline {
-                phases: vec![phase("before arming", 0.0, 2.5, None), phase("take-off", 2.5, 8.125, Some(0.034))],
+                phases: vec![
+                    phase("before arming", 0.0, 2.48, None),
+                    phase("armed", 2.48, 2.5, None),
+                    phase("take-off", 2.5, 8.125, Some(0.034)),
+                ],
                 events: vec![
                     event(2.5, EventKind::Order, "arm"),
                     event(30.0, EventKind::FaultBegins, "fault: gnss off"),
