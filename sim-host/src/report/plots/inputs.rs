@@ -94,8 +94,11 @@ impl Inputs {
             None => (5, self.constants.mass),
             Some(axis) => (axis, self.constants.inertia[axis]),
         };
-        let reached = rows.iter().find(|row| row.s[variable].abs() <= gain * STEP_S).map_or(f64::INFINITY, |row| row.t);
-        switches.then_some(Sliding { from_s: reached, swing: inertia * gain })
+        let swing = inertia * gain;
+        let reached = rows.iter().position(|row| row.s[variable].abs() <= gain * STEP_S)?;
+        // An axis that is at rest where s is 0 does not switch at all.
+        let does = rows[reached..].iter().any(|row| row.u[input].abs() > 0.5 * swing);
+        (switches && does).then_some(Sliding { from_s: rows[reached].t, swing })
     }
 
     /// m (z̈ + g − d) + k3 ż, with d the disturbance.

@@ -21,6 +21,9 @@ const BUCKETS: usize = 500;
 /// accelerated so.
 const JUMP_M_S: f64 = 1.0;
 
+/// A reference that is so much further in the next row has jumped there, m: the fastest that flies moves less.
+const JUMP_M: f64 = 0.2;
+
 /// An angle that changes by more from one row to the next has passed ±180°.
 const HALF_A_TURN_DEG: f64 = 180.0;
 
@@ -54,11 +57,13 @@ pub(super) fn phase(rows: &[Row], axis: usize) -> Points {
     thin_path((0..rows.len()).map(point).collect())
 }
 
-/// The reference's path, m, interrupted where it jumps.
+/// The reference's path, m, interrupted where it jumps to another place.
 pub(super) fn reference_path(rows: &[Row]) -> Vec<[f64; 3]> {
-    let place = |k: usize| match rows[k].reference {
-        [x, y, z, _] if !(0..3).any(|axis| jumps(rows, k, axis)) => [x, y, z],
-        _ => [f64::NAN; 3],
+    let is_far = |a: &Row, b: &Row| (0..3).any(|axis| (a.reference[axis] - b.reference[axis]).abs() > JUMP_M);
+    let place = |k: usize| {
+        let [before, now, after] = around(rows, k);
+        let [x, y, z, _] = now.reference;
+        if is_far(before, now) || is_far(now, after) { [f64::NAN; 3] } else { [x, y, z] }
     };
     (0..rows.len()).map(place).collect()
 }

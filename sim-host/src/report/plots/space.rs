@@ -48,6 +48,8 @@ pub(super) struct Frame {
     low: [f64; 3],
     high: [f64; 3],
     step: f64,
+    /// From where to where the paths go in the picture, right and up, m.
+    paths: [Option<(f64, f64)>; 2],
 }
 
 impl Frame {
@@ -69,8 +71,14 @@ impl Frame {
             (if flown - low < BELOW * step { flown } else { low }, high)
         };
         let ranges = [widen(ranges[0]), widen(ranges[1]), up(floor(ranges[2]))];
+        let both = |row: &Row| {
+            let [x, y, z, _] = row.reference;
+            [project(row.position), project([x, y, z])]
+        };
+        let paths = || rows.iter().flat_map(both);
         // An edge may be passed by a hair without another step.
         Self {
+            paths: [extent(paths().map(|p| p.0)), extent(paths().map(|p| p.1))],
             low: ranges.map(|(low, _)| (low / step + HAIR).floor() * step),
             high: ranges.map(|(_, high)| (high / step - HAIR).ceil() * step),
             step,
@@ -83,12 +91,14 @@ impl Frame {
         (0..=count).map(move |i| self.low[axis] + f64::from(i) * self.step)
     }
 
-    /// From where to where the picture goes: right and up, m.
+    /// From where to where the picture goes, right and up, m: it holds the floor, the upright and the paths.
     fn picture(&self) -> ((f64, f64), (f64, f64)) {
-        let pick = |corner: usize, axis: usize| if corner >> axis & 1 == 0 { self.low[axis] } else { self.high[axis] };
-        let corners: Points = (0..8).map(|corner| project([0, 1, 2].map(|axis| pick(corner, axis)))).collect();
-        let range = |of: fn(&(f64, f64)) -> f64| extent(corners.iter().map(of)).unwrap_or((0.0, 1.0));
-        (range(|p| p.0), range(|p| p.1))
+        let drawn: Points = self.lines().into_iter().flatten().map(project).collect();
+        let range = |of: fn(&(f64, f64)) -> f64, paths: Option<(f64, f64)>| {
+            let ends = paths.into_iter().flat_map(|(low, high)| [low, high]);
+            extent(drawn.iter().map(of).chain(ends)).unwrap_or((0.0, 1.0))
+        };
+        (range(|p| p.0, self.paths[0]), range(|p| p.1, self.paths[1]))
     }
 
     /// The height that a picture of a width needs, pixels.
