@@ -39,7 +39,6 @@ use anyhow::Result;
 use firmware::control::attitude::SlidingAttitude;
 use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
-use nalgebra::Complex;
 use serde::Serialize;
 
 use crate::baseline::geometric::{GeometricAttitude, GeometricPosition};
@@ -102,8 +101,10 @@ pub struct Loop {
     pub stable: bool,
     /// Its margins, linear.
     pub margins: Margins,
-    /// Around the crossover.
+    /// Around the crossover; none of a loop that is not stable.
     pub checks: Vec<Check>,
+    /// Frequencies of those that are left out, rad/s: there the response had not settled, as near a margin.
+    pub unsettled_rad_s: Vec<f64>,
     /// 5 % on either side of each gain margin, and the whole steps on either side of the delay margin, 7 % off at
     /// least: the other loops, closed, shift it by some of that, and a flight closer to it would take too long to
     /// decide.
@@ -228,11 +229,23 @@ where
         value: at(*omega).value,
     });
     let margins = Margins::of(&response, Some(nyquist));
-    let mut made = Loop { name: which.name(), stable: true, margins, checks: vec![], margin_checks: vec![], response };
+    let mut made = Loop {
+        name: which.name(),
+        stable: true,
+        margins,
+        checks: vec![],
+        unsettled_rad_s: vec![],
+        margin_checks: vec![],
+        response,
+    };
     let Some(crossover) = margins.crossover_rad_s else { return Ok(made) };
     made.stable = rig.is_stable(which, &at(crossover), crossover, Change::NONE)?;
-    for omega in [0.3, 0.6, 1.0, 1.7, 3.0].map(|times| times * crossover).into_iter().filter(|w| *w < 0.8 * nyquist) {
-        made.checks.push(check(rig, which, &at(omega), omega, crossover)?);
+    let around = [0.3, 0.6, 1.0, 1.7, 3.0].map(|times| times * crossover);
+    for omega in around.into_iter().filter(|omega| made.stable && *omega < 0.8 * nyquist) {
+        match check(rig, which, &at(omega), omega, crossover)? {
+            Some(check) => made.checks.push(check),
+            None => made.unsettled_rad_s.push(omega),
+        }
     }
     for (change, omega, expected_stable) in near_margins(&margins, which.step_s()) {
         let stable = rig.is_stable(which, &at(omega), omega, change)?;
@@ -242,19 +255,19 @@ where
     Ok(made)
 }
 
-fn check<A, P>(rig: &Rig<A, P>, which: Which, linear: &LoopAt, omega: f64, crossover: f64) -> Result<Check>
+fn check<A, P>(rig: &Rig<A, P>, which: Which, linear: &LoopAt, omega: f64, crossover: f64) -> Result<Option<Check>>
 where
     A: AttitudeLaw + Clone,
     P: PositionLaw + Clone,
 {
-    let simulated: Complex<f64> = rig.measure(which, linear, omega, crossover)?;
+    let Some(simulated) = rig.measure(which, linear, omega, crossover)? else { return Ok(None) };
     let ratio = simulated / linear.value;
-    Ok(Check {
+    Ok(Some(Check {
         linear: Sample { omega_rad_s: omega, value: linear.value },
         simulated: Sample { omega_rad_s: omega, value: simulated },
         gain_error: size(ratio) - 1.0,
         phase_error_deg: angle(ratio).to_degrees(),
-    })
+    }))
 }
 
 /// Changes on either side of each margin, with the frequency of oscillation and whether the loop should stay stable.

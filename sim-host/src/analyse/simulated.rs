@@ -19,8 +19,15 @@ use crate::record::{Recorder, Row};
 use crate::scenario::Scenario;
 use crate::sil::Lockstep as _;
 
-/// Settling time before the response to a sinusoid is evaluated, in units of 1/ω of the crossover.
+/// Settling time before the response to a sinusoid is evaluated for the first time, in units of 1/ω of the crossover.
 const SETTLING: f64 = 30.0;
+
+/// How often it is doubled at most, until L is the same before and after: a loop near its margin takes long.
+const DOUBLINGS: usize = 6;
+
+/// L at the beginning and after twice the time is the same if it differs by less than this part of it: the least that is
+/// shown, 0.1 %.
+const SETTLED: f64 = 1e-3;
 
 /// Duration of a flight at a margin: in units of 1/ω, and in steps at least.
 const WATCHED: f64 = 400.0;
@@ -71,22 +78,29 @@ impl<A: AttitudeLaw + Clone, P: PositionLaw + Clone> Rig<'_, A, P> {
         Ok(())
     }
 
-    /// L at a frequency, measured: a sinusoid is added to the demand, and the law's demand is compared with the sum.
+    /// L at a frequency, measured: a sinusoid is added to the demand, and the law's demand is compared with the sum. `None`
+    /// if it does not settle.
     pub(super) fn measure(
         &self,
         which: Which,
         linear: &LoopAt,
         omega_rad_s: f64,
         crossover: f64,
-    ) -> Result<Complex<f64>> {
+    ) -> Result<Option<Complex<f64>>> {
         let step_s = which.step_s();
-        let schedule = Schedule::new(omega_rad_s, step_s, SETTLING / crossover);
         let amplitude = linear.small * size(linear.value + 1.0) / size(linear.weights[0]);
         let signal = Signal::Sine { amplitude, omega_step: omega_rad_s * step_s };
-        let asked = self.asked(which, Change::NONE, signal, schedule.steps())?;
-        let answer = schedule.amplitudes(asked.into_iter());
-        let returned: Complex<f64> = linear.weights.iter().zip(answer).map(|(weight, part)| weight * part).sum();
-        Ok(-returned / (returned + linear.weights[0] * amplitude))
+        let mut early = Schedule::new(omega_rad_s, step_s, SETTLING / crossover);
+        for _ in 0..DOUBLINGS {
+            let late = early.later();
+            let asked = self.asked(which, Change::NONE, signal, late.steps())?;
+            let [before, after] = [early, late].map(|schedule| opened(linear, amplitude, &schedule, &asked));
+            if size(after - before) < SETTLED * size(after) {
+                return Ok(Some(after));
+            }
+            early = late;
+        }
+        Ok(None)
     }
 
     /// Whether a loop comes to rest after a push, with a change that would make it oscillate at about ω.
@@ -129,6 +143,13 @@ impl<A: AttitudeLaw + Clone, P: PositionLaw + Clone> Rig<'_, A, P> {
         let sum: f64 = settled.iter().map(|row| change(row).norm_squared()).sum();
         Ok((sum / (4 * settled.len()) as f64).sqrt())
     }
+}
+
+/// L of what a law asked for while a sinusoid of an amplitude was added to it.
+fn opened(linear: &LoopAt, amplitude: f64, schedule: &Schedule, asked: &[[f64; 3]]) -> Complex<f64> {
+    let answer = schedule.amplitudes(asked.iter().copied());
+    let returned: Complex<f64> = linear.weights.iter().zip(answer).map(|(weight, part)| weight * part).sum();
+    -returned / (returned + linear.weights[0] * amplitude)
 }
 
 /// An attitude to hold: turned about one axis.

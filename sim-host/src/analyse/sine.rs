@@ -22,6 +22,11 @@ impl Schedule {
         Self { omega_step, settle: (settle_s / step_s) as u32, window: (periods * period).round() as u32 }
     }
 
+    /// The same after twice the time to settle.
+    pub(super) fn later(self) -> Self {
+        Self { settle: 2 * self.settle, ..self }
+    }
+
     /// Total number of steps.
     pub(super) fn steps(&self) -> u32 {
         self.settle + self.window

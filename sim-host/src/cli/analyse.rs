@@ -32,6 +32,7 @@ fn table(analysis: &Analysis) -> String {
         "loop", "ωc rad/s", "gain up", "gain down", "phase °", "delay ms", "Ms", "L simulated"
     ));
     lines.extend(analysis.loops.iter().map(loop_line));
+    lines.extend(analysis.loops.iter().filter_map(left_out));
     lines.push(String::new());
     lines.push(format!("{:<5}  {:>15}  {:>9}  {:>9}", "angle", "bandwidth rad/s", "rise ms", "overshoot"));
     lines.extend(analysis.attitude.iter().map(|axis| {
@@ -62,6 +63,7 @@ fn loop_line(one: &Loop) -> String {
     let gain_error = one.checks.iter().fold(0.0_f64, |most, c| most.max(c.gain_error.abs()));
     let phase_error = one.checks.iter().fold(0.0_f64, |most, c| most.max(c.phase_error_deg.abs()));
     let within = format!("{:.1} %, {phase_error:.1}°", 100.0 * gain_error);
+    let within = if one.checks.is_empty() { number(None, 0) } else { within };
     let confirmed = one.margin_checks.iter().filter(|c| c.stable == c.expected_stable).count();
     let end = if one.stable { format!("{confirmed} of {} hold", one.margin_checks.len()) } else { "UNSTABLE".into() };
     format!(
@@ -76,6 +78,42 @@ fn loop_line(one: &Loop) -> String {
     )
 }
 
+/// At which frequencies L was not measured.
+fn left_out(one: &Loop) -> Option<String> {
+    let frequencies: Vec<String> = one.unsettled_rad_s.iter().map(|omega| format!("{omega:.0}")).collect();
+    let name = one.name;
+    (!frequencies.is_empty()).then(|| {
+        let list = frequencies.join(", ");
+        format!("{name}: L simulated leaves out {list} rad/s, where it had not settled")
+    })
+}
+
 fn number(value: Option<f64>, digits: usize) -> String {
     value.map_or("-".to_owned(), |v| format!("{v:.digits$}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analyse::Margins;
+
+    #[test]
+    fn what_has_not_settled_is_left_out_and_said() {
+        let margins = Margins::default();
+        let unsettled_rad_s = vec![110.2, 220.4];
+        let one = Loop {
+            name: "roll",
+            stable: true,
+            margins,
+            checks: vec![],
+            unsettled_rad_s,
+            margin_checks: vec![],
+            response: vec![],
+        };
+        let line = loop_line(&one);
+        assert!(line.ends_with("  -  0 of 0 hold"), "{line}");
+        let expected = "roll: L simulated leaves out 110, 220 rad/s, where it had not settled";
+        assert_eq!(left_out(&one).as_deref(), Some(expected));
+        assert_eq!(left_out(&Loop { unsettled_rad_s: vec![], ..one }), None);
+    }
 }
