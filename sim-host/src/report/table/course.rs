@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::{aligned, undefined};
+use super::aligned;
+use super::numbers::undefined;
 use crate::report::sensed::{Knowledge, Sensed};
 use crate::report::summary::Told;
 use crate::report::timeline::{Event, EventKind, Phase};
