@@ -8,6 +8,11 @@ pub fn counted<T: Copy + Display + PartialEq + From<u8>>(count: T, noun: &str) -
     format!("{count} {noun}{plural}")
 }
 
+/// A number to so many significant digits; the decimal conversion rounds correctly, hence alike everywhere.
+pub fn significant(value: f64, digits: usize) -> f64 {
+    format!("{value:.0$e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}
+
 /// What we call something for which pilots have another word, those of PX4 and ArduPilot.
 pub fn as_pilots_say(word: &str) -> Option<&'static str> {
     Some(match word {
@@ -59,6 +64,12 @@ mod tests {
     fn one_is_singular() {
         let texts = [0_u64, 1, 2].map(|count| counted(count, "flight"));
         assert_eq!(texts, ["0 flights", "1 flight", "2 flights"]);
+    }
+
+    #[test]
+    fn digits_are_counted_from_the_first_that_is_none_zero() {
+        let rounded = [0.0, 0.004_876_3, -2.005, 99.96, 123_456.0].map(|value| significant(value, 3));
+        assert_eq!(rounded, [0.0, 0.004_88, -2.0, 100.0, 123_000.0]);
     }
 
     #[test]

@@ -4,7 +4,9 @@ use anyhow::Result;
 
 use super::Which;
 use crate::paper::claims::DISTURBANCE_REMOVED;
+use crate::refusal::figure;
 use crate::sweep::{Strength, sweep};
+use crate::words::significant;
 
 /// Halvings of the interval in which the failure lies: to 3 % of the factor.
 const REFINEMENTS: u32 = 5;
@@ -16,6 +18,11 @@ pub(super) fn run(which: &Which, seed: u64, as_json: bool) -> Result<()> {
     super::say(&if as_json { serde_json::to_string(&flown)? } else { table(&flown) })
 }
 
+/// A standard deviation to three digits, however small: a factor may be a thousandth.
+fn sigma(value: f64) -> String {
+    figure(significant(value, 3))
+}
+
 fn table(flown: &[Strength]) -> String {
     let mut lines = vec![format!(
         "{:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  end",
@@ -25,12 +32,12 @@ fn table(flown: &[Strength]) -> String {
         let slowest = s.recovery_s.as_array().iter().try_fold(0.0_f64, |most, time| Some(most.max((*time)?)));
         let slowest = slowest.map_or("never".to_owned(), |time| format!("{time:.3}"));
         lines.push(format!(
-            "{:>9.2}  {:>9.1}  {:>9.1}  {:>9.3}  {:>9.2}  {slowest:>9}  {:>9.3}  {:>9.3}  {}",
+            "{:>9.2}  {:>9}  {:>9}  {:>9}  {:>9}  {slowest:>9}  {:>9.3}  {:>9.3}  {}",
             s.factor,
-            s.acceleration_m_s2,
-            s.angular_acceleration_rad_s2,
-            s.position_output_m,
-            s.angle_output_rad.to_degrees(),
+            sigma(s.acceleration_m_s2),
+            sigma(s.angular_acceleration_rad_s2),
+            sigma(s.position_output_m),
+            sigma(s.angle_output_rad.to_degrees()),
             1e3 * s.position_max_m,
             s.angle_max_rad.to_degrees(),
             if s.held { "held" } else { "FAILED" }
@@ -45,4 +52,28 @@ fn table(flown: &[Strength]) -> String {
         lines.push("failed at every strength: perhaps without a disturbance too, as `run` shows".to_owned());
     }
     lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::metrics::Recovery;
+
+    #[test]
+    fn a_small_deviation_is_no_zero() {
+        let strength = Strength {
+            factor: 0.031_25,
+            acceleration_m_s2: 0.004_876,
+            angular_acceleration_rad_s2: 20.0 / 3.0,
+            position_output_m: 0.0,
+            angle_output_rad: 2e-6,
+            recovery_s: Recovery::default(),
+            position_max_m: 0.1,
+            angle_max_rad: 0.0,
+            held: false,
+        };
+        let text = table(&[strength]);
+        let row: Vec<&str> = text.lines().nth(1).expect("a row").split_whitespace().collect();
+        assert_eq!(row, ["0.03", "0.00488", "6.67", "0", "1.15e-4", "never", "100.000", "0.000", "FAILED"]);
+    }
 }

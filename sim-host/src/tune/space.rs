@@ -8,6 +8,7 @@ use toml::{Table, Value};
 
 use crate::controller::{Controller, TuningFile};
 use crate::refusal::typed;
+use crate::words::significant;
 
 /// Scale of a range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -47,7 +48,7 @@ impl Parameter {
             Scale::Log => self.low * libm::pow(self.high / self.low, x),
             Scale::Linear => self.low + (self.high - self.low) * x,
         };
-        rounded(value)
+        significant(value, DIGITS)
     }
 
     /// Its name: the first of its keys.
@@ -59,7 +60,7 @@ impl Parameter {
     fn settings(&self, x: f64) -> impl Iterator<Item = (&str, f64)> {
         let value = self.value(x);
         let factor = |i: usize| self.factors.as_ref().map_or(1.0, |factors| factors[i]);
-        self.keys.iter().enumerate().map(move |(i, key)| (key.as_str(), rounded(value * factor(i))))
+        self.keys.iter().enumerate().map(move |(i, key)| (key.as_str(), significant(value * factor(i), DIGITS)))
     }
 
     fn validate(&self) -> Result<()> {
@@ -83,11 +84,6 @@ impl Parameter {
         );
         Ok(())
     }
-}
-
-/// To [`DIGITS`] significant digits; the decimal conversion rounds correctly, hence alike everywhere.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.0$e}", DIGITS - 1).parse().unwrap_or(value)
 }
 
 /// A tuning file and its varied parameters.
