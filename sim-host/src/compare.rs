@@ -261,6 +261,11 @@ impl<'a> Contest<'a> {
         &self.tunings
     }
 
+    /// Its cells, in the order in which they are flown.
+    pub fn cases(&self) -> &[Case] {
+        &self.cases
+    }
+
     /// The number of flights.
     pub fn flights(&self) -> usize {
         let seeds = |case: &Case| case.seeds(self.matrix.file.seeds).count();

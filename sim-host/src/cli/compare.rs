@@ -6,9 +6,10 @@ use serde::Serialize;
 use super::CompareArgs;
 use super::fly::PROGRAM;
 use crate::compare::{Comparison, Contest};
-use crate::matrix::Matrix;
+use crate::matrix::{Case, Matrix};
 use crate::report::{OutFolder, Staged, comparison, progress};
 use crate::seeds::Seeds;
+use crate::words::counted;
 
 pub(super) fn run(args: &CompareArgs) -> Result<()> {
     let mut matrix = Matrix::load(&args.matrix, &args.settings.set)?;
@@ -20,6 +21,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
     // Before the flights, which take a while: a folder that cannot be written is better known now.
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
     let contest = Contest::new(&matrix)?;
+    note_late(contest.cases());
     let found = fly(&contest, args)?;
     if let Some(staged) = &staged {
         provenance(&staged.folder(), &matrix, &contest)?;
@@ -30,6 +32,24 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
         return super::say(&serde_json::to_string(&found)?);
     }
     super::say(&super::and_wrote(comparison::render(&found), args.out.as_deref(), contents))
+}
+
+/// Says of what begins after the end of a flight, once each, in which cell that is first and in how many more.
+fn note_late(cases: &[Case]) {
+    let mut notes: Vec<(String, &Case, usize)> = Vec::new();
+    for case in cases {
+        for late in case.scenario.file.too_late() {
+            let note = super::never_begins(&late);
+            match notes.iter_mut().find(|(known, ..)| *known == note) {
+                Some((.., more)) => *more += 1,
+                None => notes.push((note, case, 0)),
+            }
+        }
+    }
+    for (note, Case { scenario_name, disturbance_name, .. }, more) in notes {
+        let others = if more == 0 { String::new() } else { format!(", and {} more", counted(more, "cell")) };
+        super::complain(&format!("{note} ({scenario_name} under {disturbance_name}{others})"));
+    }
 }
 
 fn fly(contest: &Contest, args: &CompareArgs) -> Result<Comparison> {

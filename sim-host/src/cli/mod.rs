@@ -33,6 +33,7 @@ use numbers::{number, whole};
 
 use crate::interrupt::{self, Interrupted};
 use crate::link;
+use crate::refusal::Refusal;
 use crate::scenario::Scenario;
 use crate::seeds::{self, Seeds};
 use crate::serve::SPEEDS;
@@ -379,9 +380,14 @@ fn note_idle_seeds(scenario: &Scenario, given: bool) {
 fn load(name: &str, settings: &[String]) -> Result<Scenario> {
     let scenario = Scenario::load(name, settings)?;
     for late in scenario.file.too_late() {
-        complain(&format!("note: {late}: it never begins"));
+        complain(&never_begins(&late));
     }
     Ok(scenario)
+}
+
+/// The note of what comes after the end of a flight.
+fn never_begins(late: &Refusal) -> String {
+    format!("note: {late}: it never begins")
 }
 
 /// A result, and where its folder has been written, if one was.

@@ -208,6 +208,17 @@ fn what_begins_after_the_flight_is_told() {
 }
 
 #[test]
+fn of_a_comparison_it_is_told_once() {
+    let folder = Folder::new("late-cells");
+    let cells = ["compare", "--scenarios", "x500-hover,x500-step", "--disturbances", "none", "--seeds", "1..1"];
+    let late = ["--controllers", "x500-pid", "--set", "duration_s=2", "--set", "push=[{from_s=3.0,to_s=4.0}]"];
+    let (_, said) = folder.prints(&[cells.as_slice(), &late].concat());
+    let expected = "sim-host: note: `push.0.from_s` must be before the end of the flight, `duration_s` = 2, not 3: it \
+                    never begins (x500-hover under none, and 1 cell more)\n";
+    assert_eq!(said, expected);
+}
+
+#[test]
 fn a_scenario_may_have_any_name_as_long_as_it_is_there() {
     let folder = Folder::new("names");
     folder.file("README.md", "# Missions\n\nfly high\n");
