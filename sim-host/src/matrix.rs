@@ -19,7 +19,7 @@ pub use self::files::short_name;
 const OWN_GAINS: &str = "a comparison flies the gains of its tunings: write a tuning file and name it in";
 
 /// Matrices built into the binary.
-const MATRICES: [(&str, &str); 1] = glissade_files::built_in!("matrices": "x500");
+pub(crate) const MATRICES: [(&str, &str); 1] = glissade_files::built_in!("matrices": "x500");
 
 /// A disturbance, as settings of a scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -140,6 +140,7 @@ impl Matrix {
     /// One line with the first name that the matrix does not have.
     pub fn select(&mut self, scenarios: Option<&[String]>, disturbances: Option<&[String]>) -> Result<()> {
         if let Some(names) = scenarios {
+            let names = &self.file.in_full(names);
             known(names, self.file.scenarios.iter(), "scenario", &self.name)?;
             self.file.keep_scenarios(names);
         }
@@ -188,6 +189,15 @@ impl MatrixFile {
     /// All settings, of every scenario and of each disturbance.
     fn settings_mut(&mut self) -> impl Iterator<Item = &mut String> {
         self.disturbances.iter_mut().flat_map(|disturbance| &mut disturbance.set).chain(&mut self.set)
+    }
+
+    /// Its scenarios by the names that they are listed by, of these or of [`short_name`]s.
+    fn in_full(&self, names: &[String]) -> Vec<String> {
+        let full = |name: &String| {
+            let by_short_name = || self.scenarios.iter().find(|scenario| short_name(scenario) == name);
+            self.scenarios.iter().find(|scenario| *scenario == name).or_else(by_short_name).unwrap_or(name).clone()
+        };
+        names.iter().map(full).collect()
     }
 
     /// Keeps only some scenarios, here and where disturbances name them, so that what is left is a matrix too.
@@ -323,6 +333,16 @@ mod tests {
         again.validate().expect("valid");
         assert_eq!(again, matrix.file);
         assert_eq!(matrix.cases().expect("valid").len(), matrix.file.disturbances.len() - 1);
+    }
+
+    #[test]
+    fn a_scenario_by_its_path_is_selected_by_its_short_name_too() {
+        for name in ["square", "./mine/square.toml"] {
+            let mut matrix = Matrix::load("x500", &[]).expect("valid");
+            matrix.file.scenarios.push("./mine/square.toml".to_owned());
+            matrix.select(Some(&[name.to_owned()]), None).expect("known");
+            assert_eq!(matrix.file.scenarios, ["./mine/square.toml"], "{name}");
+        }
     }
 
     #[test]

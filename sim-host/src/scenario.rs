@@ -30,7 +30,7 @@ pub(crate) use settings::{airframe_of, is_of_controller, value};
 pub use world::{BatteryStart, Truth, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.
-const SCENARIOS: [(&str, &str); 37] = glissade_files::built_in!("scenarios":
+pub(crate) const SCENARIOS: [(&str, &str); 37] = glissade_files::built_in!("scenarios":
     "helix", "helix-tw4", "helix-lag", "figure-eight", "step", "hover", "pad",
     "paper-ideal", "paper-attitude", "paper-disturbed", "paper-disturbed-output", "paper-literal",
     "x500-hover", "x500-step", "x500-helix", "x500-eight", "x500-eight-tw4", "x500-recovery", "waypoints",
@@ -186,11 +186,6 @@ pub struct Listed {
     pub summary: String,
     /// What it has in common with others.
     pub group: Group,
-}
-
-/// Whether a scenario is built in by this name.
-pub(crate) fn is_built_in(name: &str) -> bool {
-    SCENARIOS.iter().any(|(known, _)| *known == name)
 }
 
 /// The built-in scenarios.

@@ -33,7 +33,7 @@ use crate::files;
 use crate::scenario::TUNINGS;
 
 /// Tunes built into the binary.
-const TUNES: [(&str, &str); 4] =
+pub(crate) const TUNES: [(&str, &str); 4] =
     glissade_files::built_in!("tunes": "x500-smc", "x500-pid", "x500-geometric", "x500-indi");
 
 /// Courses built into the binary.

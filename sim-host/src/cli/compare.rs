@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::CompareArgs;
 use super::fly::PROGRAM;
+use super::names::{self, Kind};
 use crate::compare::{Comparison, Contest};
 use crate::matrix::{Case, Matrix};
 use crate::report::{OutFolder, Staged, comparison, progress};
@@ -12,6 +13,7 @@ use crate::seeds::Seeds;
 use crate::words::counted;
 
 pub(super) fn run(args: &CompareArgs) -> Result<()> {
+    names::require(Kind::Matrix, &args.matrix)?;
     let mut matrix = Matrix::load(&args.matrix, &args.settings.set)?;
     if let Some(controllers) = &args.controllers {
         matrix.file.controllers.clone_from(controllers);

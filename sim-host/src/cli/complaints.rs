@@ -6,9 +6,8 @@ use std::process::ExitCode;
 use clap::CommandFactory as _;
 use clap::error::{ContextKind, ContextValue};
 
-use super::Cli;
+use super::{Cli, names};
 use crate::refusal::did_you_mean;
-use crate::scenario;
 use crate::words::printable;
 
 /// Help and version as clap prints them; its complaints, which take several lines, in one.
@@ -20,7 +19,7 @@ pub(super) fn refuse(error: &clap::Error) -> ExitCode {
     let text = error.to_string();
     let (complaint, tip) = complaint(&text);
     let tip = settings_of_paper(error)
-        .or_else(|| misplaced_scenario(error))
+        .or_else(|| misplaced_name(error))
         .or(tip)
         .or_else(|| meant_command(error))
         .map_or(String::new(), |tip| format!(": {tip}"));
@@ -40,9 +39,9 @@ fn complaint(text: &str) -> (String, Option<String>) {
 }
 
 /// `sim-host helix` means `sim-host run helix`.
-fn misplaced_scenario(error: &clap::Error) -> Option<String> {
+fn misplaced_name(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
-    scenario::is_built_in(word).then(|| format!("it is a scenario, which `sim-host run {word}` flies"))
+    names::meant(word).map(|meant| format!("it is {meant}"))
 }
 
 /// `sim-host paper` flies what the paper states; another flight is made of one of its scenarios.

@@ -11,6 +11,7 @@ mod compare;
 mod complaints;
 mod demo;
 mod fly;
+mod names;
 mod numbers;
 mod paper;
 mod pil;
@@ -378,6 +379,7 @@ fn note_idle_seeds(scenario: &Scenario, given: bool) {
 
 /// A scenario; what of it comes after its end is told, and flown without.
 fn load(name: &str, settings: &[String]) -> Result<Scenario> {
+    names::require(names::Kind::Scenario, name)?;
     let scenario = Scenario::load(name, settings)?;
     for late in scenario.file.too_late() {
         complain(&never_begins(&late));

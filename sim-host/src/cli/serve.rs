@@ -5,6 +5,7 @@ use std::net::SocketAddr;
 use anyhow::Result;
 
 use super::ServeArgs;
+use super::names::{self, Kind};
 use crate::console::Session;
 use crate::console::terminal::Stdio;
 use crate::flight;
@@ -14,6 +15,7 @@ use crate::scenario::Scenario;
 use crate::serve::{Flown, Pacing, serve};
 
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
+    names::require(Kind::Scenario, &args.scenario)?;
     let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
     scenario.require_rigid_body()?;
     let flight = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;

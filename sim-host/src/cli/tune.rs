@@ -8,12 +8,14 @@ use indicatif::ProgressBar;
 use sha2::{Digest as _, Sha256};
 
 use super::TuneArgs;
+use super::names::{self, Kind};
 use crate::report::out::cannot_write;
 use crate::report::{OutFolder, plots, progress, truth};
 use crate::tune::{Iteration, Journal, Parameter, Run, Settings, State, Tune, require_optimisers};
 use crate::words::counted;
 
 pub(super) fn run(args: &TuneArgs) -> Result<()> {
+    names::require(Kind::Tune, &args.tune)?;
     let tune = Tune::load(&args.tune)?;
     require_optimisers("tune")?;
     let journal = journal(args, &tune)?;

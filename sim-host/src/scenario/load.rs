@@ -11,7 +11,6 @@ use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
 use crate::files::{Source, read};
 use crate::refusal::{Refusal, typed};
-use crate::sensors::SUITES;
 
 /// A file that a scenario is made of, and what the command line has set in it.
 struct Layer {
@@ -133,7 +132,7 @@ impl Scenario {
 
     fn read(name: &str, settings: &[String], controller: Option<&Controller>) -> Result<Self> {
         let settings = settings.iter().map(|setting| Setting::parse(setting)).collect::<Result<Vec<_>>>()?;
-        let mut own = Layer::new(own_source(name)?, ("", ""))?;
+        let mut own = Layer::new(Source::read(name, "scenario", &SCENARIOS)?, ("", ""))?;
         let (mut of_airframe, mut of_gains) = (Vec::new(), Vec::new());
         for setting in &settings {
             match setting.split() {
@@ -188,16 +187,6 @@ impl Scenario {
         scenario.validate()?;
         Ok(scenario)
     }
-}
-
-/// The file of a scenario by its name or path.
-fn own_source(name: &str) -> Result<Source> {
-    let of_another_kind = [("tuning", TUNINGS.as_slice()), ("airframe", &AIRFRAMES), ("sensors", &SUITES)];
-    let key = of_another_kind.iter().find(|(_, files)| files.iter().any(|(known, _)| *known == name));
-    Source::read(name, "scenario", &SCENARIOS).map_err(|error| match key {
-        Some((key, _)) => anyhow!("`{name}` is no scenario: fly one with `--set {key}={name}`"),
-        None => error,
-    })
 }
 
 /// Refuses a setting of the airframe that the scenario has in its place: it would change nothing.
