@@ -60,6 +60,13 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("helix", "contrl.x.lambda=3", &["`contrl` is no key", "did you mean `control`?"]),
         ("helix", "control=3", &["`control` must be a table, not 3"]),
         ("helix", "control.x.reaching={power={alpha=2}}", &["`control.x.reaching.power.alpha` must be below 1, not 2"]),
+        ("helix", "control.z.reaching=tanh", &["`control.z.reaching` must be a table", "write {tanh={rho=…}}"]),
+        ("helix", "control.z.K=1", &["`control.z.K` is no key: the paper's K is `gain`"]),
+        (
+            "helix",
+            "control.z.rho=1",
+            &["`control.z.rho` is no key", "inside `reaching`, as in reaching={tanh={rho=…}}"],
+        ),
         ("helix", "control.x.reaching=sng", &["`control.x.reaching`", "`sng`", "did you mean `sgn`?"]),
         ("helix", "control.tilt_max_rad=1.6", &["`control.tilt_max_rad` must be below 1.5, not 1.6"]),
         ("helix", "airframe.mass=3", &["`airframe.mass` is no key", "did you mean `mass_kg`?"]),

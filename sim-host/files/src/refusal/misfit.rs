@@ -24,6 +24,8 @@ enum Reason {
     Missing(&'static str),
     UnknownKey(String, &'static [&'static str]),
     UnknownChoice(String, &'static [&'static str]),
+    /// A kind by its name alone, and the keys that it has.
+    BareKind(String, &'static [&'static str]),
     /// What it must be, and what was given; without that, whoever has the file looks it up.
     Kind {
         expected: String,
@@ -48,6 +50,11 @@ impl Misfit {
     /// A rule that the value breaks.
     pub(super) fn rule(rule: &'static str) -> Self {
         Reason::Rule(rule).into()
+    }
+
+    /// A kind by its name alone, which has these keys.
+    pub(super) fn bare_kind(name: String, keys: &'static [&'static str]) -> Self {
+        Reason::BareKind(name, keys).into()
     }
 
     /// A value of another kind than `expected`.
@@ -123,6 +130,7 @@ fn refusal(path: &str, reason: &Reason) -> Refusal {
         Reason::Missing(name) => Refusal::new(below(path, name), "is missing").remedy(format!("add `{name} = …`")),
         Reason::UnknownKey(name, known) => unknown_key(path, name, known),
         Reason::UnknownChoice(name, known) => unknown_choice(path, name, known),
+        Reason::BareKind(name, keys) => bare_kind(path, name, keys),
         Reason::Kind { expected, given } => {
             let refusal = Refusal::new(path, format!("must be {expected}"));
             given.iter().fold(refusal, Refusal::given)
@@ -171,13 +179,32 @@ fn in_full(path: &str, key: &str) -> String {
 }
 
 fn unknown_key(path: &str, name: &str, known: &[&str]) -> Refusal {
-    let remedy = match nearest(name, known.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
+    let by_its_letter = by_its_letter(name, known).map(str::to_owned);
+    let near = || nearest(name, known.iter().copied()).map(|near| format!("did you mean `{near}`?"));
+    let remedy = match by_its_letter.or_else(near) {
+        Some(remedy) => remedy,
         None if known.is_empty() => "it has no keys".to_owned(),
         None if known.len() > LISTED => "docs/simulation.md lists the keys".to_owned(),
         None => format!("use {}", known.join(", ")),
     };
     Refusal::new(below(path, name), "is no key").remedy(remedy)
+}
+
+/// What the paper has a letter for, as a table has it that is an axis' gains.
+fn by_its_letter(name: &str, known: &[&str]) -> Option<&'static str> {
+    let is_axis = known.contains(&"gain") && known.contains(&"reaching");
+    match name {
+        "K" | "k" if is_axis => Some("the paper's K is `gain`"),
+        "λ" if is_axis => Some("the paper's λ is `lambda`"),
+        "rho" | "ρ" if is_axis => Some("the paper's ρ stands inside `reaching`, as in reaching={tanh={rho=…}}"),
+        _ => None,
+    }
+}
+
+fn bare_kind(path: &str, name: &str, keys: &[&str]) -> Refusal {
+    let keys: Vec<String> = keys.iter().map(|key| format!("{key}=…")).collect();
+    let form = format!("{{{name}={{{}}}}}", keys.join(","));
+    Refusal::new(path, "must be a table").given(format!("{name:?}")).remedy(format!("write {form} in its place"))
 }
 
 fn unknown_choice(path: &str, name: &str, known: &[&str]) -> Refusal {
@@ -276,6 +303,10 @@ mod tests {
             (point("place_m = [1.0, 2.0]"), "`inner.1.point.place_m` must have 3 values, not 2"),
             (point("place_m = [1.0, 2.0, 3.0, 4.0]"), "`inner.1.point.place_m` has too many values, 4"),
             (point("place_m = [1.0, \"b\", 3.0]"), "`inner.1.point.place_m.1` must be a number, not \"b\""),
+            (
+                "inner = [\"point\"]".to_owned(),
+                "`inner.0` must be a table, not \"point\": write {point={place_m=…,count=…,is_there=…}} in its place",
+            ),
             ("inner = [{}]".to_owned(), "`inner.0` must name a kind, not {}"),
             (
                 "inner = [{ point = {}, nothing = {} }]".to_owned(),

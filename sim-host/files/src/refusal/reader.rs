@@ -49,7 +49,7 @@ impl<'de> Deserializer<'de> for Reader {
         visitor: V,
     ) -> Result<V::Value> {
         match self.0 {
-            Value::String(name) => visitor.visit_enum(StringDeserializer::new(name)),
+            Value::String(name) => visitor.visit_enum(Name(name)),
             Value::Table(table) => visitor.visit_enum(kind(table)?),
             other => Err(Misfit::wrong_kind(&other, "the name of one of its kinds, or a table")),
         }
@@ -112,6 +112,39 @@ impl<'de> MapAccess<'de> for Entries {
         // serde asks for a value after its key alone.
         let (key, value) = self.entry.take().ok_or_else(|| Misfit::custom("a value without a key"))?;
         seed.deserialize(Reader(value)).map_err(|error| error.below(key))
+    }
+}
+
+/// A kind by its name alone: one that has no keys.
+struct Name(String);
+
+impl<'de> EnumAccess<'de> for Name {
+    type Error = Misfit;
+    type Variant = Self;
+
+    fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self)> {
+        let name: StringDeserializer<Misfit> = self.0.clone().into_deserializer();
+        Ok((seed.deserialize(name)?, self))
+    }
+}
+
+impl<'de> VariantAccess<'de> for Name {
+    type Error = Misfit;
+
+    fn unit_variant(self) -> Result<()> {
+        Ok(())
+    }
+
+    fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, _: S) -> Result<S::Value> {
+        Err(Misfit::bare_kind(self.0, &[]))
+    }
+
+    fn tuple_variant<V: Visitor<'de>>(self, _: usize, _: V) -> Result<V::Value> {
+        Err(Misfit::bare_kind(self.0, &[]))
+    }
+
+    fn struct_variant<V: Visitor<'de>>(self, keys: &'static [&'static str], _: V) -> Result<V::Value> {
+        Err(Misfit::bare_kind(self.0, keys))
     }
 }
 
