@@ -134,16 +134,29 @@ fn world(f: &ScenarioFile) -> Result<()> {
         "`thrust_to_weight` limits nothing on the plant `paper-decoupled`, whose inputs are direct: leave it out, or set \
          `plant = \"rigid-body\"`"
     );
-    if f.start == Start::OnGround && !f.ground {
-        let refusal = Refusal::new("start", "is `on-ground`, and there is no ground");
-        return Err(refusal.remedy("set `ground = true` on the plant `rigid-body`, or `start = \"in-flight\"`").into());
-    }
+    place_of_start(f)?;
     truth(&f.truth)?;
     start(f)?;
     f.fault.iter().enumerate().try_for_each(|(i, fault)| on_board(i, fault, f.sensors.as_ref()))?;
     commands(f)?;
     f.push.iter().enumerate().try_for_each(|(i, one)| push(&format!("push.{i}"), one))?;
     f.wind.as_ref().map_or(Ok(()), wind)
+}
+
+/// Refuses a start on a ground that is not there, and one in the air of a vehicle that has to align first.
+fn place_of_start(f: &ScenarioFile) -> Result<()> {
+    let refusal = match f.start {
+        Start::OnGround if !f.ground => Refusal::new("start", "is `on-ground`, and there is no ground")
+            .remedy("set `ground = true` on the plant `rigid-body`, or `start = \"in-flight\"`"),
+        Start::InFlight if f.sensors.is_some() => {
+            Refusal::new("sensors", "need a start on the ground, where the estimator aligns at rest").remedy(
+                "set `start = \"on-ground\"`, `ground = true` and `[[command]]`s, as `indoor-helix` has them, or leave \
+                 `sensors` out",
+            )
+        }
+        _ => return Ok(()),
+    };
+    Err(refusal.into())
 }
 
 /// What acts on the airframe's own figures: whether the airframe has them, and how far each may go.

@@ -147,6 +147,15 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
 }
 
 #[test]
+fn sensors_without_a_start_on_the_ground_are_refused() {
+    let folder = Folder::new("air");
+    let line = "scenario `x500-hover`: `sensors` need a start on the ground, where the estimator aligns at rest: set \
+                `start = \"on-ground\"`, `ground = true` and `[[command]]`s, as `indoor-helix` has them, or leave \
+                `sensors` out";
+    refuses_settings(&folder, "x500-hover", &["sensors=gnss"], &[line]);
+}
+
+#[test]
 fn an_order_that_cannot_be_carried_out_is_refused_when_it_is_read() {
     let folder = Folder::new("orders");
     for (scenario, setting, parts) in [
