@@ -1,11 +1,14 @@
-//! The estimated motion of the last 256 ms, so that late measurements are fused at the time they were taken.
+//! The estimated motion of the last 252 ms, so that late measurements are fused at the time they were taken.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
+use crate::schedule::FILTER;
 use crate::signals::Tick;
 
-/// Filter jobs kept: 256 ms, more than the latency of any GNSS receiver (200 ms).
+/// Filter jobs kept: from the oldest to the newest 252 ms, more than the latency of any GNSS receiver (200 ms).
 const ENTRIES: usize = 64;
+/// Greatest latency with which a reading is always fused, ticks: one that arrives just after a job waits for the next.
+pub const LATENCY_MAX: Tick = (ENTRIES as Tick - 1) * FILTER.period - (FILTER.period - 1);
 
 /// The kinematic components of a correction: attitude error (rad, world), velocity (m/s) and position (m).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -194,6 +197,17 @@ mod tests {
         assert!(history.at(396 - 4 * 64).is_none());
         assert!(history.at(397).is_none());
         assert!(History::new().at(0).is_none());
+    }
+
+    #[test]
+    fn a_reading_of_the_greatest_latency_is_remembered_whenever_it_arrives() {
+        let history = filled(100);
+        let oldest = LATENCY_MAX + FILTER.period - 1;
+        for age in LATENCY_MAX..=oldest {
+            assert!(history.at(396 - age).is_some(), "{age}");
+        }
+        assert!(history.at(396 - oldest - 1).is_none());
+        assert_eq!(LATENCY_MAX, 249);
     }
 
     #[test]

@@ -15,7 +15,7 @@
 //! | [`predictor`] | the nominal state: strapdown integration of the IMU at 1 kHz |
 //! | [`filter`] | the filter job: covariance, history, offsets, health |
 //! | [`covariance`] | the 21 × 21 error covariance: prediction and correction |
-//! | [`history`] | the last 256 ms of motion, so that a late reading is fused at its own time |
+//! | [`history`] | the last 252 ms of motion, so that a late reading is fused at its own time |
 //! | `fusion`, [`models`] | one measurement model per sensor |
 //! | [`update`] | innovation, gate and correction of one measurement |
 //! | [`watch`] | detection of stuck, silent and jumping sensors |

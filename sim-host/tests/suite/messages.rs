@@ -137,7 +137,7 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("helix", "sensors=3", &["`sensors` must be a suite's name or a table, not 3"]),
         ("paper-disturbed", "disturbance.to_s=1", &["`disturbance.to_s`", "runs backwards"]),
         ("paper-disturbed", "disturbance.hold_s=0.0014", &["`disturbance.hold_s` must be whole milliseconds"]),
-        ("field", "sensors.gnss.delay_s=2", &["`sensors.gnss.delay_s` must be between 0 and 1 s, not 2"]),
+        ("field", "sensors.gnss.delay_s=2", &["`sensors.gnss.delay_s` must be between 0 and 0.249 s, not 2"]),
         ("field", "sensors.gnss.dealy_s=2", &["`sensors.gnss.dealy_s` is no key", "did you mean `delay_s`?"]),
         ("x500-hover", "fault.0.from_s=3", &["`fault` has no entries", "as a whole"]),
         ("x500-hover", "command=[{order=\"take-of\"}]", &["`command.0.order`", "did you mean `take-off`?"]),

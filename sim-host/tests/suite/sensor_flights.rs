@@ -171,6 +171,17 @@ fn scenarios_are_as_they_are_expected_to_be() {
     assert!(failed.is_empty(), "{failed:#?}");
 }
 
+/// Readings as late as they may be, between two jobs of the filter (125 ms are no multiple of 4), are all fused.
+#[test]
+fn readings_of_the_greatest_latency_are_fused() {
+    let late = ["sensors.gnss.rate_hz=8", "sensors.gnss.delay_s=0.249", "sensors.gnss.jitter_s=0", "duration_s=60"];
+    let seen = fly(&load("outdoor-hover", &late), 1);
+    // Two kinds of reading a solution, 8 times a second from the alignment, after 1 s to 2 s, on.
+    for kind in ["gnss-position", "gnss-velocity"] {
+        assert!(seen.readings[kind].0 >= 8 * 58 && seen.flew, "{kind}: {seen:?}");
+    }
+}
+
 /// A filter is as wrong as it believes to be. Of a mean over thousands of innovations chance moves nothing; a quarter
 /// is what gusts leave of the noise that drag is said to have. Errors of a flight are much the same all along, so that
 /// twelve flights are some twelve times nine numbers: √(2/108) = 0.14 about 1 at the least, and more, since a place's

@@ -43,7 +43,7 @@ impl Baro {
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("baro");
         check.rate(self.rate_hz)?;
-        check.latency("delay_s", self.delay_s)?;
+        check.fused_latency(self.delay_s, 0.0)?;
         check.within(
             0.0,
             1e4,

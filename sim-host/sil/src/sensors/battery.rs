@@ -35,7 +35,7 @@ impl Battery {
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("battery");
         check.rate(self.rate_hz)?;
-        check.latency("delay_s", self.delay_s)?;
+        check.latency(self.delay_s)?;
         check.within(
             0.0,
             100.0,

@@ -1,9 +1,10 @@
 //! Range checks of the sensors' data sheets.
 
 use anyhow::Result;
+use firmware::estimator::history::LATENCY_MAX;
 use glissade_files::refusal::{Refusal, within};
 
-use super::process::TICKS_PER_S;
+use super::process::{TICKS_PER_S, seconds, ticks};
 
 /// Longest latency of a fault-free sensor, s.
 pub(super) const LATENCY_MAX_S: f64 = 1.0;
@@ -32,8 +33,24 @@ impl Check {
         Err(Refusal::new(key, "must make a period of whole milliseconds").given(rate_hz).remedy(remedy).into())
     }
 
-    /// Checks a latency, s.
-    pub(super) fn latency(&self, key: &str, seconds: f64) -> Result<()> {
-        within(&self.key(key), seconds, 0.0, LATENCY_MAX_S)
+    /// Checks `delay_s`, the latency of readings that the estimator does not fuse.
+    pub(super) fn latency(&self, delay_s: f64) -> Result<()> {
+        within(&self.key("delay_s"), delay_s, 0.0, LATENCY_MAX_S)
+    }
+
+    /// Checks `delay_s`, the latency of readings that the estimator fuses, with their `jitter_s`: what is later than the
+    /// motion that it remembers is lost.
+    pub(super) fn fused_latency(&self, delay_s: f64, jitter_s: f64) -> Result<()> {
+        let (kept_s, most_s) = (seconds(LATENCY_MAX), seconds(LATENCY_MAX.saturating_sub(ticks(jitter_s))));
+        if (0.0..=most_s).contains(&delay_s) {
+            return Ok(());
+        }
+        let refusal = Refusal::new(self.key("delay_s"), format!("must be between 0 and {most_s} s")).given(delay_s);
+        if delay_s.is_nan() || delay_s < 0.0 {
+            return Err(refusal.into());
+        }
+        let jitter = if jitter_s > 0.0 { format!(", and `jitter_s` is {jitter_s}") } else { String::new() };
+        let remedy = format!("shorten it: the estimator fuses what is at most {kept_s} s late{jitter}");
+        Err(refusal.remedy(remedy).into())
     }
 }

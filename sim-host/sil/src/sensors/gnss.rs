@@ -49,9 +49,10 @@ impl Gnss {
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("gnss");
         check.rate(self.rate_hz)?;
-        check.latency("delay_s", self.delay_s)?;
+        check.fused_latency(self.delay_s, 0.0)?;
         let jitter_max_s = self.delay_s.min(0.49 / self.rate_hz);
         within("sensors.gnss.jitter_s", self.jitter_s, 0.0, jitter_max_s)?;
+        check.fused_latency(self.delay_s, self.jitter_s)?;
         check.within(
             0.0,
             1e3,

@@ -41,7 +41,7 @@ impl Mag {
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("mag");
         check.rate(self.rate_hz)?;
-        check.latency("delay_s", self.delay_s)?;
+        check.fused_latency(self.delay_s, 0.0)?;
         check.within(1.0, 1e4, &[("range_ut", self.range_ut)])?;
         check.within(
             0.0,

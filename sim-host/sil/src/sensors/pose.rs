@@ -32,7 +32,7 @@ impl Pose {
     pub(super) fn validate(&self) -> Result<()> {
         let check = Check("pose");
         check.rate(self.rate_hz)?;
-        check.latency("delay_s", self.delay_s)?;
+        check.fused_latency(self.delay_s, 0.0)?;
         check.within(0.0, 10.0, &[("position_m", self.position_m), ("attitude_deg", self.attitude_deg)])
     }
 }

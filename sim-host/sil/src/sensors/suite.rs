@@ -254,7 +254,21 @@ mod tests {
     #[test]
     fn bad_input_is_one_line_that_names_the_culprit() {
         for (setting, culprit) in [
-            ("gnss.delay_s = 2.0", "`sensors.gnss.delay_s` must be between 0 and 1 s, not 2"),
+            (
+                "gnss.delay_s = 0.3",
+                "`sensors.gnss.delay_s` must be between 0 and 0.249 s, not 0.3: shorten it: the estimator fuses what is \
+                 at most 0.249 s late",
+            ),
+            (
+                "gnss.delay_s = 0.23",
+                "`sensors.gnss.delay_s` must be between 0 and 0.229 s, not 0.23: shorten it: the estimator fuses what is \
+                 at most 0.249 s late, and `jitter_s` is 0.02",
+            ),
+            ("gnss.delay_s = -0.1", "`sensors.gnss.delay_s` must be between 0 and 0.249 s, not -0.1"),
+            ("mag.delay_s = 0.25", "`sensors.mag.delay_s` must be between 0 and 0.249 s, not 0.25"),
+            ("baro.delay_s = 0.25", "`sensors.baro.delay_s` must be between 0 and 0.249 s, not 0.25"),
+            ("pose = { part = \"mocap\", delay_s = 0.25 }", "`sensors.pose.delay_s` must be between 0 and 0.249 s"),
+            ("battery.delay_s = 2.0", "`sensors.battery.delay_s` must be between 0 and 1 s, not 2"),
             ("gnss.jitter_s = 0.1", "sensors.gnss.jitter_s"),
             ("gnss.colour = 1", "colour"),
             ("gnss.part = \"neo-m8\"", "neo-m8"),
