@@ -8,8 +8,9 @@ use anyhow::{Context, Result, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 
 use crate::controller::Controller;
+use crate::files::beside;
 use crate::refusal::did_you_mean;
-use crate::scenario::{Scenario, airframe_of, beside, is_of_controller, tuning};
+use crate::scenario::{Scenario, is_of_controller, tuning, with_files};
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
 
@@ -115,9 +116,7 @@ impl Matrix {
         }
         file.validate().with_context(|| format!("matrix `{name}`"))?;
         for setting in file.settings_mut() {
-            if let Some(airframe) = airframe_of(setting) {
-                *setting = format!("airframe={}", beside(name, &airframe));
-            }
+            *setting = with_files(setting, |_, path| Ok(beside(name, path)))?;
         }
         file.set.extend_from_slice(settings);
         let whole = file.cells().count();

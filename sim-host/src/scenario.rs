@@ -24,9 +24,8 @@ use crate::controller::{Control, Controller};
 use crate::pilot::Command;
 use crate::sensors::{Fault, Home, SuiteFile};
 pub use crate::world::{AttitudeWave, Disturbance, Gust, ScheduledPush, Tumble, Wind};
-pub(crate) use load::beside;
 pub use load::tuning;
-pub(crate) use settings::{airframe_of, is_of_controller, value};
+pub(crate) use settings::{is_of_controller, value, with_files};
 pub use world::{BatteryStart, Truth, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.

@@ -63,6 +63,11 @@ impl Source {
         Self::read(name, kind, built_in).map_err(|error| Refusal::new(key, format!(": {error:#}")).into())
     }
 
+    /// Whether it was read from a path, and is not built in.
+    pub fn is_path(&self) -> bool {
+        self.is_path
+    }
+
     /// As a table.
     ///
     /// # Errors
@@ -132,6 +137,14 @@ fn plain(message: &str, text: Option<&str>) -> String {
 /// The number of the line in which a byte of a text stands.
 fn line(text: &str, byte: usize) -> usize {
     text[..byte.min(text.len())].bytes().filter(|byte| *byte == b'\n').count() + 1
+}
+
+/// The path of a file that another file names, as a scenario its tuning: beside that file, if there is one; else as it
+/// is, from the current folder.
+pub fn beside(by: &str, name: &str) -> String {
+    let near = Path::new(by).with_file_name(name);
+    let is_path = Path::new(by).extension().is_some_and(|end| end == "toml") || by.contains('/');
+    if is_path && near.is_file() { near.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
 /// A built-in file, or the file at a path, as what it describes.

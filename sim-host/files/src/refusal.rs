@@ -66,6 +66,11 @@ impl Refusal {
         }
     }
 
+    /// Whether the key is not there.
+    pub fn is_missing(&self) -> bool {
+        self.rule == "is missing"
+    }
+
     /// An error about a table at `group`: a refusal's key is put below it, any other is told where it is.
     pub fn below(error: anyhow::Error, group: &str) -> anyhow::Error {
         match error.downcast::<Self>() {

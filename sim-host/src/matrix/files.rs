@@ -1,20 +1,25 @@
-//! A matrix as files that fly it again, wherever they are: scenarios, airframes and tunings that were files lie beside it.
+//! A matrix as files that fly it again, wherever they are: what it names that were files lie beside it.
 
 use std::path::Path;
 
 use anyhow::{Context as _, Result};
+use toml::{Table, Value};
 
 use super::{Matrix, MatrixFile};
 use crate::controller::{Controller, TuningFile};
-use crate::files::{LARGEST, read_regular};
-use crate::scenario::{Scenario, airframe_of, beside};
+use crate::files::{LARGEST, Source, beside, read_regular};
+use crate::scenario::{Scenario, with_files};
+use crate::sensors::suite::file_names;
 
 /// The name of a built-in file unchanged; of a path, the file's name without its extension, and without what
 /// [`Matrix::files`] puts before it.
 pub fn short_name(name: &str) -> &str {
     let file = name.rsplit('/').next().unwrap_or(name);
     let Some(stem) = file.strip_suffix(".toml") else { return file };
-    ["tuning-", "scenario-"].iter().find_map(|kind| stem.strip_prefix(kind)).unwrap_or(stem)
+    ["tuning-", "scenario-", "airframe-", "suite-", "part-"]
+        .iter()
+        .find_map(|kind| stem.strip_prefix(kind))
+        .unwrap_or(stem)
 }
 
 /// Files to be written, and their texts.
@@ -22,8 +27,8 @@ type Files = Vec<(String, String)>;
 
 impl Matrix {
     /// matrix.toml, and what it names: each controller as `tuning-NAME.toml`, each scenario that was a file as
-    /// `scenario-NAME.toml` with its `airframe-NAME.toml`, and airframes that settings name. The settings of the command
-    /// line stand in the matrix.
+    /// `scenario-NAME.toml` with its `airframe-NAME.toml`, and the airframes, suites and parts that they or settings name.
+    /// The settings of the command line stand in the matrix.
     ///
     /// # Errors
     /// A file that has gone since it was read.
@@ -41,19 +46,26 @@ impl Matrix {
                 file.rename_scenario(name, &kept_as);
             }
         }
-        file.settings_mut().try_for_each(|setting| keep_airframe(setting, &mut kept))?;
+        for setting in file.settings_mut() {
+            *setting = with_files(setting, |kind, path| keep(kind, path, &mut kept))?;
+        }
         kept.push(("matrix.toml".to_owned(), toml::to_string(&file).context("cannot write the matrix")?));
         Ok(kept)
     }
 
     /// Adds a scenario without the settings of the matrix; returns the name of its file.
     fn keep_scenario(&self, name: &str, controller: &Controller, kept: &mut Files) -> Result<String> {
-        let stem = short_name(name);
-        let scenario = Scenario::load_for(&beside(&self.name, name), &[], controller)?;
-        let (scenario_file, airframe_file) = (format!("scenario-{stem}.toml"), format!("airframe-{stem}.toml"));
-        let [scenario, airframe] = scenario.files_for_any_controller(&airframe_file)?;
-        kept.extend([(scenario_file.clone(), scenario), (airframe_file, airframe)]);
-        Ok(scenario_file)
+        let (stem, path) = (short_name(name), beside(&self.name, name));
+        let loaded = Scenario::load_for(&path, &[], controller)?;
+        let airframe = toml::to_string(&loaded.airframe).context("cannot write an airframe")?;
+        let airframe = add("airframe", stem, airframe, kept);
+        let mut scenario = loaded.table_for_any_controller(&airframe)?;
+        // As they are written: values of a part that stood in the scenario would stay with another part by a setting.
+        if let Some(sensors) = Source::read(&path, "scenario", &[])?.table()?.remove("sensors") {
+            scenario.insert("sensors".to_owned(), keep_named(sensors, &path, kept)?);
+        }
+        let scenario = toml::to_string(&scenario).context("cannot write a scenario")?;
+        Ok(add("scenario", stem, scenario, kept))
     }
 }
 
@@ -70,15 +82,39 @@ impl MatrixFile {
     }
 }
 
-/// Adds the airframe's file that a setting names, and lets the setting name the copy.
-fn keep_airframe(setting: &mut String, kept: &mut Files) -> Result<()> {
-    let Some(path) = airframe_of(setting).filter(|path| Path::new(path).is_file()) else { return Ok(()) };
-    let text =
-        read_regular(Path::new(&path), LARGEST).with_context(|| format!("cannot read airframe file `{path}`"))?;
-    let name = format!("airframe-{}.toml", short_name(&path));
-    *setting = format!("airframe={name}");
-    if !kept.iter().any(|(known, _)| *known == name) {
-        kept.push((name, text));
+/// The name by which a file is kept, with the files that it names; a name that is no file's stays as it is.
+fn keep(kind: &str, path: &str, kept: &mut Files) -> Result<String> {
+    if !Path::new(path).is_file() {
+        return Ok(path.to_owned());
     }
-    Ok(())
+    let mut text =
+        read_regular(Path::new(path), LARGEST).with_context(|| format!("cannot read {kind} file `{path}`"))?;
+    if kind == "suite" {
+        let suite: Table = text.parse().with_context(|| format!("{kind} `{path}`"))?;
+        text = toml::to_string(&keep_named(Value::Table(suite), path, kept)?).context("cannot write a suite")?;
+    }
+    Ok(add(kind, short_name(path), text, kept))
+}
+
+/// Keeps what a suite, or a scenario's `sensors`, names from the file `by`; the same with the names of the copies.
+fn keep_named(mut sensors: Value, by: &str, kept: &mut Files) -> Result<Value> {
+    for (kind, name) in file_names(&mut sensors) {
+        *name = keep(kind, &beside(by, name), kept)?;
+    }
+    Ok(sensors)
+}
+
+/// Adds a file by a name that no other has; returns it.
+fn add(kind: &str, stem: &str, text: String, kept: &mut Files) -> String {
+    let mut name = format!("{kind}-{stem}.toml");
+    let mut number = 1;
+    while let Some((_, other)) = kept.iter().find(|(known, _)| *known == name) {
+        if *other == text {
+            return name;
+        }
+        number += 1;
+        name = format!("{kind}-{stem}-{number}.toml");
+    }
+    kept.push((name.clone(), text));
+    name
 }

@@ -2,6 +2,7 @@
 
 use anyhow::{Context as _, Result};
 use serde::Serialize;
+use toml::Table;
 
 use super::{Scenario, ScenarioFile};
 use crate::controller::TuningFile;
@@ -19,13 +20,12 @@ impl Scenario {
         Ok([("scenario.toml", text(&file)?), ("airframe.toml", text(&self.airframe)?), ("tuning.toml", text(&tuning)?)])
     }
 
-    /// The scenario without gains, for whatever controller flies it, and its airframe, which is to lie beside it by this
-    /// name.
+    /// The scenario without gains, for whatever controller flies it; its airframe is to lie beside it by this name.
     ///
     /// # Errors
     /// None for a scenario that was loaded: its values came from TOML.
-    pub fn files_for_any_controller(&self, airframe: &str) -> Result<[String; 2]> {
-        Ok([text(&self.file_naming(airframe, None))?, text(&self.airframe)?])
+    pub fn table_for_any_controller(&self, airframe: &str) -> Result<Table> {
+        Table::try_from(self.file_naming(airframe, None)).context(CANNOT)
     }
 
     fn file_naming(&self, airframe: &str, tuning: Option<&str>) -> ScenarioFile {
@@ -34,8 +34,10 @@ impl Scenario {
     }
 }
 
+const CANNOT: &str = "cannot write the scenario as TOML";
+
 fn text(value: &impl Serialize) -> Result<String> {
-    toml::to_string(value).context("cannot write the scenario as TOML")
+    toml::to_string(value).context(CANNOT)
 }
 
 #[cfg(test)]

@@ -5,11 +5,11 @@ use std::path::Path;
 use anyhow::{Error, Result, anyhow, bail};
 use toml::{Table, Value};
 
-use super::settings::Setting;
+use super::settings::{Setting, file_names, get};
 use super::{AIRFRAMES, SCENARIOS, Scenario, ScenarioFile, TUNINGS, default_airframe, trajectory};
 use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
-use crate::files::{Source, read};
+use crate::files::{Source, beside, read};
 use crate::refusal::{Refusal, typed};
 
 /// A file that a scenario is made of, and what the command line has set in it.
@@ -51,16 +51,6 @@ impl Layer {
         self.set.iter().any(|set| is_within(key, set) || is_within(set, key))
     }
 
-    /// The value at one of its own keys.
-    fn value(&self, key: &str) -> Option<&Value> {
-        let mut parts = key.split('.');
-        let first = self.table.get(parts.next()?)?;
-        parts.try_fold(first, |place, part| match place {
-            Value::Array(values) => values.get(part.parse::<usize>().ok()?),
-            other => other.get(part),
-        })
-    }
-
     /// An error about one of its own keys, with the line in which it stands unless the command line has set it.
     fn explain(&self, error: Error) -> Error {
         let is_set = error.downcast_ref::<Refusal>().is_some_and(|refusal| self.is_set(refusal.key()));
@@ -100,7 +90,7 @@ impl Layers {
             .find_map(|layer| Some((layer, with_key(layer)?)))
             .unwrap_or_else(|| (own, refusal.key().to_owned()));
         if refusal.lacks_value()
-            && let Some(value) = layer.value(&key)
+            && let Some(value) = get(&layer.table, &key)
         {
             refusal = refusal.given(value);
         }
@@ -203,21 +193,11 @@ fn require_effective(file: &ScenarioFile, setting: &Setting, key: &str, source: 
     Ok(())
 }
 
-/// Lets the names of airframe and tuning mean files beside the scenario's own, where there are such.
+/// Lets the names of airframe, tuning, suite and parts mean files beside the scenario's own, where there are such.
 fn find_beside(table: &mut Table, scenario: &str) {
-    for key in ["airframe", "tuning"] {
-        if let Some(Value::String(name)) = table.get_mut(key) {
-            *name = beside(scenario, name);
-        }
+    for (_, name) in file_names(table) {
+        *name = beside(scenario, name);
     }
-}
-
-/// The path of a file that another file names, as a scenario its tuning: beside that file, if there is one; else as it
-/// is, from the current folder.
-pub(crate) fn beside(by: &str, name: &str) -> String {
-    let near = Path::new(by).with_file_name(name);
-    let is_path = Path::new(by).extension().is_some_and(|end| end == "toml") || by.contains('/');
-    if is_path && near.is_file() { near.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
 /// Loads a built-in tuning by name or a file by path.

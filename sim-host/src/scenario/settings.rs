@@ -5,6 +5,7 @@ use toml::{Table, Value};
 
 use crate::controller::Controller;
 use crate::refusal::Refusal;
+use crate::sensors::suite;
 
 /// A setting, as it was given and as it is read.
 #[derive(Clone, Debug)]
@@ -57,10 +58,47 @@ pub(crate) fn is_of_controller(text: &str) -> bool {
     Setting::parse(text).is_ok_and(|setting| setting.is_of_gains() || setting.split().0 == "tuning")
 }
 
-/// The airframe that a `KEY=VALUE` names.
-pub(crate) fn airframe_of(text: &str) -> Option<String> {
-    let setting = Setting::parse(text).ok().filter(|setting| setting.key == "airframe")?;
-    setting.value.as_str().map(str::to_owned)
+/// The names of files in a scenario's table, each of which may be built in, and their kinds.
+pub(super) fn file_names(scenario: &mut Table) -> Vec<(&'static str, &mut String)> {
+    let mut names = Vec::new();
+    for (key, value) in scenario.iter_mut() {
+        match (key.as_str(), value) {
+            ("airframe", Value::String(name)) => names.push(("airframe", name)),
+            ("tuning", Value::String(name)) => names.push(("tuning", name)),
+            ("sensors", sensors) => names.extend(suite::file_names(sensors)),
+            _ => {}
+        }
+    }
+    names
+}
+
+/// A `KEY=VALUE` with other names of the files that it names: `rename` is given the kind and the name of each.
+pub(crate) fn with_files(text: &str, mut rename: impl FnMut(&'static str, &str) -> Result<String>) -> Result<String> {
+    let (mut table, key) = (Table::new(), text.split('=').next().unwrap_or(text).trim());
+    // What is no setting is refused when a scenario is loaded with it.
+    let is_set = Setting::parse(text).is_ok_and(|setting| setting.apply(&mut table, key).is_ok());
+    let names = file_names(&mut table);
+    if !is_set || names.is_empty() {
+        return Ok(text.to_owned());
+    }
+    for (kind, name) in names {
+        *name = rename(kind, name)?;
+    }
+    Ok(match get(&table, key) {
+        Some(Value::String(plain)) if value(plain) == Value::String(plain.clone()) => format!("{key}={plain}"),
+        Some(other) => format!("{key}={other}"),
+        None => text.to_owned(),
+    })
+}
+
+/// The value at a dotted key of a table.
+pub(super) fn get<'a>(table: &'a Table, key: &str) -> Option<&'a Value> {
+    let mut parts = key.split('.');
+    let first = table.get(parts.next()?)?;
+    parts.try_fold(first, |place, part| match place {
+        Value::Array(values) => values.get(part.parse::<usize>().ok()?),
+        other => other.get(part),
+    })
 }
 
 /// A value as TOML has it; what is none, or more than one, is a string.
@@ -157,6 +195,23 @@ mod tests {
         assert_eq!(value("3\nother = 4"), Value::String("3\nother = 4".to_owned()), "nothing is dropped");
         assert_eq!(value("[1,\n2]"), Value::Array(vec![1.into(), 2.into()]));
         assert_eq!(value("-99999999999999999999"), Value::Float(-1e20));
+    }
+
+    #[test]
+    fn the_files_that_a_setting_names_can_be_renamed() {
+        let renamed = |text: &str| with_files(text, |kind, name| Ok(format!("{kind}/{name}"))).expect("renamed");
+        for (setting, expected) in [
+            ("airframe=a.toml", "airframe=airframe/a.toml"),
+            ("sensors=\"s.toml\"", "sensors=suite/s.toml"),
+            ("sensors.suite = \"s.toml\"", "sensors.suite=suite/s.toml"),
+            ("sensors.gnss.part=p.toml", "sensors.gnss.part=part/p.toml"),
+            ("sensors.gnss={part=\"p.toml\",delay_s=0.1}", "sensors.gnss={ delay_s = 0.1, part = \"part/p.toml\" }"),
+            ("sensors.gnss.delay_s = 0.1", "sensors.gnss.delay_s = 0.1"),
+            ("fault.0.x=1", "fault.0.x=1"),
+            ("airframe", "airframe"),
+        ] {
+            assert_eq!(renamed(setting), expected);
+        }
     }
 
     #[test]

@@ -20,6 +20,7 @@ mod flights;
 mod landing;
 mod messages;
 mod no_panic;
+mod own_sensors;
 mod paper_cases;
 mod paper_command;
 mod physics;

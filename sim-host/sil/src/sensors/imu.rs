@@ -56,8 +56,8 @@ pub struct Triad {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Imu {
-    /// Name of the built-in part, or path of a file.
-    pub part: String,
+    /// Name of the built-in part that the values are from, but for those that differ; none if they are from a file.
+    pub part: Option<String>,
     /// In °/s.
     pub gyro: Triad,
     /// In m/s².

@@ -15,8 +15,8 @@ use crate::noise::gaussian::{Source, Stream};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mag {
-    /// Name of the built-in part, or path of a file.
-    pub part: String,
+    /// Name of the built-in part that the values are from, but for those that differ; none if they are from a file.
+    pub part: Option<String>,
     /// Sampling rate, Hz.
     pub rate_hz: f64,
     /// Latency: from the measurement to its delivery, s.

@@ -10,10 +10,12 @@
 //! delay_s = 0.2
 //! ```
 //!
-//! A suite is given by name, such as `"gnss"`, or by a table that builds on one: `suite = "gnss"` with overrides; `mag = false` omits a sensor.
+//! A suite is given by name, such as `"gnss"`, or by a table that builds on one: `suite = "gnss"` with overrides; `mag = false`
+//! omits a sensor. A part of one's own is a file, and so is a suite: its path is from the file that names it, or else from
+//! the current folder. A sensor without a part gives all values itself.
 
-use anyhow::{Context, Result};
-use glissade_files::files::Source;
+use anyhow::{Context, Error, Result};
+use glissade_files::files::{Source, beside};
 use glissade_files::refusal::{Refusal, typed};
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
@@ -87,20 +89,16 @@ impl SuiteFile {
     /// One line with the suite or file, the key and the error.
     pub fn load(name: &str) -> Result<Self> {
         let source = Source::read(name, "suite", &SUITES)?;
-        Self::from_table(source.table()?).map_err(|error| source.about(error))
+        Self::from_table(table(&source, name)?).map_err(|error| source.about(error))
     }
 
     /// From a table, which may build on another suite by `suite = "name"`.
     ///
     /// # Errors
     /// One line that names the key, and what is wrong with it.
-    pub fn from_table(mut table: Table) -> Result<Self> {
-        if let Some(base) = table.remove("suite") {
-            let name = base.as_str().context("`sensors.suite` must be a suite's name")?;
-            table = merged(named(name)?, table);
-        }
+    pub fn from_table(table: Table) -> Result<Self> {
         let mut complete = Table::new();
-        for (key, value) in table {
+        for (key, value) in built_on_others(table)? {
             let value = match value {
                 Value::Table(sensor) => Value::Table(with_part(&key, sensor)?),
                 Value::Boolean(false) => continue,
@@ -108,7 +106,7 @@ impl SuiteFile {
             };
             complete.insert(key, value);
         }
-        let complete = typed(complete).map_err(|error| Refusal::below(error, "sensors"))?;
+        let complete = typed(complete).map_err(|error| Refusal::below(or_part(error), "sensors"))?;
         let Complete { summary, imu, mag, baro, gnss, pose, battery } = complete;
         let suite = Self { summary, imu, mag, baro, gnss, pose, battery };
         suite.validate()?;
@@ -149,16 +147,70 @@ pub fn list() -> Result<Vec<(&'static str, String)>> {
     SUITES.iter().map(|(name, _)| Ok((*name, SuiteFile::load(name)?.summary))).collect()
 }
 
-fn named(name: &str) -> Result<Table> {
-    Source::named("sensors.suite", name, "suite", &SUITES)?.table()
+/// The names of files in a suite, or in a scenario's `sensors`, each of which may be built in, and their kinds: `suite` or
+/// `part`.
+pub fn file_names(sensors: &mut Value) -> Vec<(&'static str, &mut String)> {
+    match sensors {
+        Value::String(suite) => vec![("suite", suite)],
+        Value::Table(table) => names_in(table).collect(),
+        _ => Vec::new(),
+    }
 }
 
-/// A sensor's table merged over its part's.
-fn with_part(sensor: &str, table: Table) -> Result<Table> {
-    let name = table.get("part").and_then(Value::as_str);
-    let name = name.with_context(|| format!("`sensors.{sensor}.part` must be a part's name"))?;
-    let base = Source::named(&format!("sensors.{sensor}.part"), name, "part", &PARTS)?.table()?;
-    Ok(merged(base, table))
+fn names_in(table: &mut Table) -> impl Iterator<Item = (&'static str, &mut String)> {
+    table.iter_mut().filter_map(|(key, value)| match value {
+        Value::String(suite) if key == "suite" => Some(("suite", suite)),
+        Value::Table(sensor) => match sensor.get_mut("part")? {
+            Value::String(part) => Some(("part", part)),
+            _ => None,
+        },
+        _ => None,
+    })
+}
+
+/// The table of a suite's file; what it names may be files beside it.
+fn table(source: &Source, path: &str) -> Result<Table> {
+    let mut table = source.table()?;
+    for (_, name) in names_in(&mut table) {
+        *name = beside(path, name);
+    }
+    Ok(table)
+}
+
+/// A table merged over the suite that it builds on, which may build on another.
+fn built_on_others(mut over: Table) -> Result<Table> {
+    /// More are a suite that builds on itself.
+    const MOST: usize = 8;
+    for _ in 0..=MOST {
+        let Some(base) = over.remove("suite") else { return Ok(over) };
+        let name = base.as_str().context("`sensors.suite` must be a suite's name")?;
+        let source = Source::named("sensors.suite", name, "suite", &SUITES)?;
+        over = merged(table(&source, name)?, over);
+    }
+    let rule = format!("builds on itself, or on more than {MOST} suites one after the other");
+    Err(Refusal::new("sensors.suite", rule).remedy("name a suite that is built in").into())
+}
+
+/// A sensor's table merged over its part's. A part of one's own is not named any more: its file may go.
+fn with_part(sensor: &str, mut table: Table) -> Result<Table> {
+    let Some(name) = table.get("part") else { return Ok(table) };
+    let name = name.as_str().with_context(|| format!("`sensors.{sensor}.part` must be a part's name"))?;
+    let source = Source::named(&format!("sensors.{sensor}.part"), name, "part", &PARTS)?;
+    if source.is_path() {
+        table.remove("part");
+    }
+    Ok(merged(source.table()?, table))
+}
+
+/// A value that a sensor lacks can come from a part.
+fn or_part(error: Error) -> Error {
+    match error.downcast::<Refusal>() {
+        Ok(refusal) if refusal.is_missing() && refusal.key().contains('.') => {
+            refusal.remedy("give it, or the sensor a `part` that has it").into()
+        }
+        Ok(refusal) => refusal.into(),
+        Err(error) => error,
+    }
 }
 
 /// `over` merged over `base`, recursively.
@@ -225,6 +277,31 @@ mod tests {
         expected.imu.gyro.turn_on_bias = 1.0;
         assert_eq!(changed, expected);
         assert_ne!(changed, plain);
+    }
+
+    #[test]
+    fn a_sensor_without_a_part_gives_all_values_itself() {
+        let parse = |text: &str| SuiteFile::from_table(text.parse().expect("TOML"));
+        let values = "rate_hz = 100.0, delay_s = 0.01, position_m = 0.0005, attitude_deg = 0.1";
+        let suite = format!("suite = \"gnss\"\npose = {{ {values} }}");
+        let named = Pose { part: None, ..SuiteFile::load("mocap").expect("loads").pose.expect("there") };
+        assert_eq!(parse(&suite).expect("loads").pose, Some(named));
+        assert_eq!(
+            refusal("suite = \"gnss\"\npose = { rate_hz = 100.0 }"),
+            "`sensors.pose.delay_s` is missing: give it, or the sensor a `part` that has it"
+        );
+    }
+
+    #[test]
+    fn a_suite_that_builds_on_itself_is_refused() {
+        let path = std::env::temp_dir().join(format!("glissade-{}-suite.toml", std::process::id()));
+        std::fs::write(&path, format!("suite = \"{}\"", path.display())).expect("can be written");
+        let text = refusal(&format!("suite = \"{}\"", path.display()));
+        assert_eq!(
+            text,
+            "`sensors.suite` builds on itself, or on more than 8 suites one after the other: name a suite that is built in"
+        );
+        std::fs::remove_file(&path).expect("it is there");
     }
 
     #[test]
