@@ -34,9 +34,22 @@ impl Layer {
         {
             *suite = Value::Table([("suite".to_owned(), suite.clone())].into_iter().collect());
         }
+        self.clear_for_part(key);
         setting.apply(&mut self.table, key)?;
         self.set.push(key.to_owned());
         Ok(())
+    }
+
+    /// Another part replaces the sensor: the file's values were for the part before it. What was set stays.
+    fn clear_for_part(&mut self, key: &str) {
+        let Some(sensor) = key.strip_prefix("sensors.").and_then(|rest| rest.strip_suffix(".part")) else { return };
+        let Self { table, set, .. } = self;
+        if let Some(Value::Table(values)) = table.get_mut("sensors").and_then(|sensors| sensors.get_mut(sensor)) {
+            values.retain(|name, _| {
+                let own = format!("sensors.{sensor}.{name}");
+                set.iter().any(|key| is_within(key, &own))
+            });
+        }
     }
 
     /// A scenario's key as this file has it, if it belongs here.
@@ -46,8 +59,6 @@ impl Layer {
     }
 
     fn is_set(&self, key: &str) -> bool {
-        let is_within =
-            |key: &str, other: &str| key.strip_prefix(other).is_some_and(|r| r.is_empty() || r.starts_with('.'));
         self.set.iter().any(|set| is_within(key, set) || is_within(set, key))
     }
 
@@ -69,6 +80,11 @@ impl Layer {
             Err(error) => error,
         })
     }
+}
+
+/// Whether a dotted key is another, or below it.
+fn is_within(key: &str, other: &str) -> bool {
+    key.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// The files of a scenario: its own first.

@@ -49,6 +49,21 @@ fn they_are_found_beside_the_file_that_names_them() {
 }
 
 #[test]
+fn another_part_by_a_setting_replaces_all_that_the_file_has_of_the_sensor() {
+    let folder = own("another");
+    let finer = ["--set", "sensors.pose.position_m=0.0001"];
+    flown(&folder, "mine/hover.toml", &["--out", "out"]);
+    // out/scenario.toml has each value of the camera.
+    let part = ["--set", "sensors.pose.part=mocap"];
+    let plain = flown(&folder, "indoor-hover", &[]);
+    assert_eq!(flown(&folder, "out/scenario.toml", &part), plain);
+    // A value that is set stands above the part's, before and after it.
+    let expected = flown(&folder, "indoor-hover", &finer);
+    assert_eq!(flown(&folder, "out/scenario.toml", &[finer, part].concat()), expected);
+    assert_eq!(flown(&folder, "out/scenario.toml", &[part, finer].concat()), expected);
+}
+
+#[test]
 fn a_flight_on_them_flies_again_without_them() {
     let folder = own("again");
     let setting = ["--set", "sensors.battery.part=./mine/meter.toml", "--out", "out"];
