@@ -87,6 +87,9 @@ def not_modelled(folder):
 
 
 def main():
+    if len(sys.argv) not in (2, 3) or not Path(sys.argv[1]).is_file():
+        print("usage: check_truth.py FOLDER/truth.csv [LAG_S], of a flight that `sim-host run … --out FOLDER` has written")
+        return 2
     found = not_modelled(Path(sys.argv[1]).parent)
     if found:
         print(f"{sys.argv[1]}: cannot be checked, for it was flown with {', '.join(found)}, which this script does not model")

@@ -181,6 +181,16 @@ pub fn injectable(sensors: Option<&Suite>, has_battery: bool) -> Injectable {
     injectable
 }
 
+/// Whether a fault, whoever has made it, is of what a failure is of.
+pub fn is_of(failure: &Failure, fault: &Fault) -> bool {
+    match (failure.unit, fault.kind) {
+        (Unit::Motor, Kind::Rotor { index, .. }) => failure.instance.is_none_or(|motor| usize::from(motor) == index),
+        (Unit::Battery, Kind::Collapse { .. }) => true,
+        (Unit::Motor | Unit::Battery, _) => false,
+        (unit, _) => fault.sensor.is_some() && fault.sensor == sensor(unit),
+    }
+}
+
 /// The slots of a failure, with the fault in each; `None` ends the slot's fault. Empty for a failure that is not
 /// [`injectable`].
 pub fn of(failure: &Failure, now: Tick) -> impl Iterator<Item = (usize, Option<Fault>)> + use<> {

@@ -14,7 +14,7 @@ use crate::scenario::{Scenario, is_of_controller, tuning, with_files};
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
 
-pub use self::files::short_name;
+pub use self::files::{KEPT, short_name};
 
 /// Why a gain cannot be set; what names the tunings follows.
 const OWN_GAINS: &str = "a comparison flies the gains of its tunings: write a tuning file and name it in";
@@ -64,7 +64,7 @@ pub struct MatrixFile {
     pub disturbances: Vec<DisturbanceEntry>,
     /// Seeds of the comparison.
     pub seeds: Seeds,
-    /// Seeds of tuning; they must not overlap those of the comparison.
+    /// Seeds of tuning; a comparison on any of them says so.
     pub training_seeds: Option<Seeds>,
 }
 
@@ -225,10 +225,6 @@ impl MatrixFile {
                 );
             }
         }
-        ensure!(
-            !self.training_seeds.is_some_and(|training| training.overlaps(self.seeds)),
-            "`seeds` and `training_seeds` overlap: a controller cannot be judged on the seeds that it was tuned on"
-        );
         Ok(())
     }
 }

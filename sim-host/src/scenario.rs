@@ -283,6 +283,11 @@ impl Scenario {
         (tilt > most).then(|| format!("its trajectory takes a tilt of {tilt:.0}°, and `tilt_max_rad` is {most:.0}°"))
     }
 
+    /// How long its trajectory is joined, s.
+    pub fn joined_s(&self) -> f64 {
+        self.file.join.as_ref().map_or(0.0, |join| f64::from(join.duration_s))
+    }
+
     /// How much later than commanded the rotors are told, ticks.
     pub fn actuation_delay_ticks(&self) -> usize {
         (self.airframe.actuation_delay_s * 1e3).round() as usize

@@ -15,7 +15,7 @@ use crate::pilot::Order;
 use crate::record::{Activity, Recorder, Row};
 use crate::report::measures::{Settling, Size, Variation};
 use crate::report::metrics::{WIDE_BAND, errors};
-use crate::report::timeline::controls_position;
+use crate::report::timeline::{controls_position, follows};
 use crate::scenario::Scenario;
 use crate::sil::Outcome;
 
@@ -63,7 +63,7 @@ impl Counts {
         let script = &scenario.file.command;
         match () {
             () if script.is_empty() => Self::From(counts_from_s(scenario)),
-            () if script.iter().any(|command| command.order == Order::Follow) => Self::Following(joined_s(scenario)),
+            () if script.iter().any(|command| command.order == Order::Follow) => Self::Following(scenario.joined_s()),
             () => Self::Flying,
         }
     }
@@ -106,13 +106,10 @@ impl Scorer {
     /// Takes a row that counts.
     fn count(&mut self, row: &Row) {
         self.began_s.get_or_insert(row.t);
-        let [x, y, z, _] = errors(row);
-        let distance = Vector3::new(x, y, z).norm();
-        self.distance.take(distance);
-        self.settling.take(row.t, distance);
+        if !row.reference_is_held {
+            self.count_distance(row);
+        }
         self.attitude.take(attitude_error(row));
-        // Above the trajectory, z < 0, no altitude is lost; NaN stays NaN.
-        self.sunk.take(if z < 0.0 { 0.0 } else { z });
         let [_, roll, pitch, yaw] = row.u;
         self.torque.take(Vector3::new(roll, pitch, yaw).norm());
         row.omega.iter().for_each(|omega| self.omega.take(*omega));
@@ -145,6 +142,17 @@ impl Scorer {
     }
 }
 
+impl Scorer {
+    fn count_distance(&mut self, row: &Row) {
+        let [x, y, z, _] = errors(row);
+        let distance = Vector3::new(x, y, z).norm();
+        self.distance.take(distance);
+        self.settling.take(row.t, distance);
+        // Above the trajectory, z < 0, no altitude is lost; NaN stays NaN.
+        self.sunk.take(if z < 0.0 { 0.0 } else { z });
+    }
+}
+
 impl Recorder for Scorer {
     fn record(&mut self, row: &Row) {
         match self.counts {
@@ -157,10 +165,7 @@ impl Recorder for Scorer {
     fn observe(&mut self, activity: &Activity) {
         let is_counted = match self.counts {
             Counts::From(_) => false,
-            Counts::Following(joined_s) => {
-                let start_s = activity.commander.flight_start().map(|tick| f64::from(tick) / 1e3);
-                start_s.is_some_and(|start| activity.t >= start + joined_s)
-            }
+            Counts::Following(joined_s) => follows(activity, joined_s),
             Counts::Flying => controls_position(activity.commander),
         };
         if is_counted {
@@ -186,14 +191,9 @@ pub fn counts_from_s(scenario: &Scenario) -> f64 {
         return 0.0;
     }
     match scenario.file.trajectory {
-        Trajectory::Step { at_s, .. } => joined_s(scenario).max(f64::from(at_s)),
-        _ => joined_s(scenario),
+        Trajectory::Step { at_s, .. } => scenario.joined_s().max(f64::from(at_s)),
+        _ => scenario.joined_s(),
     }
-}
-
-/// How long the trajectory is joined, s.
-fn joined_s(scenario: &Scenario) -> f64 {
-    scenario.file.join.as_ref().map_or(0.0, |join| f64::from(join.duration_s))
 }
 
 /// The angle between the attitude and the desired one, rad.

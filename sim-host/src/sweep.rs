@@ -45,7 +45,7 @@ struct Extremes {
 
 impl Recorder for Extremes {
     fn record(&mut self, row: &Row) {
-        if self.acting.contains(&row.t) {
+        if self.acting.contains(&row.t) && !row.reference_is_held {
             let greatest = |errors: &[f64]| errors.iter().fold(0.0_f64, |most, error| most.max(error.abs()));
             self.position = self.position.max(greatest(&errors(row)[..3]));
             self.angle = self.angle.max(greatest(&angle_errors(row)));

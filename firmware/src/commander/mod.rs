@@ -121,6 +121,11 @@ const fn ticks(seconds: f32) -> Tick {
     (seconds / TICK_S + 0.5) as Tick
 }
 
+/// When a vehicle that has landed is disarmed.
+const fn after_landing(landed: Tick) -> Tick {
+    landed.wrapping_add(ticks(IDLE_AFTER_LANDING_S))
+}
+
 impl Commander {
     /// In the state in which a valid configuration starts.
     pub fn new(config: &FlightConfig) -> Self {
@@ -142,6 +147,11 @@ impl Commander {
             ground: GroundWatch::new(flies, start.z),
             battery_answered: Charge::Good,
         }
+    }
+
+    /// How it flies by itself.
+    pub fn settings(&self) -> &ModeSettings {
+        &self.settings
     }
 
     /// The output in effect before the first job's.
@@ -252,6 +262,11 @@ impl Commander {
         use State as S;
         match (self.state, request) {
             (S::Disarmed, _) => return Err(Refusal::Disarmed),
+            // On the ground it is landed already, and is disarmed as after a landing.
+            (S::Idle { disarm_at: None }, Request::Land) => {
+                self.state = S::Idle { disarm_at: Some(after_landing(effective)) };
+                return Ok(());
+            }
             (S::Idle { .. } | S::Land | S::Descent { .. } | S::MotorOut, Request::Land)
             | (S::TakeOff { .. }, Request::TakeOff { .. })
             | (S::Join | S::Follow { .. }, Request::Follow)
@@ -361,7 +376,7 @@ impl Commander {
             }
             State::Return { at_m, climbs: false } if is_at(self.over_home(at_m)) && is_slow(nav) => State::Land,
             State::Land | State::Descent { .. } | State::MotorOut if !self.ground.is_airborne() => {
-                State::Idle { disarm_at: Some(effective.wrapping_add(ticks(IDLE_AFTER_LANDING_S))) }
+                State::Idle { disarm_at: Some(after_landing(effective)) }
             }
             state => state,
         };

@@ -13,6 +13,7 @@ use firmware::guidance::Trajectory;
 use firmware::inner::InnerOutput;
 use firmware::navigator::Navigator;
 use firmware::outer::OuterOutput;
+use firmware::schedule::OUTER;
 use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -195,6 +196,15 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         Ok(())
     }
 
+    /// Ends the faults of which this is true, also before they have begun.
+    ///
+    /// # Errors
+    /// On ideal state.
+    pub fn clear_faults_where(&mut self, is_over: impl Fn(&Fault) -> bool) -> Result<()> {
+        self.suite()?.clear_where(is_over);
+        Ok(())
+    }
+
     /// Ends all faults, those to come too.
     ///
     /// # Errors
@@ -309,6 +319,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
             omega,
             omega_command: command,
             reference: self.reference(t, outer),
+            reference_is_held: self.pilot.is_some() && self.tick % OUTER.period != OUTER.offset,
             desired_attitude: roll_pitch_yaw([desired.w, desired.i, desired.j, desired.k]),
             u: inner.demand.as_array().map(f64::from),
             s: [inner.s.x, inner.s.y, inner.s.z, outer.s.x, outer.s.y, outer.s.z].map(f64::from),

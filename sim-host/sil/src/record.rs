@@ -27,8 +27,12 @@ pub struct Row {
     pub omega: [f64; 4],
     /// Commanded rotor speeds that act from t to the next row, rad/s.
     pub omega_command: [f64; 4],
-    /// Reference position (m) and yaw (rad) at t: the paper's own trajectory, not the path that joins it.
+    /// Reference position (m) and yaw (rad) at t: the paper's own trajectory, not the path that joins it; with a pilot,
+    /// where guidance has the vehicle.
     pub reference: [f64; 4],
+    /// Whether the reference is that of an earlier row: guidance renews it at 250 Hz, and between it stands still while the
+    /// vehicle flies on. No error is to be taken from such a row.
+    pub reference_is_held: bool,
     /// Desired roll, pitch, yaw in effect at t, rad.
     pub desired_attitude: [f64; 3],
     /// U1 (N), U2..U4 (N m) as the controller demanded them at t.

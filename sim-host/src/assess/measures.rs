@@ -148,8 +148,9 @@ pub struct Assessor {
     start_height: f64,
     events: Events,
     touchdown: Option<Touchdown>,
-    /// Ticks judged, and those of them in the air.
+    /// Ticks judged, those of them with an error, and those in the air.
     judged: u64,
+    errors: u64,
     in_air: u64,
     /// Cosine of the tilt in the last row.
     upright: f64,
@@ -184,6 +185,7 @@ impl Assessor {
             events: Events::default(),
             touchdown: ground.map(Touchdown::new),
             judged: 0,
+            errors: 0,
             in_air: 0,
             upright: 1.0,
             height: Range::EMPTY,
@@ -224,19 +226,26 @@ impl Assessor {
     }
 
     fn judge(&mut self, row: &Row, wanted: &Vector3<f64>) {
-        let error = Vector3::from(row.position) - wanted;
-        self.height.take(row.position[2]);
-        self.height_error.take(error.z.abs());
-        self.height_sum = (self.height_sum.0 + row.position[2], self.height_sum.1 + 1.0);
-        if self.judged.is_multiple_of(KEPT_EVERY) {
-            self.horizontal.push(libm::hypot(error.x, error.y));
+        // A place to hold is the same in every row.
+        if self.hold.is_some() || !row.reference_is_held {
+            self.judge_error(&(Vector3::from(row.position) - wanted));
         }
+        self.height.take(row.position[2]);
+        self.height_sum = (self.height_sum.0 + row.position[2], self.height_sum.1 + 1.0);
         self.judged += 1;
         self.in_air += u64::from(row.position[2] - self.start_height > AIRBORNE_M);
+        self.roll.take(crate::angles::roll_pitch_yaw(row.attitude)[0].abs().to_degrees());
+    }
+
+    fn judge_error(&mut self, error: &Vector3<f64>) {
+        self.height_error.take(error.z.abs());
+        if self.errors.is_multiple_of(KEPT_EVERY) {
+            self.horizontal.push(libm::hypot(error.x, error.y));
+        }
+        self.errors += 1;
         for (axis, error) in self.axes.iter_mut().zip(error.iter()) {
             axis.take(*error);
         }
-        self.roll.take(crate::angles::roll_pitch_yaw(row.attitude)[0].abs().to_degrees());
     }
 
     /// What the flight has measured; `tracked` unless the vehicle was lost.

@@ -18,9 +18,9 @@ pub(super) fn refuse(error: &clap::Error) -> ExitCode {
     }
     let text = error.to_string();
     let (complaint, tip) = complaint(&text);
-    let tip = settings_of_paper(error)
-        .or_else(|| misplaced_name(error))
+    let tip = misplaced_name(error)
         .or(tip)
+        .or_else(|| misplaced_setting(error))
         .or_else(|| meant_command(error))
         .map_or(String::new(), |tip| format!(": {tip}"));
     complain(&format!("{complaint}{tip} (see --help)"));
@@ -44,13 +44,24 @@ fn misplaced_name(error: &clap::Error) -> Option<String> {
     names::meant(word).map(|meant| format!("it is {meant}"))
 }
 
-/// `sim-host paper` flies what the paper states; another flight is made of one of its scenarios.
-fn settings_of_paper(error: &clap::Error) -> Option<String> {
+/// What an argument that there is not may have meant: a key of a scenario, or the rest of a setting.
+fn misplaced_setting(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
+    let given = |name: &str| std::env::args().any(|argument| argument == name);
     let of_paper = std::env::args().nth(1).is_some_and(|command| command == "paper");
-    let remedy =
-        "`paper` flies the paper's own numbers; fly others as `sim-host run paper-ideal --set KEY=VALUE --out DIR`";
-    (of_paper && ["--set", "--seed"].iter().any(|flag| word.starts_with(flag))).then(|| remedy.to_owned())
+    let remedy = match word.as_str() {
+        "--set" | "--seed" if of_paper => {
+            "`paper` flies the paper's own numbers; fly others as `sim-host run paper-ideal --set KEY=VALUE --out DIR`"
+        }
+        "--duration" => "set the scenario's: --set duration_s=5",
+        "-o" | "--output" => "use --out DIR",
+        flag if flag.starts_with("--") => "keys of a scenario are set by --set KEY=VALUE",
+        word if !word.starts_with('-') && given("--set") => {
+            "a setting is one word, in quotes if it has spaces, braces or quotes: --set 'KEY=VALUE'"
+        }
+        _ => return None,
+    };
+    Some(remedy.to_owned())
 }
 
 /// The command that an unknown one may have meant, or all.

@@ -79,7 +79,7 @@ fn take<W: Write>(
     sensed: Option<SensedRecorder>,
 ) -> Result<Taken> {
     let bar = Progress::new(scenario.file.duration_s, visible);
-    let course = TimelineRecorder::new(&scenario.file.command);
+    let course = TimelineRecorder::new(&scenario.file.command, scenario.joined_s());
     let mut recorder = (((Metrics::new(), truth), (bar, rows)), (sensed, course));
     let start = Instant::now();
     let outcome = flight::fly(scenario, seed, &mut recorder)?;
@@ -119,7 +119,7 @@ fn told(scenario: &Scenario, mut course: Course, outcome: &Outcome) -> Option<To
     if commands == 0 && scenario.file.sensors.is_none() {
         return None;
     }
-    let mission = (commands > 0).then(|| mission::judge(&course, outcome, commands, radius_m(scenario)));
+    let mission = (commands > 0).then(|| mission::judge(&course, outcome, &scenario.file.command, radius_m(scenario)));
     Some(Told::new(course, mission.map(|mission| mission.because(too_heavy(scenario, outcome)))))
 }
 

@@ -29,8 +29,7 @@ fn table(flown: &[Strength]) -> String {
         "factor", "σ m/s²", "σ rad/s²", "σ m", "σ °", "slowest s", "max mm", "max °"
     )];
     for s in flown {
-        let slowest = s.recovery_s.as_array().iter().try_fold(0.0_f64, |most, time| Some(most.max((*time)?)));
-        let slowest = slowest.map_or("never".to_owned(), |time| format!("{time:.3}"));
+        let slowest = s.recovery_s.slowest().map_or("never".to_owned(), |time| format!("{time:.3}"));
         lines.push(format!(
             "{:>9.2}  {:>9}  {:>9}  {:>9}  {:>9}  {slowest:>9}  {:>9.3}  {:>9.3}  {}",
             s.factor,

@@ -14,6 +14,7 @@ use crate::outcome::Contact;
 use crate::plant::rigid_body::RigidBody;
 use crate::plant::{Motion, Plant as _};
 use crate::record::{Recorder as _, Row};
+use crate::report::mission::REACHED_BY_GNSS_M;
 use crate::report::timeline::fault_name;
 use crate::sil::Flight;
 use crate::touchdown::{HARDEST_M_S, Touchdown};
@@ -186,7 +187,8 @@ impl Watch {
         let commander = vehicle.commander_output();
         let position = self.position.see(tick, vehicle.nav_health().position);
         if let Some(text) = position.and_then(|known| position_text(&mut self.lost, known, commander.armed)) {
-            tell(if self.lost { Tone::Alarm } else { Tone::Good }, text.to_owned());
+            let (tone, off) = if self.lost { (Tone::Alarm, String::new()) } else { (Tone::Good, off_text(flight)) };
+            tell(tone, format!("{text}{off}"));
         }
         if commander.armed {
             return;
@@ -194,9 +196,19 @@ impl Watch {
         if let Some(ready) = self.ready.see(tick, commander.armable)
             && let Some((tone, text)) = ready_text(&mut self.reasons, ready)
         {
-            tell(tone, text);
+            let off = if ready.is_ok() { off_text(flight) } else { String::new() };
+            tell(tone, format!("{text}{off}"));
         }
     }
+}
+
+/// Positions that are further off than receivers in the open wander are told, m.
+const FAR_OFF_M: f64 = REACHED_BY_GNSS_M;
+
+/// How far the vehicle's position is off the truth, where that is far: it does not know it.
+pub(super) fn off_text(flight: &Flight<RigidBody>) -> String {
+    let off_m = (flight.plant().motion().position - flight.autopilot.inner.nav().position.cast()).norm();
+    if off_m > FAR_OFF_M { format!(", {off_m:.1} m off the truth") } else { String::new() }
 }
 
 /// What is said of whether it can be armed: each reason why not once, until it can. After a crash they take turns.

@@ -164,7 +164,7 @@ pub const COMMANDS: &[Entry] = &[
         Reads::With(velocity),
     )
     .with_details(
-        "At most 100 m/s along each axis and 360°/s. By name, what is left out is 0: `velocity up=1`. `hold` ends it",
+        "At most 100 m/s along each axis and 360°/s, flown within the scenario's `modes`, as the answer says. By name, what is left out is 0: `velocity up=1`. `hold` ends it",
     ),
     Entry::new(&["hold", "loiter", "brake"], "", "brake and stay", Reads::Nothing(Command::Request(Request::Hold))),
     Entry::new(

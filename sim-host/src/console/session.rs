@@ -5,6 +5,7 @@ use std::net::SocketAddr;
 
 use anyhow::{Result, ensure};
 use firmware::commander::{Mode, Origin, Outcome, Refusal, Reply, Request};
+use firmware::config::ModeSettings;
 use firmware::failure::Manner;
 use firmware::mavlink::TxBytes;
 use firmware::signals::{TICK_S_EXACT, Tick};
@@ -118,6 +119,8 @@ impl Session {
     fn take_failures(&mut self) {
         for failure in self.flight.autopilot.inner.take_failures() {
             if failure.manner == Manner::Well {
+                // Also what the console or the scenario has made fail: it is said to work again.
+                let _ = self.flight.clear_faults_where(|fault| failures::is_of(&failure, fault));
                 self.say(Tone::Plain, format!("ground station: {} works again", failures::unit_name(&failure)));
             }
             for (slot, fault) in failures::of(&failure, self.flight.next_tick()) {
@@ -161,7 +164,7 @@ impl Session {
             self.velocity = goes_on.then_some((request, self.flight.next_tick()));
         }
         let (tone, outcome) = match reply.outcome {
-            Outcome::Accepted => (Tone::Plain, "accepted".to_owned()),
+            Outcome::Accepted => (Tone::Plain, accepted(&request, self.flight.autopilot.commander.settings())),
             Outcome::TemporarilyRejected(refusal) => (Tone::Refused, refused(&request, refusal)),
             Outcome::Denied => (Tone::Refused, "denied: a value is out of its range".to_owned()),
         };
@@ -319,7 +322,8 @@ impl Session {
         let (commander, nav) = (vehicle.commander_output(), vehicle.nav());
         let [north, west, up] = shown(nav.position.cast());
         let yaw = nav.attitude.euler_angles().2.to_degrees().round() + 0.0;
-        let place = format!("north {north:.1}, west {west:.1}, up {up:.1} m, yaw {yaw}°");
+        let off = events::off_text(&self.flight);
+        let place = format!("north {north:.1}, west {west:.1}, up {up:.1} m{off}, yaw {yaw}°");
         let state = match (commander.armed, commander.landed, commander.armable) {
             (true, true, _) => "armed on the ground".to_owned(),
             (true, false, _) => "in the air".to_owned(),
@@ -375,6 +379,22 @@ fn describe(request: &Request) -> String {
         Request::Return => "return".to_owned(),
         Request::Follow => "trajectory".to_owned(),
     }
+}
+
+/// The answer to a request that is granted, with what of it is cut.
+fn accepted(request: &Request, modes: &ModeSettings) -> String {
+    let Request::Velocity { velocity_m_s: [north, west, up], yaw_rate_rad_s } = *request else {
+        return "accepted".to_owned();
+    };
+    let vertical = if up > 0.0 { ("climb_m_s", modes.climb_m_s) } else { ("sink_m_s", modes.sink_m_s) };
+    let limits = [
+        ("cruise_m_s", libm::hypotf(north, west), modes.cruise_m_s, "m/s"),
+        (vertical.0, up.abs(), vertical.1, "m/s"),
+        ("yaw_rate_rad_s", yaw_rate_rad_s.abs(), modes.yaw_rate_rad_s, "rad/s"),
+    ];
+    let cut = limits.iter().filter(|(_, asked, most, _)| asked > most);
+    let cut: Vec<String> = cut.map(|(key, _, most, unit)| format!("{most} {unit} (modes.{key})")).collect();
+    if cut.is_empty() { "accepted".to_owned() } else { format!("accepted, at no more than {}", cut.join(", ")) }
 }
 
 /// The commander's reason, and a remedy.

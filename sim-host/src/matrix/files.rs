@@ -16,11 +16,11 @@ use crate::sensors::suite::file_names;
 pub fn short_name(name: &str) -> &str {
     let file = name.rsplit('/').next().unwrap_or(name);
     let Some(stem) = file.strip_suffix(".toml") else { return file };
-    ["tuning-", "scenario-", "airframe-", "suite-", "part-"]
-        .iter()
-        .find_map(|kind| stem.strip_prefix(kind))
-        .unwrap_or(stem)
+    KEPT.iter().find_map(|kind| stem.strip_prefix(kind)).unwrap_or(stem)
 }
+
+/// What the names of the files begin with that a comparison keeps beside its matrix.
+pub const KEPT: [&str; 5] = ["tuning-", "scenario-", "airframe-", "suite-", "part-"];
 
 /// Files to be written, and their texts.
 type Files = Vec<(String, String)>;

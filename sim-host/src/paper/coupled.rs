@@ -69,8 +69,8 @@ fn height_first(flown: &Flown) -> String {
     let airframe = &flown.scenario.airframe;
     let level = flown.rows.iter().filter(|row| row.desired_attitude[..2] == [0.0, 0.0]).count();
     format!(
-        "z asks for ±{} m/s², where rotors for {} times the weight give {:.1} m/s²: {:.0} % of the time all thrust goes into \
-         height and none is left to tilt, else hardly any is left at all",
+        "z asks for ±{} m/s², where rotors for {} times the weight give {:.1} m/s²: {:.0} % of the time height is all \
+         that is asked for, and no tilt; else hardly any thrust is asked for at all",
         flown.control().z.gain,
         airframe.thrust_to_weight,
         airframe.thrust_to_weight * airframe.gravity_m_s2,

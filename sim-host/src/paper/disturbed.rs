@@ -20,8 +20,7 @@ pub(super) fn lines(flights: &Flights, sweeps: &Sweeps) -> Vec<Line> {
 /// The onset's recovery of the slowest coordinate.
 fn removed(flown: &Flown, what: &str, why: String) -> Line {
     let onset = flown.scenario.file.disturbance.map_or(0.0, |disturbance| disturbance.from_s);
-    let times = flown.metrics.recovery(onset).as_array();
-    let here = times.into_iter().try_fold(0.0_f64, |most, time| Some(most.max(time?)));
+    let here = flown.metrics.recovery(onset).slowest();
     let measure = "from its onset until within 5 cm, 2° for good";
     let claim = format!("{}, {what}", DISTURBANCE_REMOVED.what);
     Line::new(&claim, DISTURBANCE_REMOVED.source, flown, measure, "s").with(Some(DISTURBANCE_REMOVED.time_s), here, why)

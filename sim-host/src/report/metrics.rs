@@ -127,6 +127,11 @@ impl Recovery {
         [self.x, self.y, self.z, self.roll, self.pitch, self.yaw]
     }
 
+    /// The time of the slowest; `None` if one has none.
+    pub fn slowest(&self) -> Option<f64> {
+        self.as_array().into_iter().try_fold(0.0_f64, |most, time| Some(most.max(time?)))
+    }
+
     /// The names of those that were outside at the onset already.
     pub fn away(&self) -> Vec<&'static str> {
         Self::NAMES.into_iter().zip(self.outside).filter_map(|(name, outside)| outside.then_some(name)).collect()
@@ -231,6 +236,19 @@ impl Metrics {
         self.began_away
     }
 
+    fn take_errors(&mut self, row: &Row, angles: &[f64; 3]) {
+        let errors = errors(row);
+        for (axis, error) in self.axes.iter_mut().zip(errors) {
+            axis.take(row.t, error);
+        }
+        let ([x, y, z, yaw], [roll, pitch, _]) = (errors, *angles);
+        let off = [libm::sqrt(x * x + y * y + z * z), roll.abs().max(pitch.abs()), yaw.abs()];
+        for (recent, value) in self.recent.iter_mut().zip(off) {
+            recent.take(row.t, value);
+        }
+        self.distance.take(off[0]);
+    }
+
     fn look_for_jump(&mut self, row: &Row) {
         let [x, y, z, _] = row.reference;
         let now = [x, y, z];
@@ -324,10 +342,6 @@ impl Recorder for Metrics {
     fn record(&mut self, row: &Row) {
         self.last_t = Some(row.t);
         self.look_for_jump(row);
-        let errors = errors(row);
-        for (axis, error) in self.axes.iter_mut().zip(errors) {
-            axis.take(row.t, error);
-        }
         let angles = angle_errors(row);
         for (settling, error) in self.angles.iter_mut().zip(angles) {
             settling.take(row.t, error);
@@ -335,13 +349,9 @@ impl Recorder for Metrics {
         for (axis, error) in self.tilt.iter_mut().zip(angles) {
             axis.take(row.t, error);
         }
-        let [x, y, z, yaw] = errors;
-        let [roll, pitch, _] = angles;
-        let off = [libm::sqrt(x * x + y * y + z * z), roll.abs().max(pitch.abs()), yaw.abs()];
-        for (recent, value) in self.recent.iter_mut().zip(off) {
-            recent.take(row.t, value);
+        if !row.reference_is_held {
+            self.take_errors(row, &angles);
         }
-        self.distance.take(off[0]);
         self.chattering.take(row.t, row.omega_command);
         self.chattering_after_4s.take(row.t, row.omega_command);
         for (effort, u) in self.effort.iter_mut().zip(row.u) {

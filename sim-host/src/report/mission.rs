@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::timeline::{Course, EventKind, Leg, order_text};
-use crate::pilot::Order;
+use crate::pilot::{Command, Order};
 use crate::sil::{End, Outcome};
 
 /// How near a place has to be reached on satellites, m: half a metre by the pilot's own look, and what a receiver in the
@@ -34,16 +34,16 @@ impl Mission {
     }
 }
 
-/// Judges a flight of `commands` commands, with places reached within `radius_m`.
-pub fn judge(course: &Course, outcome: &Outcome, commands: usize, radius_m: f64) -> Mission {
-    let reason = Judge { course, outcome, commands, radius_m }.reason();
+/// Judges a flight by its pilot's script, with places reached within `radius_m`.
+pub fn judge(course: &Course, outcome: &Outcome, script: &[Command], radius_m: f64) -> Mission {
+    let reason = Judge { course, outcome, script, radius_m }.reason();
     Mission { completed: reason.is_none(), reason }
 }
 
 struct Judge<'a> {
     course: &'a Course,
     outcome: &'a Outcome,
-    commands: usize,
+    script: &'a [Command],
     radius_m: f64,
 }
 
@@ -94,9 +94,18 @@ impl Judge<'_> {
         let waits = || {
             let last =
                 self.course.legs.last().map_or("the first".into(), |leg| format!("`{}`", order_text(&leg.order)));
-            format!("{given} of {} commands given: {last} was not reached in time", self.commands)
+            let (of, ended_s) = (self.script.len(), f64::from(self.outcome.ticks) / 1e3);
+            match self.script.get(given) {
+                Some(Command { at_s: Some(at_s), order, .. }) if *at_s >= ended_s => {
+                    format!(
+                        "{given} of {of} commands given: `{}` is for {at_s} s, and the flight ended before",
+                        order_text(order)
+                    )
+                }
+                _ => format!("{given} of {of} commands given: {last} was not reached in time"),
+            }
         };
-        (given < self.commands).then(waits)
+        (given < self.script.len()).then(waits)
     }
 
     fn missed(&self) -> Option<String> {
@@ -151,6 +160,10 @@ mod tests {
     use crate::report::timeline::Timeline;
 
     const TAKE_OFF: Order = Order::TakeOff { height_m: 5.0 };
+    const SCRIPT: [Command; 2] = [
+        Command { at_s: Some(1.0), arrived_for_s: None, order: TAKE_OFF },
+        Command { at_s: Some(300.0), arrived_for_s: None, order: Order::Return },
+    ];
 
     fn leg(order: Order, off_m: f64) -> Leg {
         Leg { order, place: Some([0.0; 3]), refused: None, off_m: Some(off_m) }
@@ -167,20 +180,23 @@ mod tests {
     }
 
     fn reason(course: &Course, outcome: &Outcome) -> String {
-        judge(course, outcome, 2, REACHED_BY_GNSS_M).reason.unwrap_or_default()
+        judge(course, outcome, &SCRIPT, REACHED_BY_GNSS_M).reason.unwrap_or_default()
     }
 
     #[test]
     fn a_mission_is_completed_if_all_is_done_and_the_vehicle_is_down_in_its_place() {
         let whole = course(vec![leg(TAKE_OFF, 0.2), leg(Order::Return, 1.0)]);
-        assert!(judge(&whole, &landed(0.5), 2, REACHED_BY_GNSS_M).completed);
+        assert!(judge(&whole, &landed(0.5), &SCRIPT, REACHED_BY_GNSS_M).completed);
         assert_eq!(reason(&whole, &landed(3.5)), "landed 3.5 m from its place");
         assert_eq!(reason(&whole, &Outcome::default()), "it has not landed");
         assert_eq!(reason(&Course { disarmed: false, ..whole.clone() }, &landed(0.5)), "landed, and not disarmed");
         let missed = course(vec![leg(TAKE_OFF, 3.2), leg(Order::Return, 1.0)]);
         assert_eq!(reason(&missed, &landed(0.5)), "`take-off to 5 m` missed by 3.2 m");
         let left_over = course(vec![leg(TAKE_OFF, 0.1)]);
-        assert!(reason(&left_over, &Outcome::default()).starts_with("1 of 2 commands given: `take-off to 5 m`"));
+        let late = Outcome { ticks: 400_000, ..Outcome::default() };
+        assert_eq!(reason(&left_over, &late), "1 of 2 commands given: `take-off to 5 m` was not reached in time");
+        let early = "1 of 2 commands given: `return` is for 300 s, and the flight ended before";
+        assert_eq!(reason(&left_over, &Outcome::default()), early);
     }
 
     #[test]

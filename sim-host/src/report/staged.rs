@@ -22,6 +22,7 @@ use anyhow::{Context, Result, bail, ensure};
 use super::OutFolder;
 use super::out::cannot_write;
 use crate::interrupt;
+use crate::matrix::KEPT;
 use crate::words::counted;
 
 /// Files by which a folder is known to be ours: one of them is written by every command with `--out`.
@@ -245,10 +246,9 @@ fn is_figure(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|extension| extension == "svg")
 }
 
-/// Whether it is named as a comparison names its tunings, scenarios and airframes.
+/// Whether it is named as a comparison names what it keeps.
 fn is_kept(name: &str) -> bool {
-    let kinds = ["tuning-", "scenario-", "airframe-"];
-    kinds.iter().any(|kind| name.starts_with(kind)) && Path::new(name).extension().is_some_and(|end| end == "toml")
+    KEPT.iter().any(|kind| name.starts_with(kind)) && Path::new(name).extension().is_some_and(|end| end == "toml")
 }
 
 fn is_ours(name: &str) -> bool {

@@ -6,7 +6,7 @@ mod numbers;
 use std::fmt::Write as _;
 
 use self::numbers::{error, number, seconds, undefined};
-use super::metrics::{AxisFigures, Recovery, TRACKING_FROM_S};
+use super::metrics::{AxisFigures, Recovery, TRACKING_FROM_S, TiltFigures};
 use super::mission::{Mission, end_text};
 use super::paint::{Paint, Verdict};
 use super::summary::{Row, Summary};
@@ -286,6 +286,8 @@ enum Shown {
     Reaching,
     /// Of an attitude case: how its angles were followed.
     Angles,
+    /// Under a disturbance: the greatest errors, and when it was removed.
+    Disturbed,
     /// Of a flight on sensors or with a pilot: its landing and its battery.
     Landing,
 }
@@ -295,6 +297,7 @@ impl Shown {
     fn of(summary: &Summary) -> Self {
         match summary {
             Summary { told: Some(_), .. } => Self::Landing,
+            Summary { recovery_s: Some(_), .. } => Self::Disturbed,
             Summary { roll_and_pitch: Some(_), .. } => Self::Angles,
             Summary { settles: true, .. } => Self::Reaching,
             _ => Self::Errors,
@@ -306,6 +309,10 @@ impl Shown {
         let lines = match self {
             Self::Landing => vec![["seed", "touchdown", "from start", "battery", "end"]],
             Self::Angles => vec![["seed", "roll RMS", "pitch RMS", "yaw RMS", "end"], after],
+            Self::Disturbed => vec![
+                ["seed", "greatest of x, y, z", "of roll, pitch, yaw", "all within 5 cm, 2°", "end"],
+                ["", "after 4 s", "after 4 s", "from its onset", ""],
+            ],
             Self::Reaching => vec![
                 ["seed", "x, y, z within", "greatest", "greatest in the", "end"],
                 ["", "5 cm from", "distance", "last second", ""],
@@ -322,6 +329,18 @@ impl Shown {
             Self::Angles => {
                 let [roll, pitch] = summary.roll_and_pitch.map_or([None; 2], |tilt| tilt.map(|axis| axis.rms_m));
                 [roll, pitch, axes.yaw.rms_m].map(|rms| error(rms, "rad"))
+            }
+            Self::Disturbed => {
+                let greatest =
+                    |errors: [Option<f64>; 3]| errors.into_iter().try_fold(0.0, |most, e| Some(e?.max(most)));
+                let AxisFigures { max_m: yaw, .. } = axes.yaw;
+                let TiltFigures { roll_max_rad: roll, pitch_max_rad: pitch, .. } = summary.attitude_error;
+                let slowest = summary.recovery_s.as_ref().and_then(Recovery::slowest);
+                [
+                    error(greatest([axes.x.max_m, axes.y.max_m, axes.z.max_m]), "m"),
+                    error(greatest([roll, pitch, yaw]), "rad"),
+                    seconds(slowest),
+                ]
             }
             Self::Reaching => {
                 [seconds(last_settling(summary)), error(summary.distance_max_m, "m"), error(summary.end_error_m, "m")]
@@ -458,6 +477,18 @@ seed      x RMS      y RMS      z RMS  end
         };
         assert!(of(false, [true; 3]) && !of(false, [true, false, true]), "x, y and z, or none");
         assert!(of(true, [false, true, true]), "the paper's mean counts its x, which begins on the helix");
+    }
+
+    #[test]
+    fn of_several_seeds_under_a_disturbance_the_greatest_errors_and_the_recovery_are_told() {
+        let flight = Flight { disturbance_onset_s: Some(2.0), aim: Aim::Attitude, ..flight(true) };
+        let text = seeds(&[Row::Flown(Box::new(Summary::new(flight, &metrics())))]);
+        let expected = "\
+seed  greatest of x, y, z  of roll, pitch, yaw  all within 5 cm, 2°  end
+                after 4 s            after 4 s       from its onset
+7                1.500 mm           0.000 mrad              0.000 s  flown for 20 s
+";
+        assert_eq!(text, expected);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! Times are the plant's. Distances are between the true position and the reference; the vehicle's belief decides
 //! nothing here but the names of the phases, which are the commander's modes.
 
-use firmware::commander::{CommanderOutput, Directive, Mode, Outcome, Reply};
+use firmware::commander::{CommanderOutput, Mode, Outcome, Reply};
 use serde::Serialize;
 
 use super::measures::Size;
@@ -129,8 +129,10 @@ pub struct TimelineRecorder {
     script: Vec<Command>,
     course: Course,
     error: Size,
-    /// Distance from the reference in the newest row, m.
-    distance_m: f64,
+    /// Distance from the reference in the newest row, m; none where the reference is an earlier row's.
+    distance_m: Option<f64>,
+    /// How long the trajectory is joined, s.
+    joined_s: f64,
     position: [f64; 3],
     /// Where the flight began.
     home: Option<[f64; 3]>,
@@ -145,9 +147,9 @@ pub struct TimelineRecorder {
 }
 
 impl TimelineRecorder {
-    /// Of a flight with a pilot's script and a schedule of faults.
-    pub fn new(script: &[Command]) -> Self {
-        Self { script: script.to_vec(), ..Self::default() }
+    /// Of a flight with a pilot's script, whose trajectory is joined for `joined_s`.
+    pub fn new(script: &[Command], joined_s: f64) -> Self {
+        Self { script: script.to_vec(), joined_s, ..Self::default() }
     }
 
     /// The course, with the faults and pushes of a schedule that began before its end.
@@ -252,14 +254,15 @@ impl TimelineRecorder {
     }
 
     /// The name of what is being done, with a number where it is done more than once.
-    fn doing(&self, commander: &CommanderOutput) -> (&'static str, Option<usize>) {
+    fn doing(&self, activity: &Activity) -> (&'static str, Option<usize>) {
+        let commander = activity.commander;
         match commander.mode {
             Mode::Disarmed if self.armed_before => ("disarmed", None),
             Mode::Disarmed => ("before arming", None),
             Mode::Idle if self.flown => ("landed", None),
             Mode::Idle => ("armed", None),
             Mode::GoTo => ("go-to", Some(self.legs_given())),
-            Mode::Follow if matches!(commander.directive, Directive::GoTo { .. }) => ("join", None),
+            Mode::Follow if !follows(activity, self.joined_s) => ("join", None),
             mode => (mode.name(), None),
         }
     }
@@ -272,7 +275,7 @@ impl TimelineRecorder {
 impl Recorder for TimelineRecorder {
     fn record(&mut self, row: &Row) {
         let [x, y, z, _] = row.reference;
-        self.distance_m = distance(&[x, y, z], &row.position);
+        self.distance_m = (!row.reference_is_held).then(|| distance(&[x, y, z], &row.position));
         self.position = row.position;
         self.home.get_or_insert(row.position);
         self.end_s = row.t;
@@ -292,7 +295,7 @@ impl Recorder for TimelineRecorder {
         self.armed_before |= commander.armed;
         // Once disarmed, what comes is another flight.
         self.flown = commander.armed && (self.flown || !matches!(commander.mode, Mode::Disarmed | Mode::Idle));
-        let (name, number) = self.doing(commander);
+        let (name, number) = self.doing(activity);
         let is_same = self.course.timeline.phases.last().is_some_and(|phase| is_named(&phase.name, name, number));
         if !is_same {
             self.close();
@@ -300,10 +303,16 @@ impl Recorder for TimelineRecorder {
             let phase = Phase { name, from_s: activity.t, to_s: activity.t, ..Phase::default() };
             self.course.timeline.phases.push(phase);
         }
-        if controls_position(commander) {
-            self.error.take(self.distance_m);
+        if let Some(distance_m) = self.distance_m.filter(|_| controls_position(commander)) {
+            self.error.take(distance_m);
         }
     }
+}
+
+/// Whether the vehicle is on its trajectory, after the path of `joined_s` that leads onto it.
+pub fn follows(activity: &Activity, joined_s: f64) -> bool {
+    let start_s = activity.commander.flight_start().map(|tick| f64::from(tick) / 1e3);
+    start_s.is_some_and(|start| activity.t >= start + joined_s)
 }
 
 /// Whether the vehicle controls its position.

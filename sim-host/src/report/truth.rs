@@ -197,6 +197,7 @@ mod tests {
             rates: [v[11], v[12], v[13]],
             omega: take(14),
             reference: take(18),
+            reference_is_held: false,
             desired_attitude: [0.0; 3],
             u: take(22),
             s: std::array::from_fn(|i| v[26 + i]),

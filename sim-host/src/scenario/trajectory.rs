@@ -295,7 +295,8 @@ fn fit_rows(file: &Csv, rows: &[csv::Row], join_s: f64, flight_s: f64) -> Result
     if !file.repeat {
         ensure!(
             rest[0].is_some() || f64::from(begin_ms) * 1e-3 <= join_s + 1e-3,
-            "it begins moving, at {} s, {join_s} s after the start: let it begin at rest, or at `t_s` = 0",
+            "it begins moving, at {} s (`start_s` plus the first `t_s`), but the vehicle stands at its beginning until then: \
+             let it begin at rest, or leave `start_s` out and begin at `t_s` = 0",
             f64::from(begin_ms) * 1e-3
         );
         ensure!(

@@ -79,14 +79,14 @@ impl ScenarioFile {
         let gusts = self.wind.iter().flat_map(|wind| wind.gust.iter().enumerate());
         let gusts = gusts.map(|(i, gust)| (format!("wind.gust.{i}"), gust.from_s));
         let all = faults.chain(pushes).chain(gusts);
-        all.filter_map(|(key, from_s)| too_late(&key, from_s, self.duration_s)).collect()
+        all.filter_map(|(key, from_s)| too_late(&format!("{key}.from_s"), from_s, self.duration_s)).collect()
     }
 }
 
 /// What begins at `key` once the flight has ended is refused.
 fn too_late(key: &str, from_s: f64, duration_s: f64) -> Option<Refusal> {
     let rule = format!("must be before the end of the flight, `duration_s` = {duration_s}");
-    (from_s >= duration_s).then(|| Refusal::new(format!("{key}.from_s"), rule).given(from_s))
+    (from_s >= duration_s).then(|| Refusal::new(key, rule).given(from_s))
 }
 
 fn optional(f: &ScenarioFile) -> Result<()> {
@@ -328,7 +328,7 @@ fn disturbance(d: &Disturbance, duration_s: f64) -> Result<()> {
     ] {
         within(&format!("disturbance.{key}"), value, 0.0, 1e9)?;
     }
-    if let Some(late) = too_late("disturbance", d.from_s, duration_s) {
+    if let Some(late) = too_late("disturbance.from_s", d.from_s, duration_s) {
         return Err(late.into());
     }
     period("disturbance", d.from_s, d.to_s)?;

@@ -154,7 +154,7 @@ struct Heading {
 
 impl Recorder for Heading {
     fn record(&mut self, row: &Row) {
-        if row.t >= self.from_s {
+        if row.t >= self.from_s && !row.reference_is_held {
             self.error.take(errors(row)[3]);
         }
     }

@@ -294,6 +294,48 @@ fn a_rotor_that_works_again_is_flown_after_arming_by_force() {
 }
 
 #[test]
+fn what_a_ground_station_says_works_again_does_whoever_broke_it() {
+    let mut bench = Bench::new("field");
+    bench.until("] ready to arm", 10.0);
+    bench.enter("fault rotor index=1 effectiveness=0.5");
+    bench.enter("fault gnss off");
+    bench.session.tick(&command_long(420, [101.0, 0.0, 2.0]));
+    bench.until("ground station: rotor 2 (index 1) works again", 0.1);
+    let left = bench.enter("faults");
+    assert!(left.contains("fault sensor=gnss kind=off"), "{left}");
+}
+
+#[test]
+fn a_velocity_that_is_cut_says_by_what() {
+    let mut bench = Bench::new("field");
+    bench.arm_and_climb(5.0);
+    let answer =
+        |bench: &mut Bench, line: &str| text(&bench.enter(line)).split_once(": ").map(|(_, said)| said.to_owned());
+    assert_eq!(answer(&mut bench, "velocity 3 4 1").as_deref(), Some("accepted"));
+    let cut = "accepted, at no more than 5 m/s (modes.cruise_m_s), 2 m/s (modes.climb_m_s)";
+    assert_eq!(answer(&mut bench, "velocity 15 0 3").as_deref(), Some(cut));
+    bench.fly(10.0);
+    let flown = bench.motion().velocity;
+    assert!((flown.x - 5.0).abs() < 0.3, "{flown}");
+}
+
+#[test]
+fn a_position_that_is_wrong_though_the_vehicle_trusts_it_is_told_by_the_truth() {
+    let mut bench = Bench::new("field");
+    bench.arm_and_climb(15.0);
+    // The estimator takes the satellites to have jumped, and shifts them.
+    bench.enter("fault mag drift rate=1");
+    let line = bench.until("m off the truth", 60.0);
+    let nav = bench.session.flight().autopilot.inner.nav().position.cast::<f64>();
+    let off = (bench.motion().position - nav).norm();
+    assert!(
+        off > 3.0 && line.contains("position known again") && line.ends_with(&format!(", {off:.1} m off the truth")),
+        "{off}: {line}"
+    );
+    assert!(bench.enter("status").contains("m off the truth, yaw"), "{:?}", bench.printed.last());
+}
+
+#[test]
 fn a_velocity_goes_on_until_the_next_command() {
     let mut bench = Bench::new("field");
     bench.arm_and_climb(5.0);

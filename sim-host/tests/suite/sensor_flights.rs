@@ -10,12 +10,42 @@ use sim_host::assess::consistency::kind;
 use sim_host::assess::{Expectation, ensemble};
 use sim_host::flight;
 use sim_host::record::{Navigation, Recorder, Row};
+use sim_host::report::TimelineRecorder;
 use sim_host::scenario::{self, Scenario};
+use sim_host::score::Scorer;
 use sim_host::seeds::Seeds;
 use sim_host::sil::Lockstep as _;
 
 use crate::common::fault::fault;
 use crate::common::load::load;
+
+/// The error of a trajectory that a pilot asked for is the distance from the trajectory itself, in each tick: guidance has it
+/// at 250 Hz, and the vehicle flies 4 mm a tick.
+#[test]
+fn the_error_on_a_trajectory_is_the_distance_from_its_closed_form() {
+    let scenario = load("indoor-helix", &["duration_s=25"]);
+    let course = TimelineRecorder::new(&scenario.file.command, scenario.joined_s());
+    let mut recorder = ((Vec::new(), Scorer::new(&scenario)), course);
+    let outcome = flight::fly(&scenario, 1, &mut recorder).expect("it flies");
+    let ((rows, scorer), course): ((Vec<Row>, Scorer), _) = recorder;
+    let phase = course.finish(&[], &[]).timeline.phases.pop().expect("phases");
+    assert_eq!(phase.name, "trajectory");
+    let from_s = phase.from_s;
+    let squared = |row: &Row| {
+        // The helix of the scenario's file, on its own clock.
+        let tau = row.t - (from_s - 4.0);
+        let (sin, cos) = libm::sincos(tau);
+        let helix = Vector3::new(4.0 * sin, 5.0 * cos, 2.0 + tau);
+        (Vector3::from(row.position) - helix).norm_squared()
+    };
+    let judged: Vec<f64> = rows.iter().filter(|row| row.t >= from_s).map(squared).collect();
+    let expected = (judged.iter().sum::<f64>() / judged.len() as f64).sqrt();
+    for (rms, of) in [(phase.error_rms_m, "phase"), (scorer.score(&outcome).rms_m, "score")] {
+        let rms = rms.expect("it is flown");
+        assert!((rms / expected - 1.0).abs() < 0.01, "{of}: {rms} is not {expected}");
+    }
+    assert!(expected < 0.005, "{expected}");
+}
 
 /// Higher than this it is in the air, m: the ground pushes on a rotor as no failure does.
 const IN_AIR_M: f64 = 0.3;

@@ -190,10 +190,18 @@ fn unknown_key(path: &str, name: &str, known: &[&str]) -> Refusal {
     Refusal::new(below(path, name), "is no key").remedy(remedy)
 }
 
-/// What the paper has a letter for, as a table has it that is an axis' gains.
+/// What the paper has a letter for, as a table has it that is an axis' gains, or that has the axes.
 fn by_its_letter(name: &str, known: &[&str]) -> Option<&'static str> {
     let is_axis = known.contains(&"gain") && known.contains(&"reaching");
+    let has_axes = known.contains(&"roll") && known.contains(&"z");
     match name {
+        "roll" | "pitch" | "yaw" | "x" | "y" | "z" if known.contains(&"control") => {
+            Some("gains stand below `control`, as in control.z.lambda")
+        }
+        "phi" | "φ" if has_axes => Some("the paper's φ is `roll`"),
+        "theta" | "θ" if has_axes => Some("the paper's θ is `pitch`"),
+        "psi" | "ψ" if has_axes => Some("the paper's ψ is `yaw`"),
+        "altitude" | "height" if has_axes => Some("the altitude is `z`"),
         "K" | "k" if is_axis => Some("the paper's K is `gain`"),
         "λ" if is_axis => Some("the paper's λ is `lambda`"),
         "rho" | "ρ" if is_axis => Some("the paper's ρ stands inside `reaching`, as in reaching={tanh={rho=…}}"),
@@ -204,7 +212,8 @@ fn by_its_letter(name: &str, known: &[&str]) -> Option<&'static str> {
 fn bare_kind(path: &str, name: &str, keys: &[&str]) -> Refusal {
     let keys: Vec<String> = keys.iter().map(|key| format!("{key}=…")).collect();
     let form = format!("{{{name}={{{}}}}}", keys.join(","));
-    Refusal::new(path, "must be a table").given(format!("{name:?}")).remedy(format!("write {form} in its place"))
+    let remedy = format!("write {form} in its place, and all of a --set in quotes: --set '…={form}'");
+    Refusal::new(path, "must be a table").given(format!("{name:?}")).remedy(remedy)
 }
 
 fn unknown_choice(path: &str, name: &str, known: &[&str]) -> Refusal {
@@ -305,7 +314,7 @@ mod tests {
             (point("place_m = [1.0, \"b\", 3.0]"), "`inner.1.point.place_m.1` must be a number, not \"b\""),
             (
                 "inner = [\"point\"]".to_owned(),
-                "`inner.0` must be a table, not \"point\": write {point={place_m=…,count=…,is_there=…}} in its place",
+                "`inner.0` must be a table, not \"point\": write {point={place_m=…,count=…,is_there=…}} in its place, and all of a --set in quotes: --set '…={point={place_m=…,count=…,is_there=…}}'",
             ),
             ("inner = [{}]".to_owned(), "`inner.0` must name a kind, not {}"),
             (

@@ -196,6 +196,12 @@ impl Suite {
         self.faults.clear(id);
     }
 
+    /// Ends the faults of which this is true, also before they have begun.
+    pub fn clear_where(&mut self, is_over: impl Fn(&Fault) -> bool) {
+        self.commanded = true;
+        self.faults.clear_where(is_over);
+    }
+
     /// Ends all faults, including future ones.
     pub fn clear_all(&mut self) {
         self.commanded = true;

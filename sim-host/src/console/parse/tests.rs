@@ -138,7 +138,7 @@ fn names_are_unique_and_help_gives_the_ranges_that_are_checked() {
 #[test]
 fn the_help_of_a_velocity_names_its_limits() {
     let help = COMMANDS.iter().find(|entry| entry.name() == "velocity").map(Entry::help).unwrap_or_default();
-    assert!(help.contains(&format!("At most {FASTEST_M_S} m/s along each axis and 360°/s.")), "{help}");
+    assert!(help.contains(&format!("At most {FASTEST_M_S} m/s along each axis and 360°/s,")), "{help}");
 }
 
 #[test]

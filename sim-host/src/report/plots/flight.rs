@@ -98,14 +98,23 @@ impl<'a> Figures<'a> {
     #[must_use]
     pub fn with_settings(mut self, settings: &[String]) -> Self {
         /// Characters.
-        const ROOM: usize = 60;
-        let text = settings.join(", ");
-        if text.is_empty() {
-            return self;
+        const ROOM: usize = 80;
+        let mut room = ROOM;
+        let fits = |setting: &&String| {
+            let is_room = setting.chars().count() + 2 <= room;
+            room = room.saturating_sub(setting.chars().count() + 2);
+            is_room
+        };
+        let shown: Vec<&str> = settings.iter().take_while(fits).map(String::as_str).collect();
+        let more = match settings.len() - shown.len() {
+            0 => None,
+            rest if shown.is_empty() => Some(crate::words::counted(rest, "setting")),
+            rest => Some(format!("{rest} more")),
+        };
+        let said: Vec<&str> = shown.into_iter().chain(more.as_deref()).collect();
+        if !said.is_empty() {
+            self.of = format!("{}, with {}", self.of, said.join(", "));
         }
-        let is_long = text.chars().count() > ROOM;
-        let text: String = text.chars().take(if is_long { ROOM - 1 } else { ROOM }).collect();
-        self.of = format!("{}, with {text}{}", self.of, if is_long { "…" } else { "" });
         self
     }
 

@@ -75,7 +75,10 @@ fn altitude(folder: &Path, flown: &Flown) -> Result<PathBuf> {
 /// Figure 3: x and y, their errors and their phase portraits.
 fn position(folder: &Path, flown: &Flown) -> Result<PathBuf> {
     let start = approach(&flown.rows);
-    let panels: Vec<Panel> = [(0, None), (1, Some((Y_FOLLOWS.time_s, "0.4 s: follows")))]
+    let follows = Y_FOLLOWS.time_s;
+    let millimetres = flown.at(follows).map_or(f64::NAN, |row| 1e3 * errors(row)[1]);
+    let claimed = format!("{follows} s: {millimetres:.0} mm, paper: follows");
+    let panels: Vec<Panel> = [(0, None), (1, Some((follows, claimed.as_str())))]
         .into_iter()
         .flat_map(|(axis, claimed)| {
             let name = POSITIONS[axis];
@@ -117,10 +120,14 @@ fn attitude(folder: &Path, flown: &Flown) -> Result<PathBuf> {
 /// Figure 5: the disturbance of all six coordinates.
 fn disturbance(path: &Path, flown: &Flown, applied: &Disturbance) -> Result<PathBuf> {
     let panels = [0, 3, 1, 4, 2, 5].map(|axis| applied_panel(applied, axis));
-    let on = if applied.on_accelerations { "accelerations" } else { "outputs" };
-    let heading = heading(flown, &format!("Figure 5: Gaussian disturbance of the {on}"));
+    let heading = heading(flown, &format!("Figure 5: Gaussian disturbance of the {}", target(applied)));
     save(path, size_of(3, LOW), &heading, &[Key::Disturbed], |area| grid(area, 2, &panels))?;
     Ok(path.to_owned())
+}
+
+/// What is disturbed.
+fn target(applied: &Disturbance) -> &'static str {
+    if applied.on_accelerations { "accelerations" } else { "outputs" }
 }
 
 /// Figure 6: all six coordinates under the disturbance, and their errors around it.
@@ -136,7 +143,8 @@ fn disturbed(path: &Path, flown: &Flown, acting: (f64, f64)) -> Result<PathBuf> 
     };
     let shade = |panel: Panel| Panel { shaded: Some(acting), ..panel };
     let panels: Vec<Panel> = outputs(0).chain(outputs(3)).map(shade).collect();
-    let heading = heading(flown, "Figure 6: tracking under disturbance");
+    let on = figures(flown).disturbance.map_or("", |applied| target(&applied));
+    let heading = heading(flown, &format!("Figure 6: tracking under disturbance of the {on}"));
     let legend = [Key::Disturbed, Key::Reference, Key::Flown];
     save(path, size_of(4, LOW), &heading, &legend, |area| grid(area, 3, &panels))?;
     Ok(path.to_owned())

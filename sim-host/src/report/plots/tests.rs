@@ -37,6 +37,7 @@ fn row(t: f64) -> Row {
         omega: [26.0; 4],
         omega_command: [26.0; 4],
         reference,
+        reference_is_held: false,
         desired_attitude: [roll, pitch, yaw],
         u: [8.1 + 8.0 * (-3.0 * t).exp(), chatter + 0.4 * (-3.0 * t).exp(), chatter, 0.1 * chatter],
         s: [0.0; 6],
@@ -182,8 +183,9 @@ fn settings_stand_in_the_headings_as_far_as_there_is_room() {
     };
     assert_eq!(of(&[]), "made-up, seed 1");
     assert_eq!(of(&["control.z.gain=1", "ground=true"]), "made-up, seed 1, with control.z.gain=1, ground=true");
-    let long = "x".repeat(70);
-    assert_eq!(of(&[&long]), format!("made-up, seed 1, with {}…", "x".repeat(59)));
+    let long = "x".repeat(90);
+    assert_eq!(of(&["ground=true", &long, "a=1"]), "made-up, seed 1, with ground=true, 2 more");
+    assert_eq!(of(&[&long]), "made-up, seed 1, with 1 setting");
 }
 
 #[test]

@@ -203,9 +203,7 @@ pub(super) fn while_flying(figures: &Figures, rows: &[Row], value: impl Fn(&Row)
 
 /// The rows at which the reference is new: of a pilot's flight, those of the outer loop.
 pub(super) fn with_new_reference(figures: &Figures) -> Vec<Row> {
-    let (every, from) = (u64::from(OUTER.period), u64::from(OUTER.offset));
-    let is_new = |row: &&Row| figures.kind != Kind::Piloted || (row.t * 1e3).round() as u64 % every == from;
-    figures.rows.iter().filter(is_new).copied().collect()
+    figures.rows.iter().filter(|row| !row.reference_is_held).copied().collect()
 }
 
 #[cfg(test)]

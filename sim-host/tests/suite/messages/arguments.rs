@@ -55,6 +55,31 @@ fn the_papers_flights_are_not_changed_but_others_are() {
 }
 
 #[test]
+fn what_is_no_argument_says_how_it_is_set() {
+    let folder = Folder::new("no-argument");
+    for (arguments, part) in [
+        (&["--set", "control.z.gain", "300"][..], "--set 'KEY=VALUE'"),
+        (&["--set", "control.z.reaching={exponential={rate=5", "rho=0.1}}"], "in quotes if it has spaces, braces"),
+        (&["--duration", "5"], "--set duration_s=5"),
+        (&["-o", "runs/x"], "use --out DIR"),
+        (&["--gain", "300"], "--set KEY=VALUE"),
+    ] {
+        folder.refuses(&[&["run", "paper-ideal"], arguments].concat(), &["unexpected argument", part]);
+    }
+    for (setting, part) in [
+        ("z.lambda=20", "gains stand below `control`, as in control.z.lambda"),
+        ("control.phi.lambda=20", "the paper's φ is `roll`"),
+        ("control.altitude.lambda=20", "the altitude is `z`"),
+        (
+            "control.z.reaching=tanh",
+            "write {tanh={rho=…}} in its place, and all of a --set in quotes: --set '…={tanh={rho=…}}'",
+        ),
+    ] {
+        folder.refuses(&["run", "paper-ideal", "--set", setting], &[part]);
+    }
+}
+
+#[test]
 fn seeds_that_make_no_difference_are_said_once() {
     let folder = Folder::new("idle");
     let note = "the seed makes no difference: `helix` has no random part";

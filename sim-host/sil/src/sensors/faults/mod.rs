@@ -427,6 +427,11 @@ impl Faults {
         self.all.retain(|fault| fault.id != id);
     }
 
+    /// Ends the faults of which this is true, also before they have begun.
+    pub fn clear_where(&mut self, is_over: impl Fn(&Fault) -> bool) {
+        self.all.retain(|fault| !is_over(&fault.fault()));
+    }
+
     /// Ends all faults, those to come too.
     pub fn clear_all(&mut self) {
         self.slots = [None; SLOTS];
@@ -437,21 +442,29 @@ impl Faults {
         self.all.iter_mut().filter(move |fault| fault.channel == Some(channel) && fault.is_active(tick))
     }
 
-    /// Remaining fraction of each rotor's thrust at a tick; 1 without a fault.
+    /// Remaining fraction of each rotor's thrust at a tick; 1 without a fault. Of several faults of a rotor the one that
+    /// began last acts.
     pub fn rotor_effectiveness(&self, tick: Tick) -> [f64; ROTORS] {
-        let mut left = [1.0; ROTORS];
-        for fault in self.all.iter().filter(|fault| fault.is_active(tick)) {
-            if let Kind::Rotor { index, effectiveness } = fault.kind {
-                left[index] *= effectiveness;
-            }
-        }
-        left
+        core::array::from_fn(|rotor| {
+            self.last(tick, |kind| match kind {
+                Kind::Rotor { index, effectiveness } if index == rotor => Some(effectiveness),
+                _ => None,
+            })
+        })
     }
 
-    /// Remaining fraction of the battery's voltage at a tick, 1 for a sound one.
+    /// Remaining fraction of the battery's voltage at a tick, 1 for a sound one. Of several faults the one that began last
+    /// acts.
     pub fn battery_factor(&self, tick: Tick) -> f64 {
+        self.last(tick, |kind| if let Kind::Collapse { factor } = kind { Some(factor) } else { None })
+    }
+
+    /// What is left by the active fault that began last, of those of a kind; 1 without one.
+    fn last(&self, tick: Tick, left: impl Fn(Kind) -> Option<f64>) -> f64 {
         let active = self.all.iter().filter(|fault| fault.is_active(tick));
-        active.fold(1.0, |left, fault| if let Kind::Collapse { factor } = fault.kind { left * factor } else { left })
+        let of_kind = active.filter_map(|fault| Some((fault.begins(), left(fault.kind)?)));
+        // Of two that begin at once, the second.
+        of_kind.max_by_key(|(begins, _)| *begins).map_or(1.0, |(_, left)| left)
     }
 
     /// The sample delivered for a fault-free one measured at `tick`, and its additional latency, ticks.

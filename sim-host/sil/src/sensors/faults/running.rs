@@ -270,6 +270,11 @@ impl Running {
         self.ticks.contains(&tick)
     }
 
+    /// Its first tick.
+    pub(super) fn begins(&self) -> Tick {
+        self.ticks.start
+    }
+
     pub(super) fn is_over(&self, tick: Tick) -> bool {
         tick >= self.ticks.end
     }

@@ -226,6 +226,26 @@ fn rotors_and_battery_fail_by_the_schedule() {
 }
 
 #[test]
+fn of_several_faults_of_a_rotor_or_the_battery_the_one_that_began_last_acts() {
+    let mut faults = Faults::new(
+        &[
+            fault("kind = \"rotor\"\nindex = 0\neffectiveness = 0.5\nfrom_s = 2.0\nto_s = 3.0"),
+            fault("kind = \"rotor\"\nindex = 0\neffectiveness = 0.8\nfrom_s = 1.0"),
+            fault("kind = \"collapse\"\nfactor = 0.7\nfrom_s = 1.0"),
+            fault("kind = \"collapse\"\nfactor = 0.9\nfrom_s = 2.0"),
+        ],
+        1,
+    );
+    let rotor = |faults: &Faults, tick| faults.rotor_effectiveness(tick)[0];
+    assert_eq!([1500, 2500, 3500].map(|tick| rotor(&faults, tick)), [0.8, 0.5, 0.8]);
+    assert_eq!([1500, 2500].map(|tick| faults.battery_factor(tick)), [0.7, 0.9]);
+    faults.inject(&Fault::starting(None, Kind::Rotor { index: 0, effectiveness: 1.0 }, 2600)).expect("fits");
+    assert_eq!(rotor(&faults, 2700), 1.0, "it is given back");
+    faults.clear_where(|fault| matches!(fault.kind, Kind::Rotor { .. }));
+    assert_eq!((rotor(&faults, 1500), faults.battery_factor(2500)), (1.0, 0.9));
+}
+
+#[test]
 fn a_fault_can_be_started_and_ended_while_flying() {
     let motion = at_rest();
     let mut suite = Suite::new(&all(), &Home::default(), &[], SEED);
