@@ -6,16 +6,17 @@
 //! gnss off                             the same
 //! rotor index=0 effectiveness=0.5      kind=rotor
 //! motor off -i 1                       the same of PX4's shell: rotor 1, of which nothing is left
+//! gps wrong                            as MAVLink's failure: a jump by 50 m
 //! ```
 
 use anyhow::{Result, anyhow, bail, ensure};
 use firmware::airframe::ROTORS;
 use firmware::failure::{Failure, Injectable, Manner, Unit};
-use firmware::signals::{TICK_S_EXACT, Tick};
+use firmware::signals::Tick;
 use toml::{Table, Value};
 
 use crate::refusal::did_you_mean as meant;
-use crate::sensors::faults::{KINDS, Kind, SLOTS, Sensor};
+use crate::sensors::faults::{KINDS, Kind, SLOTS, Sensor, keys, require_known_keys};
 use crate::sensors::{Fault, Suite};
 use crate::words::as_pilots_say;
 
@@ -27,20 +28,18 @@ use crate::words::as_pilots_say;
 pub fn parse<'a>(words: impl Iterator<Item = &'a str>, now: Tick) -> Result<Fault> {
     let mut words: Vec<&str> = words.collect();
     let instance = take_instance(&mut words)?;
-    let (bare, mut words): (Vec<&str>, Vec<&str>) = words.into_iter().partition(|word| is_number(word));
-    // `motor off` is a rotor of which nothing is left.
-    let is_motor = words.iter().any(|word| matches!(*word, "motor" | "rotor"));
-    let count = words.len();
-    words.retain(|word| !(is_motor && *word == "off"));
+    let of_manner = take_manner(&mut words)?;
+    let (bare, words): (Vec<&str>, Vec<&str>) = words.into_iter().partition(|word| is_number(word));
     let mut table = table(&words)?;
-    if words.len() < count {
-        table.entry("effectiveness").or_insert(Value::Float(0.0));
+    for (key, value) in of_manner {
+        table.entry(key).or_insert(value);
     }
     if let Some(instance) = instance {
         number(&mut table, instance)?;
     }
     require_whole(&table, &bare)?;
-    table.entry("from_s").or_insert(Value::Float(f64::from(now) * TICK_S_EXACT));
+    // Divided, for a number of three decimals at most.
+    table.entry("from_s").or_insert(Value::Float(f64::from(now) / 1e3));
     Fault::try_from(table).map_err(|error| anyhow!("{}", error.replace("`fault.", "`")))
 }
 
@@ -57,6 +56,57 @@ fn take_instance(words: &mut Vec<&str>) -> Result<Option<u8>> {
     ensure!(instance.is_some(), "`-i` counts from 1 to {ROTORS}, as in `fault motor off -i 1`");
     words.drain(place..place + 2);
     Ok(instance)
+}
+
+/// The manners of failures by PX4's words.
+const MANNERS: [(&str, Manner); 7] = [
+    ("off", Manner::Off),
+    ("stuck", Manner::Stuck),
+    ("garbage", Manner::Garbage),
+    ("wrong", Manner::Wrong),
+    ("slow", Manner::Slow),
+    ("delayed", Manner::Delayed),
+    ("intermittent", Manner::Intermittent),
+];
+
+/// Takes PX4's word of a manner out of the words if we have another for it; returns the keys that it stands for, as
+/// MAVLink's failure has them.
+fn take_manner(words: &mut Vec<&str>) -> Result<Table> {
+    let named = |word: &str| MANNERS.iter().find(|(name, _)| *name == word).map(|(_, manner)| *manner);
+    let unit = words.iter().find_map(|word| Some((*word, unit(word)?)));
+    let manner = words.iter().enumerate().find_map(|(place, word)| Some((place, *word, named(word)?)));
+    let (Some((name, unit)), Some((place, word, manner))) = (unit, manner) else { return Ok(Table::new()) };
+    let is_ours = unit != Unit::Motor && KINDS.contains(&word);
+    let Some(kind) = kind(unit, manner, 0) else {
+        let known = MANNERS.iter().filter(|(_, manner)| kind(unit, *manner, 0).is_some());
+        let known: Vec<&str> = known.map(|(name, _)| *name).collect();
+        ensure!(is_ours, "`{word}` does not go with `{name}`: use {}", known.join(", "));
+        return Ok(Table::new());
+    };
+    let mut keys = Table::try_from(kind)?;
+    // Which rotor has to be said.
+    keys.remove("index");
+    if !is_ours {
+        words.remove(place);
+    } else if keys.get("kind").and_then(Value::as_str) != Some(word) {
+        // `battery off` is the monitor's here.
+        keys.clear();
+    }
+    Ok(keys)
+}
+
+/// The unit that a word names.
+fn unit(word: &str) -> Option<Unit> {
+    Some(match as_pilots_say(word).unwrap_or(word) {
+        "gyro" => Unit::Gyro,
+        "accel" => Unit::Accel,
+        "mag" => Unit::Mag,
+        "baro" => Unit::Baro,
+        "gnss" => Unit::Gnss,
+        "battery" => Unit::Battery,
+        "rotor" => Unit::Motor,
+        _ => return None,
+    })
 }
 
 /// Puts an instance, from 1, where the fault has its index. There is one of each sensor.
@@ -93,9 +143,11 @@ fn require_whole(table: &Table, bare: &[&str]) -> Result<()> {
     let kinds = || KINDS.into_iter().filter(|kind| !is_of_a_sensor || !matches!(*kind, "rotor" | "collapse"));
     let kind = table.get("kind").and_then(Value::as_str);
     let Some(kind) = kind else { bail!("say how it fails: kind={}", kinds().collect::<Vec<_>>().join("|")) };
-    let missing: Vec<&str> = needs(kind).iter().filter(|key| !table.contains_key(**key)).copied().collect();
+    require_known_keys(table)?;
+    let missing: Vec<&str> = needs(kind).filter(|key| !table.contains_key(*key)).collect();
     if kind == "rotor" && missing.contains(&"index") {
-        bail!("say which rotor (index=0 is rotor 1) and how much of it is left: fault rotor index=0 effectiveness=0");
+        let rest = if missing.len() > 1 { " and how much of it is left" } else { "" };
+        bail!("say which rotor (index=0 is rotor 1){rest}: fault rotor index=0 effectiveness=0, or motor off -i 1");
     }
     let with = |value: &str| missing.iter().map(|key| format!("`{key}={value}`")).collect::<Vec<_>>().join(" and ");
     match (bare, missing.as_slice()) {
@@ -107,19 +159,8 @@ fn require_whole(table: &Table, bare: &[&str]) -> Result<()> {
 }
 
 /// The keys that a kind of fault cannot do without.
-fn needs(kind: &str) -> &'static [&'static str] {
-    match kind {
-        "drift" => &["rate"],
-        "noise" => &["sigma"],
-        "spikes" => &["probability", "size"],
-        "delayed" => &["extra_s"],
-        "glitch" => &["size_m"],
-        "loss" | "duplicate" => &["probability"],
-        "time-jump" => &["shift_s"],
-        "rotor" => &["index", "effectiveness"],
-        "collapse" => &["factor"],
-        _ => &[],
-    }
+fn needs(kind: &str) -> impl Iterator<Item = &'static str> + use<> {
+    keys(kind).iter().copied().filter(|key| *key != "direction")
 }
 
 /// A word as the key and the value that it stands for.
@@ -317,9 +358,27 @@ mod tests {
     }
 
     #[test]
+    fn other_units_fail_as_mavlink_has_it() {
+        for (px4, ours) in [
+            ("motor slow -i 1", "rotor index=0 effectiveness=0.7"),
+            ("gps wrong", "gnss glitch size_m=50"),
+            ("gps wrong size_m=20 to_s=30", "gnss glitch size_m=20 to_s=30"),
+            ("accel garbage", "accel noise sigma=10"),
+            ("gyro garbage -i 1", "gyro noise sigma=1"),
+            ("mag garbage", "mag noise sigma=50"),
+            ("baro delayed", "baro delayed extra_s=0.5"),
+            ("baro delayed extra_s=0.1", "baro delayed extra_s=0.1"),
+            ("baro intermittent", "baro loss probability=0.7"),
+            ("battery off", "sensor=battery kind=off"),
+        ] {
+            assert_eq!(fault(px4), fault(ours), "{px4}");
+        }
+    }
+
+    #[test]
     fn with_what_a_kind_needs_it_is_a_fault() {
         for kind in KINDS {
-            let keys: Vec<String> = needs(kind).iter().map(|key| format!("{key}=1")).collect();
+            let keys: Vec<String> = needs(kind).map(|key| format!("{key}=1")).collect();
             let sensor = if matches!(kind, "rotor" | "collapse") { "" } else { "gnss" };
             fault(&format!("{sensor} {kind} {}", keys.join(" ")));
         }
@@ -337,10 +396,19 @@ mod tests {
     fn bad_lines_are_refused_by_what_is_wrong_with_them() {
         for (line, culprit) in [
             ("rotor index=0", "`rotor` needs `effectiveness=…`"),
+            ("rotor index=1 effectivness=0.5", "`effectivness` is no key: did you mean `effectiveness`?"),
+            ("gnss off from=10 to=20", "`from` is no key: did you mean `from_s`?"),
+            ("gnss off size=3", "`size` is no key: use sensor, kind, from_s, to_s"),
+            ("gnss drift rate=1 colour=3", "`colour` is no key: use rate, direction, sensor, kind, from_s, to_s"),
             ("rotor index=0 0.5", "`0.5` has no key: write `effectiveness=0.5`"),
             ("rotor index=9 effectiveness=0", "`index` must be between 0 and 3, not 9"),
             ("motor 1", "say which rotor (index=0 is rotor 1)"),
             ("motor off", "say which rotor (index=0 is rotor 1)"),
+            ("motor slow", "say which rotor (index=0 is rotor 1): "),
+            ("motor garbage -i 1", "`garbage` does not go with `motor`: use off, slow"),
+            ("gps slow", "`slow` does not go with `gps`: use off, stuck, garbage, wrong, delayed, intermittent"),
+            ("gyro wrong", "`wrong` does not go with `gyro`: use stuck, garbage"),
+            ("accel off", "`off` does not go with the sensor `accel`"),
             ("motor off -i 5", "`-i` counts from 1 to 4"),
             ("motor off -i", "`-i` counts from 1 to 4"),
             ("motor off -i 1 index=0", "`index` is given twice, as `0` and `0`"),
@@ -388,6 +456,12 @@ mod tests {
         slots.sort_unstable();
         slots.dedup();
         assert_eq!(slots, (0..SLOTS).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn the_present_time_is_told_with_three_decimals() {
+        let error = parse("gnss off to_s=5".split_whitespace(), 20_519).expect_err("in the past").to_string();
+        assert_eq!(error, "`to_s` must be after `from_s`, 20.519 s, not 5: from 20.519 to 5 s runs backwards");
     }
 
     #[test]

@@ -268,11 +268,12 @@ mod tests {
     fn a_flight_with_a_pilot_counts_while_its_trajectory_is_flown() {
         let mut scorer = Scorer::new(&Scenario::load("indoor-helix", &[]).expect("valid"));
         // 3 m off while it takes off and joins, which takes 4 s from 16 s on; then 1 cm.
+        let on_the_ground = on_the_ground();
         for k in 0..30_000_u32 {
             let t = f64::from(k) / 1e3;
             let mode = if t < 10.0 { Mode::TakeOff } else { Mode::Follow };
             let directive = if t < 16.0 { Directive::Idle } else { Directive::Follow { since: 16_000 } };
-            let commander = CommanderOutput { mode, directive, ..on_the_ground() };
+            let commander = CommanderOutput { mode, directive, ..on_the_ground.clone() };
             scorer.record(&Row { position: [if t < 20.0 { 3.0 } else { 0.01 }, 0.0, 0.0], ..level(t) });
             scorer.observe(&Activity { t, commander: &commander, given: 3, battery: None });
         }

@@ -57,6 +57,11 @@ impl Refusal {
         &self.key
     }
 
+    /// A key that a table does not have, which has the `known` ones: the one that may have been meant, or all of them.
+    pub fn unknown_key(name: &str, known: &[&str]) -> Self {
+        misfit::unknown_key("", name, known)
+    }
+
     /// Whether a rule of values was broken and nobody has said yet by which, as the file has it: what is larger than an
     /// f32 arrives as infinite.
     pub fn lacks_value(&self) -> bool {

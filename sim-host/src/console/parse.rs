@@ -205,7 +205,8 @@ pub const COMMANDS: &[Entry] = &[
     )
     .with_details(
         "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5` (rotor 1), \
-         `fault motor off -i 1` (the same rotor, all of it), `fault collapse factor=0.8`; from now on for good, or \
+         `fault motor off -i 1` (the same rotor, all of it), `fault gps wrong` (PX4's words, as large as by MAVLink), \
+         `fault collapse factor=0.8`; from now on for good, or \
          `from_s=` and `to_s=` (s). The keys are those of \
          `[[fault]]` in docs/simulation.md",
     ),
@@ -214,6 +215,16 @@ pub const COMMANDS: &[Entry] = &[
     Entry::new(&["speed"], "X", "fly at X times real time", Reads::With(speed))
         .with_details("X is between 0.01 and 1000"),
     Entry::new(&["quit", "exit"], "", "end the program", Reads::Nothing(Command::Quit)),
+];
+
+/// Words of other shells, as that of PX4, for which there is no command, and what there is instead.
+const ELSEWHERE: &[(&str, &str)] = &[
+    ("mode", "a mode is a command: takeoff, hold, goto, velocity, trajectory, return, land"),
+    ("param", "instead of parameters, keys of the scenario are set at the start: sim-host serve --set KEY=VALUE"),
+    ("log", "a flight without a pilot at the console is recorded: sim-host run SCENARIO --out DIR"),
+    ("logger", "a flight without a pilot at the console is recorded: sim-host run SCENARIO --out DIR"),
+    ("yaw", "to turn, `goto yaw=90` (a heading, °) or `velocity yaw_rate=10` (°/s)"),
+    ("check", "`status` says whether it is ready to arm, and why not"),
 ];
 
 /// Reads a line at a tick; `None` for an empty line and a comment (`#`).
@@ -240,6 +251,9 @@ fn entry(name: &str) -> Result<&'static Entry> {
     let lower = name.to_lowercase();
     if let Some(entry) = COMMANDS.iter().find(|entry| entry.names.contains(&lower.as_str())) {
         return Ok(entry);
+    }
+    if let Some((_, instead)) = ELSEWHERE.iter().find(|(word, _)| *word == lower) {
+        bail!("there is no `{name}` here: {instead}");
     }
     let names: Vec<&str> = COMMANDS.iter().flat_map(|entry| entry.names).copied().collect();
     match did_you_mean(&lower, &names) {
@@ -410,11 +424,9 @@ fn speed(words: &[&str], _: Tick) -> Result<Command> {
     Ok(Command::Speed(speed.unwrap_or(1.0)))
 }
 
-/// The rest of the command's name if only one begins with the word.
-pub fn completion(word: &str) -> Option<&'static str> {
-    let mut names = COMMANDS.iter().map(Entry::name).filter(|name| name.starts_with(word));
-    let name = names.next()?;
-    names.next().is_none().then(|| &name[word.len()..])
+/// The commands whose names begin with the word.
+pub fn completions(word: &str) -> impl Iterator<Item = &'static str> + Clone {
+    COMMANDS.iter().map(Entry::name).filter(move |name| name.starts_with(word))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use firmware::commander::{Mode, Origin, Outcome, Refusal, Reply, Request};
 use firmware::config::ModeSettings;
 use firmware::failure::Manner;
 use firmware::mavlink::TxBytes;
-use firmware::signals::{TICK_S_EXACT, Tick};
+use firmware::signals::Tick;
 use nalgebra::Vector3;
 
 use super::answers::Answers;
@@ -75,7 +75,7 @@ impl Session {
 
     /// Simulated time, s.
     pub fn time_s(&self) -> f64 {
-        f64::from(self.flight.next_tick()) * TICK_S_EXACT
+        f64::from(self.flight.next_tick()) / 1e3
     }
 
     /// The lines since the last call, the oldest first.

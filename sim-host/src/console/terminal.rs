@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, channel};
 use rustix::termios::{LocalModes, OptionalActions, Termios, tcgetattr, tcsetattr};
 
 use super::line::{Line, Tone};
-use super::parse::completion;
+use super::parse::completions;
 use crate::report::paint::{Colour, Paint, stdout_takes_escapes};
 
 /// Source of typed lines and destination of printed ones.
@@ -70,6 +70,9 @@ impl Terminal for Stdio {
                 self.editor.feed(byte);
             }
             changed = true;
+        }
+        if let (Some(names), Some(_)) = (self.editor.offered.take(), &self.before) {
+            let _ = writeln!(std::io::stdout(), "\r\x1b[K  {names}");
         }
         let line = self.editor.take_line();
         if let (Some(line), Some(_)) = (&line, &self.before) {
@@ -146,6 +149,8 @@ struct Editor {
     /// Entry of the history on display, counted from the newest; 0 for none.
     back: usize,
     escape: Escape,
+    /// The names that go on as the word that was to be completed, until they are shown.
+    offered: Option<String>,
 }
 
 /// State within a key's escape sequence.
@@ -221,10 +226,16 @@ impl Editor {
         self.typed = shown.map_or_else(Vec::new, |line| line.clone().into_bytes());
     }
 
+    /// Completes the command as far as it is one; offers those that go on differently.
     fn complete(&mut self) {
         let typed = self.typed();
-        if let Some(rest) = completion(&typed) {
-            self.typed.extend(rest.bytes().chain([b' ']));
+        let names = completions(&typed);
+        let Some(common) = names.clone().reduce(common_beginning) else { return };
+        self.typed.extend(common[typed.len()..].bytes());
+        match names.clone().count() {
+            1 => self.typed.push(b' '),
+            _ if common == typed => self.offered = Some(names.collect::<Vec<_>>().join("  ")),
+            _ => {}
         }
     }
 
@@ -237,6 +248,12 @@ impl Editor {
         let kept = self.typed().trim_end().rfind(' ').map_or(0, |space| space + 1);
         self.typed.truncate(kept);
     }
+}
+
+/// As much of two names, of ASCII, as is the same.
+fn common_beginning<'a>(a: &'a str, b: &str) -> &'a str {
+    let same = a.bytes().zip(b.bytes()).take_while(|(a, b)| a == b).count();
+    &a[..same]
 }
 
 #[cfg(test)]
@@ -262,11 +279,28 @@ mod tests {
             ("arm\x15la", "la"),
             ("tak\t5", "takeoff 5"),
             ("s\t", "s"),
+            ("fau\t", "fault"),
+            ("f\ts\t", "faults "),
+            ("x\t", "x"),
             ("l\x1b[Cand\x1b[1;5D", "land"),
             ("\x1b[A\x1b[B\x07arm", "arm"),
         ] {
             assert_eq!(after(keys), (typed.to_owned(), Vec::new()), "{keys:?}");
         }
+    }
+
+    #[test]
+    fn names_that_go_on_differently_are_offered() {
+        let offered = |keys: &str| {
+            let mut editor = Editor::default();
+            keys.bytes().for_each(|byte| editor.feed(byte));
+            editor.offered
+        };
+        assert_eq!(offered("fau\t\t").as_deref(), Some("fault  faults"));
+        assert_eq!(offered("fau\t"), None, "it has been completed");
+        assert_eq!(offered("s\t").as_deref(), Some("status  speed"));
+        assert!(offered("\t").is_some_and(|names| names.starts_with("help  status  arm  ")));
+        assert_eq!(offered("x\t"), None);
     }
 
     #[test]

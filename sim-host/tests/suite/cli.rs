@@ -367,6 +367,17 @@ fn gains_that_a_comparison_would_not_fly_are_refused() {
 }
 
 #[test]
+fn a_comparison_on_seeds_of_the_tuning_says_so_and_flies_again_from_its_folder() {
+    let folder = compared("trained");
+    folder.file("trained.toml", MATRIX.replacen("1..4", "100..101", 1));
+    let (first, _) = folder.prints(&["compare", "trained.toml", "--out", "flown"]);
+    let (again, _) = folder.prints(&["compare", "flown/matrix.toml"]);
+    for text in [first, again] {
+        assert!(text.contains("SOME OF THEM TUNED ON"), "{text}");
+    }
+}
+
+#[test]
 fn a_comparison_of_what_is_not_there_is_refused() {
     let folder = compared("refused");
     folder.refuses(&["compare", "x600"], &["x600"]);
@@ -377,7 +388,6 @@ fn a_comparison_of_what_is_not_there_is_refused() {
     folder.refuses(&["compare", "matrix.toml", "--jobs", "0"], &["--jobs"]);
     folder.refuses(&["compare", "matrix.toml", "--seeds", "2..1"], &["--seeds"]);
     for (from, to, culprit) in [
-        ("1..4", "100..101", "training_seeds"),
         ("101..106", "106", "seeds"),
         ("soft.toml", "stiff.toml", "twice"),
         ("soft.toml", "lost.toml", "lost.toml"),

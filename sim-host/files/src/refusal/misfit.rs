@@ -178,7 +178,7 @@ fn in_full(path: &str, key: &str) -> String {
     below(path, relative)
 }
 
-fn unknown_key(path: &str, name: &str, known: &[&str]) -> Refusal {
+pub(super) fn unknown_key(path: &str, name: &str, known: &[&str]) -> Refusal {
     let by_its_letter = by_its_letter(name, known).map(str::to_owned);
     let near = || nearest(name, known.iter().copied()).map(|near| format!("did you mean `{near}`?"));
     let remedy = match by_its_letter.or_else(near) {

@@ -156,9 +156,30 @@ fn the_manual_has_the_same_table() {
 }
 
 #[test]
-fn a_started_name_is_completed_if_only_one_goes_on_like_that() {
-    assert_eq!(completion("tak"), Some("eoff"));
-    assert_eq!(completion("faults"), Some(""));
-    assert_eq!(completion("s"), None);
-    assert_eq!(completion("x"), None);
+fn words_of_other_shells_are_answered_with_what_there_is_here() {
+    for (line, answer) in [
+        ("mode auto:loiter", "there is no `mode` here: a mode is a command: takeoff, hold, goto, "),
+        ("commander mode auto:land", "there is no `mode` here: a mode is a command: takeoff, hold, goto, "),
+        ("param set MPC_XY_VEL_MAX 5", "there is no `param` here: instead of parameters, keys of the scenario"),
+        ("log list", "there is no `log` here: a flight without a pilot at the console is recorded: sim-host run"),
+        ("yaw 90", "there is no `yaw` here: to turn, `goto yaw=90` (a heading, °) or `velocity yaw_rate=10`"),
+        ("commander check", "there is no `check` here: `status` says whether it is ready to arm, and why not"),
+    ] {
+        let error = format!("{:#}", parse(line, 0).expect_err(line));
+        assert!(error.starts_with(answer) && !error.contains('\n'), "{line}: {error}");
+    }
+    for line in ["takeoff", "hold", "goto 1 2 3", "velocity yaw_rate=10", "trajectory", "return", "land", "goto yaw=90"]
+    {
+        read(line);
+    }
+    assert!(ELSEWHERE.iter().all(|(word, _)| !COMMANDS.iter().any(|entry| entry.names.contains(word))));
+}
+
+#[test]
+fn commands_are_found_by_how_they_begin() {
+    let found = |word: &str| completions(word).collect::<Vec<_>>();
+    assert_eq!(found("fau"), ["fault", "faults"]);
+    assert_eq!(found("tak"), ["takeoff"]);
+    assert!(found("x").is_empty());
+    assert_eq!(found("").len(), COMMANDS.len());
 }

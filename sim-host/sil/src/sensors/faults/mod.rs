@@ -183,6 +183,7 @@ impl TryFrom<toml::Table> for Fault {
     type Error = String;
 
     fn try_from(mut table: toml::Table) -> Result<Self, String> {
+        require_known_keys(&table).map_err(in_a_fault)?;
         let mut common = toml::Table::new();
         for key in ["sensor", "from_s", "to_s"] {
             common.extend(table.remove_entry(key));
@@ -200,6 +201,37 @@ fn in_a_fault(error: anyhow::Error) -> String {
     format!("{:#}", Refusal::below(error, "fault"))
 }
 
+/// The keys of a kind of fault by its name; empty for a name that is of none.
+pub fn keys(kind: &str) -> &'static [&'static str] {
+    match kind {
+        "drift" => &["rate", "direction"],
+        "noise" => &["sigma"],
+        "spikes" => &["probability", "size"],
+        "delayed" => &["extra_s"],
+        "glitch" => &["size_m", "direction"],
+        "loss" | "duplicate" => &["probability"],
+        "time-jump" => &["shift_s"],
+        "rotor" => &["index", "effectiveness"],
+        "collapse" => &["factor"],
+        _ => &[],
+    }
+}
+
+/// Refuses a key that a fault of this kind does not have; one without a kind is left to whoever reads it.
+///
+/// # Errors
+/// A [`Refusal`] with the key that may have been meant, or with all that there are.
+pub fn require_known_keys(table: &toml::Table) -> Result<()> {
+    let Some(kind) = table.get("kind").and_then(toml::Value::as_str).filter(|kind| KINDS.contains(kind)) else {
+        return Ok(());
+    };
+    let known = [keys(kind), &["sensor", "kind", "from_s", "to_s"]].concat();
+    match table.keys().find(|key| !known.contains(&key.as_str())) {
+        Some(stray) => Err(Refusal::unknown_key(stray, &known).into()),
+        None => Ok(()),
+    }
+}
+
 /// Refuses a value of another kind than its key's: an enumeration with its tag inside forgets which key it was.
 fn require_kinds_of_values(table: &toml::Table) -> Result<()> {
     for (key, value) in table {
@@ -209,28 +241,13 @@ fn require_kinds_of_values(table: &toml::Table) -> Result<()> {
             "index" => ("must be a whole number from 0 up", value.as_integer().is_some_and(|index| index >= 0)),
             _ => ("must be a number", value.is_float() || value.is_integer()),
         };
-        if !is_one && KEYS.contains(&key.as_str()) {
+        let is_known = key == "kind" || KINDS.iter().any(|kind| keys(kind).contains(&key.as_str()));
+        if is_known && !is_one {
             return Err(Refusal::new(key, rule).given(value).into());
         }
     }
     Ok(())
 }
-
-/// Every key that some kind of fault has.
-const KEYS: [&str; 12] = [
-    "kind",
-    "direction",
-    "index",
-    "rate",
-    "sigma",
-    "probability",
-    "size",
-    "extra_s",
-    "size_m",
-    "shift_s",
-    "effectiveness",
-    "factor",
-];
 
 impl Sensor {
     /// Every sensor.
