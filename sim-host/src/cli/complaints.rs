@@ -56,6 +56,7 @@ fn misplaced_setting(error: &clap::Error) -> Option<String> {
         "--duration" => "set the scenario's: --set duration_s=5",
         "-o" | "--output" => "use --out DIR",
         flag if flag.starts_with("--") => "keys of a scenario are set by --set KEY=VALUE",
+        word if word.contains('=') && !given("--set") => "put --set before it",
         word if !word.starts_with('-') && given("--set") => {
             "a setting is one word, in quotes if it has spaces, braces or quotes: --set 'KEY=VALUE'"
         }

@@ -179,7 +179,7 @@ fn in_full(path: &str, key: &str) -> String {
 }
 
 pub(super) fn unknown_key(path: &str, name: &str, known: &[&str]) -> Refusal {
-    let by_its_letter = by_its_letter(name, known).map(str::to_owned);
+    let by_its_letter = by_its_letter(name, known).map(str::to_owned).or_else(|| below_control(name, known));
     let near = || nearest(name, known.iter().copied()).map(|near| format!("did you mean `{near}`?"));
     let remedy = match by_its_letter.or_else(near) {
         Some(remedy) => remedy,
@@ -195,9 +195,6 @@ fn by_its_letter(name: &str, known: &[&str]) -> Option<&'static str> {
     let is_axis = known.contains(&"gain") && known.contains(&"reaching");
     let has_axes = known.contains(&"roll") && known.contains(&"z");
     match name {
-        "roll" | "pitch" | "yaw" | "x" | "y" | "z" if known.contains(&"control") => {
-            Some("gains stand below `control`, as in control.z.lambda")
-        }
         "phi" | "φ" if has_axes => Some("the paper's φ is `roll`"),
         "theta" | "θ" if has_axes => Some("the paper's θ is `pitch`"),
         "psi" | "ψ" if has_axes => Some("the paper's ψ is `yaw`"),
@@ -205,6 +202,33 @@ fn by_its_letter(name: &str, known: &[&str]) -> Option<&'static str> {
         "K" | "k" if is_axis => Some("the paper's K is `gain`"),
         "λ" if is_axis => Some("the paper's λ is `lambda`"),
         "rho" | "ρ" if is_axis => Some("the paper's ρ stands inside `reaching`, as in reaching={tanh={rho=…}}"),
+        _ => None,
+    }
+}
+
+/// Keys of `control` besides the axes, and those of an axis: documents name them alone.
+const OF_CONTROL: [&str; 6] = [
+    "tilt_max_rad",
+    "rotor_time_constant_s",
+    "attitude_form",
+    "attitude_observer",
+    "position_observer",
+    "effectiveness_rate",
+];
+const AXES: [&str; 6] = ["roll", "pitch", "yaw", "x", "y", "z"];
+const OF_AN_AXIS: [&str; 6] = ["lambda", "gain", "reaching", "surface", "approach_max", "braking"];
+
+/// Where a gain stands that was given above its place.
+fn below_control(name: &str, known: &[&str]) -> Option<String> {
+    let (at_the_top, has_axes) = (known.contains(&"control"), known.contains(&"roll") && known.contains(&"z"));
+    match name {
+        _ if at_the_top && AXES.contains(&name) => {
+            Some(format!("gains stand below `control`, as in control.{name}.lambda"))
+        }
+        _ if at_the_top && OF_CONTROL.contains(&name) => Some(format!("it stands below `control`: control.{name}")),
+        _ if (at_the_top || has_axes) && OF_AN_AXIS.contains(&name) => {
+            Some(format!("each axis has its own, as in control.x.{name}"))
+        }
         _ => None,
     }
 }

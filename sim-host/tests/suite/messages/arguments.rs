@@ -68,6 +68,8 @@ fn what_is_no_argument_says_how_it_is_set() {
     }
     for (setting, part) in [
         ("z.lambda=20", "gains stand below `control`, as in control.z.lambda"),
+        ("lambda=20", "each axis has its own, as in control.x.lambda"),
+        ("control.reaching=sgn", "each axis has its own, as in control.x.reaching"),
         ("control.phi.lambda=20", "the paper's φ is `roll`"),
         ("control.altitude.lambda=20", "the altitude is `z`"),
         (
@@ -76,6 +78,19 @@ fn what_is_no_argument_says_how_it_is_set() {
         ),
     ] {
         folder.refuses(&["run", "paper-ideal", "--set", setting], &[part]);
+    }
+}
+
+#[test]
+fn a_key_of_control_without_it_is_told_where_it_stands() {
+    let folder = Folder::new("no-control");
+    // The refusal of a key that there is not lists all that there are.
+    let refused = folder.run(&["run", "helix", "--set", "control.nonsense=1"]);
+    let said = String::from_utf8_lossy(&refused.stderr);
+    let keys = said.trim().split_once("use ").expect("a list").1.split(", ");
+    for key in keys {
+        let setting = format!("{key}=1");
+        folder.refuses(&["run", "helix", "--set", &setting], &[&format!("control.{key}")]);
     }
 }
 
