@@ -6,6 +6,7 @@ use anyhow::{Result, bail};
 use clap::CommandFactory as _;
 
 use super::Cli;
+use crate::files::Source;
 use crate::matrix::MATRICES;
 use crate::scenario::{AIRFRAMES, SCENARIOS, TUNINGS};
 use crate::sensors::SUITES;
@@ -41,6 +42,19 @@ impl Kind {
         }
     }
 
+    /// Keys of its files that no other kind's have.
+    fn marks(self) -> &'static [&'static str] {
+        match self {
+            Self::Scenario => &["duration_s"],
+            Self::Matrix => &["disturbances", "controllers"],
+            Self::Tune => &["parameters", "base"],
+            Self::Tuning => &["smc", "pid", "geometric", "indi"],
+            Self::Airframe => &["mass_kg", "rotors"],
+            Self::Sensors => &["imu", "suite"],
+            Self::Command => &[],
+        }
+    }
+
     /// The kind, and how one of it is used.
     fn said(self, name: &str) -> String {
         match self {
@@ -55,15 +69,28 @@ impl Kind {
     }
 }
 
-/// Refuses a name of another kind than the one asked for; one that is of none is left to whoever reads it.
+/// Refuses a name, or a file, of another kind than the one asked for; one that is of none is left to whoever reads it.
 pub(super) fn require(asked: Kind, name: &str) -> Result<()> {
-    if asked.has(name) || Path::new(name).exists() {
+    if asked.has(name) {
         return Ok(());
     }
-    match meant(name) {
+    let meant = if Path::new(name).exists() { meant_by_file(asked, name) } else { meant(name) };
+    match meant {
         Some(meant) => bail!("`{name}` is {meant}"),
         None => Ok(()),
     }
+}
+
+/// What a file is by its keys, and how it is used, if it is not of the kind asked for.
+fn meant_by_file(asked: Kind, name: &str) -> Option<String> {
+    let table = Source::read(name, "file", &[]).and_then(|source| source.table()).ok()?;
+    let is = |kind: Kind| kind.marks().iter().any(|mark| table.contains_key(*mark));
+    if is(asked) {
+        return None;
+    }
+    // A path that is a name alone would be looked up among the built-in files.
+    let path = if name.contains('/') { name.to_owned() } else { format!("./{name}") };
+    Kind::ALL.into_iter().find(|kind| is(*kind)).map(|kind| kind.said(&path))
 }
 
 /// What a name is, and how it is used: all that it can be.
@@ -104,6 +131,30 @@ mod tests {
             (Kind::Tune, "no-such", None),
         ] {
             assert_eq!(told(asked, name).as_deref(), expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_file_of_another_kind_is_told_by_its_keys() {
+        for (asked, file, expected) in [
+            (Kind::Scenario, "airframes/x500.toml", Some("an airframe: fly one with `--set airframe=")),
+            (Kind::Scenario, "tunings/x500-pid.toml", Some("a tuning: fly one with `--set tuning=")),
+            (Kind::Scenario, "sensors/rtk.toml", Some("a suite of sensors: fly one with `--set sensors=")),
+            (Kind::Scenario, "matrices/x500.toml", Some("a matrix: `sim-host compare ")),
+            (Kind::Scenario, "tunes/x500-indi.toml", Some("a tune: `sim-host tune ")),
+            (Kind::Matrix, "scenarios/outdoor-hover.toml", Some("a scenario: `sim-host run ")),
+            (Kind::Scenario, "scenarios/outdoor-hover.toml", None),
+            (Kind::Matrix, "matrices/x500.toml", None),
+            (Kind::Tune, "tunes/x500-indi.toml", None),
+            (Kind::Scenario, "Cargo.toml", None),
+        ] {
+            let file = format!("{}/{file}", env!("CARGO_MANIFEST_DIR"));
+            let told = require(asked, &file).err().map(|error| error.to_string());
+            let expected = expected.map(|kind| format!("`{file}` is {kind}{file}"));
+            match (&told, &expected) {
+                (Some(told), Some(expected)) => assert!(told.starts_with(expected.as_str()), "{told}"),
+                (told, expected) => assert_eq!(told, expected, "{file}"),
+            }
         }
     }
 }

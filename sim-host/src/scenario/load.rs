@@ -154,7 +154,8 @@ impl Scenario {
         let folder = Path::new(name).parent().unwrap_or(Path::new(""));
         let resolved = trajectory::resolve(&mut layers.0[0].table, folder);
         resolved.map_err(|error| layers.explain(error))?;
-        let mut file: ScenarioFile = layers.0[0].typed().map_err(|error| layers.explain(error))?;
+        let typed = layers.0[0].typed().map_err(trajectory::explain_missing);
+        let mut file: ScenarioFile = typed.map_err(|error| layers.explain(error))?;
         if settings.iter().any(moves_the_bound) {
             file.time_optimal_s = None;
         }

@@ -84,9 +84,25 @@ pub(super) fn resolve(scenario: &mut toml::Table, folder: &Path) -> Result<()> {
     Ok(())
 }
 
+/// The kinds of `[trajectory.KIND]`.
+const KINDS: [&str; 6] = ["hold", "step", "helix", "figure-eight", "waypoints", "csv"];
+
+/// Says which tables a scenario without a trajectory may be given.
+pub(super) fn explain_missing(error: anyhow::Error) -> anyhow::Error {
+    match error.downcast::<Refusal>() {
+        Ok(refusal) if refusal.is_missing() && refusal.key() == "trajectory" => {
+            let [kind, others @ ..] = KINDS;
+            let remedy =
+                format!("add a table `[trajectory.{kind}]` with `position_m`, or one of {}", others.join(", "));
+            refusal.remedy(remedy).into()
+        }
+        Ok(refusal) => refusal.into(),
+        Err(error) => error,
+    }
+}
+
 /// Refuses a kind that there is none of, none, and two.
 fn require_known(kinds: &toml::Table) -> Result<()> {
-    const KINDS: [&str; 6] = ["hold", "step", "helix", "figure-eight", "waypoints", "csv"];
     let is_known = |kind: &str| kind == "spline" || KINDS.contains(&kind);
     let refusal = Refusal::new("trajectory", format!("must be one of {}", KINDS.join(", ")));
     let Some(kind) = kinds.keys().find(|kind| !is_known(kind)) else {

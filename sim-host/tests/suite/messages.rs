@@ -291,7 +291,7 @@ fn an_axis_by_its_bounds_has_the_keys_of_its_bounds() {
         &[&bounds(3.0), "control.x.lambda=3"],
         &["`control.x.lambda`", "answer_s, disturbance", "leave out `answer_s`"],
     );
-    refuses(&[&bounds(10.0)], &["`control.x.disturbance` must be below 10, not 10"]);
+    refuses(&[&bounds(10.0)], &["`control.x.disturbance` must be below 10, not 10", "`authority`"]);
     refuses(&[&bounds(-1.0)], &["`control.x.disturbance` must be above 0, not -1"]);
 }
 

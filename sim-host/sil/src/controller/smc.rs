@@ -6,6 +6,7 @@ use firmware::control::design::AxisBounds;
 use firmware::control::observer::ObserverGains;
 use firmware::control::position::PositionGains;
 use firmware::control::sliding::AxisGains;
+use firmware::validate::ConfigError;
 use glissade_files::refusal::{Refusal, typed};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -73,7 +74,11 @@ fn by_bounds(table: toml::Table) -> anyhow::Result<AxisGains> {
     let given = table.clone();
     let bounds: AxisBounds = typed(table)?;
     bounds.gains().map_err(|error| {
-        let refusal = Refusal::from(error);
+        let beyond = matches!(error, ConfigError::NotBelow(..));
+        let mut refusal = Refusal::from(error);
+        if beyond {
+            refusal = refusal.remedy("no law rejects more than its `authority`");
+        }
         let value = given.get(refusal.key()).cloned();
         value.map_or(refusal.clone(), |value| refusal.given(value)).into()
     })
