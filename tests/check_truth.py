@@ -2,8 +2,9 @@
 """Checks a flight's truth.csv against the equations of docs/simulation.md, without any code of the project.
 
 From each row the motion is integrated to the next row's time, and compared with that row. For flights of the paper's
-airframe on the rigid-body plant, in the air and undisturbed: `tests/check_truth.py runs/helix/truth.csv [LAG_S]`. What
-else was flown with, by the scenario beside the file, is named in one line, and the exit code is 2.
+airframe on the rigid-body plant, in the air and undisturbed: `tests/check_truth.py runs/helix/truth.csv [LAG_S]`. The
+rotors' lag is that of the scenario and the airframe beside the file, unless LAG_S is given. What else was flown with, by
+the scenario, is named in one line, and the exit code is 2.
 """
 
 import csv
@@ -72,10 +73,22 @@ def largest_difference(path, lag_s):
     return largest, rows
 
 
+def settings(folder):
+    """The scenario and the airframe of a flight's folder; empty where there is none."""
+    toml = lambda name: tomllib.loads((folder / name).read_text(encoding="utf-8")) if (folder / name).is_file() else {}
+    return toml("scenario.toml"), toml("airframe.toml")
+
+
+def rotor_lag_s(folder):
+    """The plant's: the truth's, the scenario's, the airframe's, in this order."""
+    flown, airframe = settings(folder)
+    tables = (flown.get("truth", {}), flown, airframe)
+    return next((table["rotor_lag_s"] for table in tables if "rotor_lag_s" in table), 0.0)
+
+
 def not_modelled(folder):
     """What of a flight's folder these equations do not have."""
-    toml = lambda name: tomllib.loads((folder / name).read_text(encoding="utf-8")) if (folder / name).is_file() else {}
-    flown, airframe = toml("scenario.toml"), toml("airframe.toml")
+    flown, airframe = settings(folder)
     found = [f"plant = {flown['plant']}"] if flown.get("plant", "rigid-body") != "rigid-body" else []
     found += ["another airframe"] if airframe.get("mass_kg", MASS) != MASS else []
     found += [key for key in ("ground", "wind", "push", "battery", "fault") if flown.get(key)]
@@ -90,11 +103,12 @@ def main():
     if len(sys.argv) not in (2, 3) or not Path(sys.argv[1]).is_file():
         print("usage: check_truth.py FOLDER/truth.csv [LAG_S], of a flight that `sim-host run … --out FOLDER` has written")
         return 2
-    found = not_modelled(Path(sys.argv[1]).parent)
+    folder = Path(sys.argv[1]).parent
+    found = not_modelled(folder)
     if found:
         print(f"{sys.argv[1]}: cannot be checked, for it was flown with {', '.join(found)}, which this script does not model")
         return 2
-    largest, rows = largest_difference(sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 else 0.0)
+    largest, rows = largest_difference(sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 else rotor_lag_s(folder))
     print(f"{rows} rows; the largest difference from one row to the next is {largest:.1e}")
     return 0 if rows > 1 and largest < TOLERANCE else 1
 
