@@ -347,10 +347,13 @@ fn require_told_apart(key: &str, names: &[String]) -> Result<()> {
 
 fn overall(cells: &[Cell], index: usize, name: &str) -> Overall {
     let ratios = || cells.iter().map(|cell| cell.rms_ratios[index].median);
+    let medians = Medians::of_cells(&cells.iter().map(|cell| &cell.controllers[index]).collect::<Vec<_>>());
+    // Of two that are lost in most cells neither is as good as the other.
+    let is_lost = medians.rms().median.is_infinite();
     Overall {
         controller: name.to_owned(),
-        medians: Medians::of_cells(&cells.iter().map(|cell| &cell.controllers[index]).collect::<Vec<_>>()),
-        rms_ratio: Estimate::of(ratios().map(Some)).median,
+        rms_ratio: if is_lost { f64::INFINITY } else { Estimate::of(ratios().map(Some)).median },
+        medians,
         better_cells: ratios().filter(|ratio| *ratio < 1.0).count(),
         worse_cells: ratios().filter(|ratio| *ratio > 1.0).count(),
     }

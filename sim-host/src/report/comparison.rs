@@ -167,7 +167,7 @@ fn overall_rows(comparison: &Comparison) -> Vec<Vec<String>> {
 /// The cells that were flown: all of the matrix', or those selected.
 fn cells(comparison: &Comparison) -> String {
     match (comparison.cells.len(), comparison.matrix_cells) {
-        (flown, whole) if flown < whole => format!("these {flown} of {whole} cells"),
+        (flown, whole) if flown < whole => format!("{flown} of {whole} cells"),
         _ => "whole matrix".to_owned(),
     }
 }
@@ -277,6 +277,7 @@ pub(super) mod tests {
         assert!(text.lines().all(|line| line.chars().count() <= 120), "{text}");
         assert!(text.contains("lost 0/1") && text.contains("lost [lost, lost] 0/6"), "{text}");
         assert!(!text.contains("inf") && !text.contains("NaN"), "{text}");
+        assert!(text.contains("\n4 of ") && text.contains(" cells; `ratio`"), "{text}");
         let markdown = markdown(&with_a_loser());
         let columns = |line: &str| line.matches('|').count();
         assert!(

@@ -372,13 +372,13 @@ fn push_name(push: &ScheduledPush) -> String {
 
 /// A fault in words.
 pub fn fault_name(fault: &Fault) -> String {
-    let sensor = fault.sensor.map_or("", |sensor| sensor.name());
+    let (sensor, unit) = fault.sensor.map_or(("", ""), |sensor| (sensor.name(), sensor.unit()));
     match fault.kind {
         Kind::Off {} => format!("{sensor} off"),
         Kind::Stuck {} => format!("{sensor} stuck"),
-        Kind::Drift { rate, .. } => format!("{sensor} drifts at {rate}/s"),
-        Kind::Noise { sigma } => format!("{sensor} noise of {sigma}"),
-        Kind::Spikes { size, .. } => format!("{sensor} spikes of {size}"),
+        Kind::Drift { rate, .. } => format!("{sensor} drifts by {rate} {unit} a second"),
+        Kind::Noise { sigma } => format!("{sensor} noise of {sigma} {unit}"),
+        Kind::Spikes { size, .. } => format!("{sensor} spikes of {size} {unit}"),
         Kind::Delayed { extra_s } => format!("{sensor} late by {extra_s} s"),
         Kind::Nan {} => format!("{sensor} gives NaN"),
         Kind::Glitch { size_m, .. } => format!("{sensor} jumps by {size_m} m"),

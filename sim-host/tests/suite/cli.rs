@@ -321,7 +321,7 @@ fn a_comparison_leaves_what_it_was_flown_with() {
     let mut expected: toml::Table = expected.parse().expect("TOML");
     expected.insert("version".into(), env!("CARGO_PKG_VERSION").into());
     assert_eq!(provenance, expected);
-    assert!(text.contains("\nthese 1 of 3 cells; `ratio`"), "{text}");
+    assert!(text.contains("\n1 of 3 cells; `ratio`"), "{text}");
     // The copies are whole: the same again, over the folder from which they are read, with what they were made of gone.
     let flights = read("compare.csv");
     for gone in ["stiff.toml", "soft.toml", "matrix.toml"] {

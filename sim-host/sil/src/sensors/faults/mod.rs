@@ -272,6 +272,19 @@ impl Sensor {
             Self::Battery => "battery",
         }
     }
+
+    /// The unit of `rate`, `sigma` and `size`; without one for the IMU, whose halves differ.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Imu => "",
+            Self::Gyro => "rad/s",
+            Self::Accel => "m/s²",
+            Self::Mag => "µT",
+            Self::Baro => "Pa",
+            Self::Gnss | Self::Pose => "m",
+            Self::Battery => "V",
+        }
+    }
 }
 
 impl Kind {
