@@ -231,6 +231,7 @@ fn unit(key: &str) -> &'static str {
 /// The name most like `name`, if one is so much like it that it may have been meant.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     const LIKE: f64 = 0.8;
+    let name = &name.to_lowercase();
     // Short words with one slip are less alike by Jaro and Winkler than they look.
     let one_slip = |candidate: &str| candidate.len() > 2 && strsim::osa_distance(name, candidate) == 1;
     let likeness = |candidate: &str| if one_slip(candidate) { 1.0 } else { strsim::jaro_winkler(name, candidate) };

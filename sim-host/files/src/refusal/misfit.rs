@@ -26,6 +26,8 @@ enum Reason {
     UnknownChoice(String, &'static [&'static str]),
     /// A kind by its name alone, and the keys that it has.
     BareKind(String, &'static [&'static str]),
+    /// What was given in place of a table, and the keys that it has.
+    NoTable(String, &'static [&'static str]),
     /// What it must be, and what was given; without that, whoever has the file looks it up.
     Kind {
         expected: String,
@@ -57,14 +59,14 @@ impl Misfit {
         Reason::BareKind(name, keys).into()
     }
 
+    /// A value in place of a table that has these keys.
+    pub(super) fn no_table(value: &Value, keys: &'static [&'static str]) -> Self {
+        Reason::NoTable(in_words(value), keys).into()
+    }
+
     /// A value of another kind than `expected`.
     pub(super) fn wrong_kind(value: &Value, expected: &str) -> Self {
-        let given = match value {
-            Value::Table(_) => "a table".to_owned(),
-            Value::Array(_) => "an array".to_owned(),
-            other => other.to_string(),
-        };
-        Reason::Kind { expected: expected.to_owned(), given: Some(given) }.into()
+        Reason::Kind { expected: expected.to_owned(), given: Some(in_words(value)) }.into()
     }
 
     /// The same, of a value that stands at `key`.
@@ -130,7 +132,11 @@ fn refusal(path: &str, reason: &Reason) -> Refusal {
         Reason::Missing(name) => Refusal::new(below(path, name), "is missing").remedy(format!("add `{name} = …`")),
         Reason::UnknownKey(name, known) => unknown_key(path, name, known),
         Reason::UnknownChoice(name, known) => unknown_choice(path, name, known),
-        Reason::BareKind(name, keys) => bare_kind(path, name, keys),
+        Reason::BareKind(name, keys) => {
+            let given = format!("{name:?}");
+            no_table(path, given, &format!("{{{name}={}}}", form(keys)))
+        }
+        Reason::NoTable(given, keys) => no_table(path, given.clone(), &form(keys)),
         Reason::Kind { expected, given } => {
             let refusal = Refusal::new(path, format!("must be {expected}"));
             given.iter().fold(refusal, Refusal::given)
@@ -179,7 +185,7 @@ fn in_full(path: &str, key: &str) -> String {
 }
 
 pub(super) fn unknown_key(path: &str, name: &str, known: &[&str]) -> Refusal {
-    let by_its_letter = by_its_letter(name, known).map(str::to_owned).or_else(|| below_control(name, known));
+    let by_its_letter = by_its_letter(name, known).map(str::to_owned).or_else(|| elsewhere(name, known));
     let near = || nearest(name, known.iter().copied()).map(|near| format!("did you mean `{near}`?"));
     let remedy = match by_its_letter.or_else(near) {
         Some(remedy) => remedy,
@@ -218,10 +224,13 @@ const OF_CONTROL: [&str; 6] = [
 const AXES: [&str; 6] = ["roll", "pitch", "yaw", "x", "y", "z"];
 const OF_AN_AXIS: [&str; 6] = ["lambda", "gain", "reaching", "surface", "approach_max", "braking"];
 
-/// Where a gain stands that was given above its place.
-fn below_control(name: &str, known: &[&str]) -> Option<String> {
+/// Where a key stands that was given in another place.
+fn elsewhere(name: &str, known: &[&str]) -> Option<String> {
     let (at_the_top, has_axes) = (known.contains(&"control"), known.contains(&"roll") && known.contains(&"z"));
     match name {
+        "actuation_delay_s" if known.contains(&"mass_factor") => {
+            Some("it stands at the top, outside of `truth`: the firmware is never told of it".to_owned())
+        }
         _ if at_the_top && AXES.contains(&name) => {
             Some(format!("gains stand below `control`, as in control.{name}.lambda"))
         }
@@ -233,11 +242,24 @@ fn below_control(name: &str, known: &[&str]) -> Option<String> {
     }
 }
 
-fn bare_kind(path: &str, name: &str, keys: &[&str]) -> Refusal {
+/// A table with these keys, to be filled in.
+fn form(keys: &[&str]) -> String {
     let keys: Vec<String> = keys.iter().map(|key| format!("{key}=…")).collect();
-    let form = format!("{{{name}={{{}}}}}", keys.join(","));
+    format!("{{{}}}", keys.join(","))
+}
+
+fn no_table(path: &str, given: String, form: &str) -> Refusal {
     let remedy = format!("write {form} in its place, and all of a --set in quotes: --set '…={form}'");
-    Refusal::new(path, "must be a table").given(format!("{name:?}")).remedy(remedy)
+    Refusal::new(path, "must be a table").given(given).remedy(remedy)
+}
+
+/// A value, short.
+fn in_words(value: &Value) -> String {
+    match value {
+        Value::Table(_) => "a table".to_owned(),
+        Value::Array(_) => "an array".to_owned(),
+        other => other.to_string(),
+    }
 }
 
 fn unknown_choice(path: &str, name: &str, known: &[&str]) -> Refusal {
@@ -339,6 +361,10 @@ mod tests {
             (
                 "inner = [\"point\"]".to_owned(),
                 "`inner.0` must be a table, not \"point\": write {point={place_m=…,count=…,is_there=…}} in its place, and all of a --set in quotes: --set '…={point={place_m=…,count=…,is_there=…}}'",
+            ),
+            (
+                "inner = [{ point = 0.5 }]".to_owned(),
+                "`inner.0.point` must be a table, not 0.5: write {place_m=…,count=…,is_there=…} in its place, and all of a --set in quotes: --set '…={place_m=…,count=…,is_there=…}'",
             ),
             ("inner = [{}]".to_owned(), "`inner.0` must name a kind, not {}"),
             (

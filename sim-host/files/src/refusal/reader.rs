@@ -55,9 +55,22 @@ impl<'de> Deserializer<'de> for Reader {
         }
     }
 
+    /// By its keys alone: serde would also take an array, in the order in which the struct's fields are declared.
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value> {
+        match self.0 {
+            Value::Array(_) => Err(Misfit::wrong_kind(&self.0, "a table")),
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct seq tuple
-        tuple_struct map struct identifier ignored_any
+        tuple_struct map identifier ignored_any
     }
 }
 
@@ -191,7 +204,11 @@ impl<'de> VariantAccess<'de> for Kind {
         Reader(self.value).deserialize_any(visitor).map_err(|error| error.below(self.name))
     }
 
-    fn struct_variant<V: Visitor<'de>>(self, _: &'static [&'static str], visitor: V) -> Result<V::Value> {
-        Reader(self.value).deserialize_any(visitor).map_err(|error| error.below(self.name))
+    fn struct_variant<V: Visitor<'de>>(self, keys: &'static [&'static str], visitor: V) -> Result<V::Value> {
+        let read = match self.value {
+            Value::Table(_) => Reader(self.value).deserialize_any(visitor),
+            other => Err(Misfit::no_table(&other, keys)),
+        };
+        read.map_err(|error| error.below(self.name))
     }
 }
