@@ -65,7 +65,8 @@ pub enum Order {
 pub struct Command {
     /// Simulated time, s.
     pub at_s: Option<f64>,
-    /// Time for which the vehicle must have been at its last waypoint, s.
+    /// Time for which the vehicle must have been where the command before leads to, s; for commands after those that
+    /// [arrive](Order::arrives).
     pub arrived_for_s: Option<f64>,
     /// The order.
     pub order: Order,
@@ -106,6 +107,22 @@ const LOOKS_EVERY: Tick = 20;
 const ARRIVED_M: f32 = 0.5;
 const ARRIVED_M_S: f32 = 0.5;
 
+/// Where a command leads to.
+#[derive(Clone, Copy, Debug)]
+enum Target {
+    /// A place, m.
+    Place(Vector3<f32>),
+    /// To a stop, wherever that is.
+    Stop,
+}
+
+impl Order {
+    /// Whether it leads to a place, or to a stop, of which one can ask how long ago it was reached.
+    pub fn arrives(&self) -> bool {
+        matches!(self, Self::TakeOff { .. } | Self::GoTo { .. } | Self::Hold)
+    }
+}
+
 /// The script and its progress.
 #[derive(Clone, Debug)]
 pub struct Pilot {
@@ -113,8 +130,8 @@ pub struct Pilot {
     /// Commands given.
     done: usize,
     given_at: Tick,
-    /// The last waypoint.
-    target: Option<Vector3<f32>>,
+    /// Where the last command leads to.
+    target: Option<Target>,
     arrived_since: Option<Tick>,
 }
 
@@ -152,9 +169,11 @@ impl Pilot {
     }
 
     fn look(&mut self, tick: Tick, nav: &NavState) {
-        let there = self
-            .target
-            .is_some_and(|target| (target - nav.position).norm() < ARRIVED_M && nav.velocity.norm() < ARRIVED_M_S);
+        let is_near = |target: Target| match target {
+            Target::Place(place) => (place - nav.position).norm() < ARRIVED_M,
+            Target::Stop => true,
+        };
+        let there = self.target.is_some_and(is_near) && nav.velocity.norm() < ARRIVED_M_S;
         self.arrived_since = if there { self.arrived_since.or(Some(tick)) } else { None };
     }
 
@@ -170,14 +189,15 @@ impl Pilot {
     fn give(&mut self, tick: Tick, order: Order, nav: &NavState) -> Request {
         self.given_at = tick;
         match order {
-            Order::TakeOff { height_m } => self.send(nav.position + Vector3::z() * height_m),
-            Order::GoTo { position_m, .. } => self.send(position_m.into()),
+            Order::TakeOff { height_m } => self.send(Target::Place(nav.position + Vector3::z() * height_m)),
+            Order::GoTo { position_m, .. } => self.send(Target::Place(position_m.into())),
+            Order::Hold => self.send(Target::Stop),
             _ => {}
         }
         order.request()
     }
 
-    fn send(&mut self, target: Vector3<f32>) {
+    fn send(&mut self, target: Target) {
         self.target = Some(target);
         self.arrived_since = None;
     }
@@ -223,6 +243,19 @@ mod tests {
                 (10_000, Request::Land),
             ]
         );
+    }
+
+    #[test]
+    fn a_hold_arrives_where_the_vehicle_comes_to_a_stop() {
+        let at = |at_s: f64, order| Command { at_s: Some(at_s), arrived_for_s: None, order };
+        let then = Command { at_s: None, arrived_for_s: Some(2.0), order: Order::Land };
+        let mut pilot = Pilot::new(&[at(1.0, Order::Hold), then]);
+        let moving = |tick: Tick| NavState {
+            velocity: Vector3::x() * if tick < 3_000 { 1.0 } else { 0.1 },
+            ..NavState::at_rest()
+        };
+        let asked: Vec<Tick> = (0..9_000).filter(|tick| pilot.step(*tick, &moving(*tick), true).is_some()).collect();
+        assert_eq!(asked, [1_000, 5_000]);
     }
 
     #[test]

@@ -6,6 +6,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::Result;
+use firmware::airframe::ROTORS;
+use firmware::commander;
 use firmware::guidance::Trajectory;
 use serde::Serialize;
 use toml::{Table, Value};
@@ -21,6 +23,8 @@ use crate::report::{
     Figures, Flight, Metrics, OutFolder, Progress, SensedRecorder, Summary, Timeline, TimelineRecorder, TruthWriter,
 };
 use crate::scenario::{Group, PlantKind, Scenario};
+use crate::sensors::Fault;
+use crate::sensors::faults::Kind;
 use crate::sil::{End, Outcome};
 
 /// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
@@ -120,7 +124,9 @@ fn told(scenario: &Scenario, mut course: Course, outcome: &Outcome) -> Option<To
         return None;
     }
     let mission = (commands > 0).then(|| mission::judge(&course, outcome, &scenario.file.command, radius_m(scenario)));
-    Some(Told::new(course, mission.map(|mission| mission.because(too_heavy(scenario, outcome)))))
+    let cause = || too_heavy(scenario, outcome).or_else(|| no_rotor_failed(scenario, &course));
+    let mission = mission.map(|mission| mission.because(cause()));
+    Some(Told::new(course, mission))
 }
 
 /// Why a vehicle never flew, if its rotors cannot lift it.
@@ -130,6 +136,16 @@ fn too_heavy(scenario: &Scenario, outcome: &Outcome) -> Option<String> {
     (outcome.end == End::NeverFlew && ratio < 1.0).then(|| {
         format!("its rotors give at most {thrust_n:.1} N and it weighs {weight_n:.1} N: thrust-to-weight {ratio:.2}")
     })
+}
+
+/// What the vehicle took for a failed rotor, if none has failed.
+fn no_rotor_failed(scenario: &Scenario, course: &Course) -> Option<String> {
+    let (at_s, text) = course.response?;
+    let rotor = (0..ROTORS).find(|rotor| commander::Event::RotorFailed { rotor: *rotor as u8 }.text() == text)?;
+    let is_one =
+        |fault: &Fault| matches!(fault.kind, Kind::Rotor { index, .. } if index == rotor) && fault.from_s <= at_s;
+    let has_failed = scenario.file.fault.iter().any(is_one) || scenario.file.truth.rotor_effectiveness[rotor] != 1.0;
+    (!has_failed).then(|| mission::no_rotor_failed(rotor))
 }
 
 /// What was asked of a flight that it cannot do, if it did not do what was asked.

@@ -14,8 +14,10 @@ use crate::outcome::Contact;
 use crate::plant::rigid_body::RigidBody;
 use crate::plant::{Motion, Plant as _};
 use crate::record::{Recorder as _, Row};
-use crate::report::mission::REACHED_BY_GNSS_M;
+use crate::report::mission::{self, REACHED_BY_GNSS_M};
 use crate::report::timeline::fault_name;
+use crate::sensors::Fault;
+use crate::sensors::faults::Kind;
 use crate::sil::Flight;
 use crate::touchdown::{HARDEST_M_S, Touchdown};
 
@@ -109,6 +111,11 @@ impl Watch {
         self.look_at_faults(flight, tell);
         if let Some(event) = flight.autopilot.inner.commander_output().event {
             tell(Tone::Alarm, failsafe(event));
+            if let Event::RotorFailed { rotor } = event
+                && !has_failed(flight, usize::from(rotor))
+            {
+                tell(Tone::Plain, mission::no_rotor_failed(usize::from(rotor)));
+            }
         }
         self.look_at_ground(flight, tell);
         self.look_at_mode(flight, tell);
@@ -244,6 +251,14 @@ fn stands(flight: &Flight<RigidBody>) -> bool {
 /// A detector of the next touchdown, if there is a ground.
 fn touchdown(flight: &Flight<RigidBody>) -> Option<Touchdown> {
     flight.plant().ground().cloned().map(Touchdown::new)
+}
+
+/// Whether a fault has ever acted on a rotor (from 0).
+fn has_failed(flight: &Flight<RigidBody>, rotor: usize) -> bool {
+    let now_s = f64::from(flight.next_tick()) * TICK_S_EXACT;
+    let is_of =
+        |fault: &Fault| matches!(fault.kind, Kind::Rotor { index, .. } if index == rotor) && fault.from_s <= now_s;
+    flight.sensors().is_some_and(|suite| suite.faults().list(0).any(|fault| is_of(&fault)))
 }
 
 /// The firmware's text for a failure, as the console prints it.

@@ -56,6 +56,7 @@ impl Judge<'_> {
             .or_else(|| self.refused())
             .or_else(|| self.left_over())
             .or_else(|| self.missed())
+            .or_else(|| self.not_followed())
             .or_else(|| self.aloft())
     }
 
@@ -115,6 +116,13 @@ impl Judge<'_> {
         Some(format!("`{}` missed by {off:.1} m", order_text(&missed.order)))
     }
 
+    /// Of a flight that was told to fly its trajectory: whether it came to it.
+    fn not_followed(&self) -> Option<String> {
+        let follows = |leg: &Leg| leg.order == Order::Follow && leg.refused.is_none();
+        let is_flown = self.course.timeline.phases.iter().any(|phase| phase.name.starts_with("trajectory"));
+        (self.course.legs.iter().any(follows) && !is_flown).then(|| "its trajectory was not reached".into())
+    }
+
     /// Of a flight that was told to land: whether it did, and where.
     fn aloft(&self) -> Option<String> {
         let last = self.course.legs.iter().rfind(|leg| !matches!(leg.order, Order::Disarm))?;
@@ -129,6 +137,14 @@ impl Judge<'_> {
         }
         (!self.course.disarmed).then(|| "landed, and not disarmed".into())
     }
+}
+
+/// Of a rotor (from 0) that the vehicle took for failed.
+pub fn no_rotor_failed(rotor: usize) -> String {
+    format!(
+        "motor {} had not failed: the vehicle is not as it believes (mass, inertia, thrust), or its gains do not fit",
+        rotor + 1
+    )
 }
 
 /// Whether it has to be somewhere once the command is carried out.

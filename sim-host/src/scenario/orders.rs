@@ -14,8 +14,17 @@ const TURNS_DEG: f64 = 720.0;
 /// Refuses the first command that cannot be carried out.
 pub(super) fn commands(f: &ScenarioFile) -> Result<()> {
     let ground_m = f.ground.then(|| f.ground_height_m());
-    let mut commands = f.command.iter().enumerate();
-    commands.try_for_each(|(i, command)| order(&format!("command.{i}.order"), &command.order, ground_m))
+    let mut before = None;
+    for (i, command) in f.command.iter().enumerate() {
+        order(&format!("command.{i}.order"), &command.order, ground_m)?;
+        if command.arrived_for_s.is_some() && !before.is_some_and(|order: Order| order.arrives()) {
+            return Err(Refusal::new(format!("command.{i}.arrived_for_s"), "follows a command that arrives nowhere")
+                .remedy("only take-off, go-to and hold do: give `at_s`, the time in the flight")
+                .into());
+        }
+        before = Some(command.order);
+    }
+    Ok(())
 }
 
 fn order(key: &str, order: &Order, ground_m: Option<f64>) -> Result<()> {
