@@ -161,6 +161,18 @@ impl Matrix {
         self.file.cells().map(|(scenario, disturbance)| self.case(scenario, disturbance, &fallback)).collect()
     }
 
+    /// The settings for every scenario that a disturbance replaces by its own, each with the disturbance's name.
+    pub fn replaced(&self) -> Vec<(&str, &str)> {
+        let is_below = |key: &str, other: &str| {
+            key.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        let key = |setting: &str| setting.split('=').next().unwrap_or(setting).trim().to_owned();
+        let by =
+            |setting: &String, entry: &DisturbanceEntry| entry.set.iter().any(|own| is_below(&key(setting), &key(own)));
+        let pairs = self.file.set.iter().flat_map(|set| self.file.disturbances.iter().map(move |entry| (set, entry)));
+        pairs.filter(|(set, entry)| by(set, entry)).map(|(set, entry)| (set.as_str(), entry.name.as_str())).collect()
+    }
+
     /// What flies a scenario that brings no gains until a controller is set: the first.
     fn fallback(&self) -> Result<Controller> {
         let first = self.file.controllers.first().context("`controllers` is empty: name one at least")?;

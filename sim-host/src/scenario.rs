@@ -5,6 +5,7 @@ mod airframe_tests;
 mod csv;
 mod files;
 mod load;
+mod notes;
 mod orders;
 mod settings;
 #[cfg(test)]
@@ -25,6 +26,7 @@ use crate::pilot::Command;
 use crate::sensors::{Fault, Home, SuiteFile};
 pub use crate::world::{AttitudeWave, Disturbance, Gust, ScheduledPush, Tumble, Wind};
 pub use load::tuning;
+pub use notes::tuned_for_another;
 pub(crate) use settings::{is_of_controller, value, with_files};
 pub use world::{BatteryStart, Truth, World};
 

@@ -1,5 +1,7 @@
 //! `compare`: every controller in every cell of a matrix.
 
+use std::collections::BTreeSet;
+
 use anyhow::Result;
 use serde::Serialize;
 
@@ -9,6 +11,7 @@ use super::names::{self, Kind};
 use crate::compare::{Comparison, Contest};
 use crate::matrix::{Case, Matrix};
 use crate::report::{OutFolder, Staged, comparison, progress};
+use crate::scenario::tuned_for_another;
 use crate::seeds::Seeds;
 use crate::words::counted;
 
@@ -24,6 +27,10 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
     let contest = Contest::new(&matrix)?;
     note_late(contest.cases());
+    note_airframes(&contest);
+    for (setting, disturbance) in matrix.replaced() {
+        super::complain(&format!("note: {setting} does nothing under `{disturbance}`, which sets that itself"));
+    }
     let found = fly(&contest, args)?;
     if let Some(staged) = &staged {
         provenance(&staged.folder(), &matrix, &contest)?;
@@ -51,6 +58,15 @@ fn note_late(cases: &[Case]) {
     for (note, Case { scenario_name, disturbance_name, .. }, more) in notes {
         let others = if more == 0 { String::new() } else { format!(", and {} more", counted(more, "cell")) };
         super::complain(&format!("{note} ({scenario_name} under {disturbance_name}{others})"));
+    }
+}
+
+/// Says, once each, of the tunings that are flown on an airframe that they were not tuned for.
+fn note_airframes(contest: &Contest) {
+    let airframes: BTreeSet<&str> = contest.cases().iter().map(|case| case.scenario.file.airframe.as_str()).collect();
+    let pairs = airframes.iter().flat_map(|airframe| contest.tunings().iter().map(move |(name, _)| (name, airframe)));
+    for note in pairs.filter_map(|(name, airframe)| tuned_for_another(name, airframe)) {
+        super::complain(&format!("note: {note}"));
     }
 }
 

@@ -384,7 +384,14 @@ fn load(name: &str, settings: &[String]) -> Result<Scenario> {
     for late in scenario.file.too_late() {
         complain(&never_begins(&late));
     }
+    note_mismatches(&scenario, settings);
     Ok(scenario)
+}
+
+fn note_mismatches(scenario: &Scenario, settings: &[String]) {
+    for mismatch in scenario.mismatches(settings) {
+        complain(&format!("note: {mismatch}"));
+    }
 }
 
 /// The note of what comes after the end of a flight.

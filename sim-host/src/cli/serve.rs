@@ -18,6 +18,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     names::require(Kind::Scenario, &args.scenario)?;
     let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
     scenario.require_rigid_body()?;
+    super::note_mismatches(&scenario, &args.settings.set);
     let flight = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;
     let mut session = Session::new(flight);
     let mut link = UdpLink::bind(args.listen, &args.peers)?;
@@ -35,11 +36,11 @@ fn greeting(scenario: &Scenario, listen: SocketAddr, peers: &[SocketAddr]) -> St
     let hint = |port: u16, hint| if peers.iter().any(|peer| peer.port() == port) { hint } else { "" };
     let addresses: Vec<String> = peers.iter().map(ToString::to_string).collect();
     format!(
-        "`{}`: {}\n\
+        "`{}`{}\n\
          MAVLink goes to {}, and comes in on {listen}.\n\
          {}{}Type `help` for the commands; `arm`, `takeoff 5`, `land` is a first flight. `quit` or Ctrl-C ends it.\n",
         scenario.name,
-        scenario.file.summary,
+        about(&scenario.file.summary),
         addresses.join(" and "),
         hint(
             14550,
@@ -48,6 +49,10 @@ fn greeting(scenario: &Scenario, listen: SocketAddr, peers: &[SocketAddr]) -> St
         ),
         hint(14540, "MAVSDK: udpin://0.0.0.0:14540\n"),
     )
+}
+
+fn about(summary: &str) -> String {
+    if summary.is_empty() { String::new() } else { format!(": {summary}") }
 }
 
 /// How long was flown, and how fast.

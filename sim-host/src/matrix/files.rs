@@ -14,8 +14,13 @@ use crate::sensors::suite::file_names;
 /// The name of a built-in file unchanged; of a path, the file's name without its extension, and without what
 /// [`Matrix::files`] puts before it.
 pub fn short_name(name: &str) -> &str {
-    let file = name.rsplit('/').next().unwrap_or(name);
+    let (folder, file) = name.rsplit_once('/').unwrap_or(("", name));
     let Some(stem) = file.strip_suffix(".toml") else { return file };
+    // What a search has found is called tuning.toml in a folder of its own.
+    let folder = folder.rsplit('/').next().unwrap_or_default();
+    if stem == "tuning" && !folder.trim_matches('.').is_empty() {
+        return folder;
+    }
     KEPT.iter().find_map(|kind| stem.strip_prefix(kind)).unwrap_or(stem)
 }
 

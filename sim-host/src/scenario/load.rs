@@ -12,6 +12,23 @@ use crate::controller::{Controller, TuningFile};
 use crate::files::{Source, beside, read};
 use crate::refusal::{Refusal, typed};
 
+/// What `KEY=false` leaves out of a scenario's file.
+const LEFT_OUT: [&str; 13] = [
+    "assess",
+    "attitude",
+    "battery",
+    "command",
+    "control",
+    "disturbance",
+    "fault",
+    "join",
+    "push",
+    "sensors",
+    "tumble",
+    "tuning",
+    "wind",
+];
+
 /// A file that a scenario is made of, and what the command line has set in it.
 struct Layer {
     source: Source,
@@ -33,6 +50,10 @@ impl Layer {
             && let Some(suite @ Value::String(_)) = self.table.get_mut("sensors")
         {
             *suite = Value::Table([("suite".to_owned(), suite.clone())].into_iter().collect());
+        }
+        if setting.value == Value::Boolean(false) && LEFT_OUT.contains(&key) {
+            self.table.remove(key);
+            return Ok(());
         }
         self.clear_for_part(key);
         setting.apply(&mut self.table, key)?;
@@ -225,7 +246,8 @@ pub fn tuning(name: &str) -> Result<TuningFile> {
     read(name, "tuning", &TUNINGS)
 }
 
-const BOTH: &str = "`tuning` and `control` both say what flies: keep one, in a copy of the scenario's file";
+const BOTH: &str =
+    "`tuning` and `control` both say what flies: keep one: --set control=false leaves the scenario's gains out";
 
 /// Lays settings of gains over the scenario's own, or over those of its tuning, which is given back then.
 fn gains(own: &mut Layer, settings: &[(&Setting, &str)]) -> Result<Option<Layer>> {

@@ -134,6 +134,7 @@ fn world(f: &ScenarioFile) -> Result<()> {
         "`thrust_to_weight` limits nothing on the plant `paper-decoupled`, whose inputs are direct: leave it out, or set \
          `plant = \"rigid-body\"`"
     );
+    measured(f)?;
     place_of_start(f)?;
     truth(&f.truth)?;
     start(f)?;
@@ -141,6 +142,22 @@ fn world(f: &ScenarioFile) -> Result<()> {
     commands(f)?;
     f.push.iter().enumerate().try_for_each(|(i, one)| push(&format!("push.{i}"), one))?;
     f.wind.as_ref().map_or(Ok(()), wind)
+}
+
+/// Refuses errors of the measured state where no state is measured, but sensors.
+fn measured(f: &ScenarioFile) -> Result<()> {
+    let (Some(disturbance), Some(_)) = (&f.disturbance, &f.sensors) else { return Ok(()) };
+    let given =
+        [("position_output_m", disturbance.position_output_m), ("angle_output_rad", disturbance.angle_output_rad)];
+    match given.into_iter().find(|(_, sigma)| *sigma != 0.0) {
+        Some((key, sigma)) => {
+            Err(Refusal::new(format!("disturbance.{key}"), "must be 0 with `sensors`, whose errors are their own")
+                .given(sigma)
+                .remedy("use a `[[fault]]` of kind `noise`")
+                .into())
+        }
+        None => Ok(()),
+    }
 }
 
 /// Refuses a start on a ground that is not there, and one in the air of a vehicle that has to align first.
@@ -182,7 +199,7 @@ fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
         ("world.rotor_lag_down", f.world.rotor_lag_down, "rotor_lag_s", airframe.rotor_lag_s > 0.0),
         ("battery", f.battery.is_some(), "airframe.battery", airframe.battery.is_some()),
     ] {
-        ensure!(!asked || is_there, "`{key}` needs `{needs}`: set it, or leave `{key}` out");
+        ensure!(!asked || is_there, "`{key}` needs `{needs}`: set it, or leave `{key}` out: --set {key}=false");
     }
     f.battery.map_or(Ok(()), |battery| within("battery.soc", battery.soc, 0.0, 1.0))
 }
@@ -338,6 +355,8 @@ fn disturbance(d: &Disturbance, duration_s: f64) -> Result<()> {
 
 fn attitude(wave: &AttitudeWave) -> Result<()> {
     each("attitude.amplitude_rad", &wave.amplitude_rad, 10.0)?;
+    // Euler angles go no further.
+    within("attitude.amplitude_rad.1", wave.amplitude_rad[1], -1.5, 1.5)?;
     each("attitude.rate_rad_s", &wave.rate_rad_s, 1e3)?;
     each("attitude.phase_rad", &wave.phase_rad, 100.0)
 }

@@ -1,0 +1,77 @@
+//! What can be flown and yet does not go together: told, not refused.
+
+use super::settings::Setting;
+use super::{AIRFRAMES, Scenario, TUNINGS};
+
+/// What else than a trajectory a joining path was planned from.
+const PLANNED_FROM: [&str; 4] = ["trajectory", "start_position_m", "start_velocity_m_s", "thrust_to_weight"];
+
+impl Scenario {
+    /// Gains, and a joining path, that were made for something else than what these settings make of the scenario.
+    pub fn mismatches(&self, settings: &[String]) -> Vec<String> {
+        let keys: Vec<&str> = settings.iter().filter_map(|text| Some(Setting::parse(text).ok()?.key)).collect();
+        let is_set = |key: &str| keys.contains(&key);
+        let airframe = &self.file.airframe;
+        let gains = match (&self.file.tuning, &self.file.control) {
+            (Some(tuning), _) => tuned_for_another(tuning, airframe),
+            (None, Some(_)) if is_set("airframe") && !keys.iter().any(|key| key.starts_with("control")) => {
+                Some(format!(
+                    "the scenario's `control` was tuned for another airframe than `{airframe}`: --set control=false flies \
+                 the airframe's own gains"
+                ))
+            }
+            _ => None,
+        };
+        let moved = keys.iter().find(|key| PLANNED_FROM.contains(&key.split('.').next().unwrap_or(key)));
+        let join = moved.filter(|_| self.file.join.is_some() && !keys.iter().any(|key| key.starts_with("join")));
+        let join = join.map(|key| {
+            format!(
+                "`join` was planned without `{key}`: plan another (`sim-host plan`), or --set join=false to fly without"
+            )
+        });
+        gains.into_iter().chain(join).collect()
+    }
+}
+
+/// Says of a built-in tuning that is flown on an airframe that it was not tuned for.
+pub fn tuned_for_another(tuning: &str, airframe: &str) -> Option<String> {
+    let is_built_in = TUNINGS.iter().any(|(name, _)| *name == tuning);
+    let (of, _) = tuning.rsplit_once('-').filter(|_| is_built_in)?;
+    let is_own = AIRFRAMES.iter().all(|(name, _)| *name != airframe);
+    let remedy = if is_own { "docs/tuning.md tells how to tune for yours" } else { "its gains may not fly it" };
+    (of != airframe).then(|| format!("`{tuning}` was tuned for the airframe `{of}`, not for `{airframe}`: {remedy}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gains_and_paths_made_for_something_else_are_told() {
+        let told = |name: &str, settings: &[&str]| {
+            let settings: Vec<String> = settings.iter().map(|text| (*text).to_owned()).collect();
+            Scenario::load(name, &settings).expect("valid").mismatches(&settings).join("; ")
+        };
+        for (name, settings, expected) in [
+            ("pad", &["airframe=x500"][..], "`control` was tuned for another airframe than `x500`"),
+            ("pad", &["airframe=x500", "control=false"], ""),
+            ("pad", &["airframe.mass_kg=0.9"], ""),
+            (
+                "x500-hover",
+                &["tuning=crazyflie-smc"],
+                "`crazyflie-smc` was tuned for the airframe `crazyflie`, not for `x500`",
+            ),
+            ("x500-hover", &["tuning=x500-pid"], ""),
+            (
+                "helix",
+                &["trajectory.helix.amplitude_m=[2,2]"],
+                "`join` was planned without `trajectory.helix.amplitude_m`",
+            ),
+            ("helix", &["trajectory.helix.amplitude_m=[2,2]", "join=false"], ""),
+            ("helix", &["control.x.gain=8"], ""),
+        ] {
+            let found = told(name, settings);
+            assert!(if expected.is_empty() { found.is_empty() } else { found.contains(expected) }, "{name}: {found}");
+        }
+    }
+}
