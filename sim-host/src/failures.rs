@@ -9,7 +9,7 @@
 //! gps wrong                            as MAVLink's failure: a jump by 50 m
 //! ```
 
-use anyhow::{Result, anyhow, bail, ensure};
+use anyhow::{Context as _, Result, anyhow, bail, ensure};
 use firmware::airframe::ROTORS;
 use firmware::failure::{Failure, Injectable, Manner, Unit};
 use firmware::signals::Tick;
@@ -41,6 +41,71 @@ pub fn parse<'a>(words: impl Iterator<Item = &'a str>, now: Tick) -> Result<Faul
     // Divided, for a number of three decimals at most.
     table.entry("from_s").or_insert(Value::Float(f64::from(now) / 1e3));
     Fault::try_from(table).map_err(|error| anyhow!("{}", error.replace("`fault.", "`")))
+}
+
+/// What can fail by itself, and be made to work again by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Afflicted {
+    /// A sensor; with its monitor, the battery itself.
+    Sensor(Sensor),
+    /// One rotor (from 0), or all.
+    Rotors(Option<usize>),
+}
+
+impl Afflicted {
+    /// Reads the name of a sensor, of a rotor (`rotor index=1`, PX4's `motor -i 2`) or of the battery, with PX4's `ok` or
+    /// without.
+    ///
+    /// # Errors
+    /// In one line, what is wrong with it.
+    pub fn parse(words: &[&str]) -> Result<Self> {
+        let mut words: Vec<&str> = words.iter().copied().filter(|word| *word != "ok").collect();
+        let instance = take_instance(&mut words)?;
+        let index = words.iter().position(|word| word.starts_with("index=")).map(|place| words.remove(place));
+        let index = index.map(|word| word["index=".len()..].parse().ok().filter(|index| *index < ROTORS));
+        ensure!(index != Some(None), "`index` counts rotors from 0 to {}", ROTORS - 1);
+        let rotor = index.flatten().or(instance.map(|instance| usize::from(instance) - 1));
+        let [word] = words[..] else {
+            bail!("name one thing that is to work again, as in `clear gnss`, `clear motor -i 1`")
+        };
+        let word = as_pilots_say(word).unwrap_or(word);
+        if word == "rotor" {
+            return Ok(Self::Rotors(rotor));
+        }
+        ensure!(rotor.is_none_or(|rotor| rotor == 0), "there is one `{word}` alone: leave out its number");
+        let names = Sensor::ALL.map(Sensor::name);
+        let found = Sensor::ALL.into_iter().find(|sensor| sensor.name() == word).map(Self::Sensor);
+        found.with_context(|| {
+            format!("`{word}` is nothing that fails by itself: {}", meant(word, &[&names[..], &["rotor"]].concat()))
+        })
+    }
+
+    /// What a failure is of.
+    pub fn of(failure: &Failure) -> Self {
+        match failure.unit {
+            Unit::Motor => Self::Rotors(failure.instance.map(usize::from)),
+            unit => Self::Sensor(sensor(unit).unwrap_or(Sensor::Battery)),
+        }
+    }
+
+    /// Whether a fault, whoever has made it, is of it.
+    pub fn has(self, fault: &Fault) -> bool {
+        match (self, fault.kind) {
+            (Self::Rotors(rotor), Kind::Rotor { index, .. }) => rotor.is_none_or(|rotor| rotor == index),
+            (Self::Sensor(sensor), Kind::Collapse { .. }) => sensor == Sensor::Battery,
+            (Self::Sensor(sensor), _) => fault.sensor == Some(sensor),
+            (Self::Rotors(_), _) => false,
+        }
+    }
+
+    /// As its faults are called: `rotor 2 (index 1)`.
+    pub fn name(self) -> String {
+        match self {
+            Self::Rotors(Some(index)) => format!("rotor {} (index {index})", index + 1),
+            Self::Rotors(None) => "every rotor".to_owned(),
+            Self::Sensor(sensor) => sensor.name().to_owned(),
+        }
+    }
 }
 
 /// Whether a word is a number, and not the kind `nan`.
@@ -172,7 +237,6 @@ fn key_and_value(word: &str) -> Result<(&str, Value)> {
         Some(pair) => pair,
         None if sensors.contains(&word) => ("sensor", word),
         None if KINDS.contains(&word) => ("kind", word),
-        None if word == "ok" => bail!("`clear` ends all faults; for one, give it a `to_s=`"),
         None => bail!("`{word}` is no sensor and no kind of fault: {}", meant(word, &[&sensors[..], &KINDS].concat())),
     };
     match key {
@@ -222,16 +286,6 @@ pub fn injectable(sensors: Option<&Suite>, has_battery: bool) -> Injectable {
     injectable
 }
 
-/// Whether a fault, whoever has made it, is of what a failure is of.
-pub fn is_of(failure: &Failure, fault: &Fault) -> bool {
-    match (failure.unit, fault.kind) {
-        (Unit::Motor, Kind::Rotor { index, .. }) => failure.instance.is_none_or(|motor| usize::from(motor) == index),
-        (Unit::Battery, Kind::Collapse { .. }) => true,
-        (Unit::Motor | Unit::Battery, _) => false,
-        (unit, _) => fault.sensor.is_some() && fault.sensor == sensor(unit),
-    }
-}
-
 /// The slots of a failure, with the fault in each; `None` ends the slot's fault. Empty for a failure that is not
 /// [`injectable`].
 pub fn of(failure: &Failure, now: Tick) -> impl Iterator<Item = (usize, Option<Fault>)> + use<> {
@@ -261,15 +315,6 @@ fn sensor(unit: Unit) -> Option<Sensor> {
         Unit::Baro => Some(Sensor::Baro),
         Unit::Gnss => Some(Sensor::Gnss),
         Unit::Battery | Unit::Motor => None,
-    }
-}
-
-/// The unit of a failure, as its faults are called: `rotor 2 (index 1)`.
-pub fn unit_name(failure: &Failure) -> String {
-    match (failure.unit, failure.instance) {
-        (Unit::Motor, Some(index)) => format!("rotor {} (index {index})", index + 1),
-        (Unit::Motor, None) => "every rotor".to_owned(),
-        (unit, _) => sensor(unit).map_or("battery", Sensor::name).to_owned(),
     }
 }
 

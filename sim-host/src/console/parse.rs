@@ -8,7 +8,7 @@ use anyhow::{Error, Result, anyhow, bail, ensure};
 use firmware::commander::{FARTHEST_M, FASTEST_M_S, Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M};
 use firmware::signals::Tick;
 
-use crate::failures;
+use crate::failures::{self, Afflicted};
 use crate::refusal::{did_you_mean, shortest};
 use crate::sensors::Fault;
 use crate::serve::SPEEDS;
@@ -37,8 +37,8 @@ pub enum Command {
     Fault(Fault),
     /// List the faults.
     Faults,
-    /// End all faults.
-    Clear,
+    /// End all faults, or those of one sensor, rotor or battery.
+    Clear(Option<Afflicted>),
     /// Fly at so many times real time.
     Speed(f64),
     /// End the program.
@@ -201,7 +201,7 @@ pub const COMMANDS: &[Entry] = &[
         &["fault", "failure"],
         "[SENSOR] KIND [KEY=VALUE]...",
         "make a sensor, a rotor or the battery fail",
-        Reads::With(|words, now| Ok(Command::Fault(failures::parse(words.iter().copied(), now)?))),
+        Reads::With(fault),
     )
     .with_details(
         "As in `fault gnss off`, `fault baro drift rate=5`, `fault rotor index=0 effectiveness=0.5` (rotor 1), \
@@ -211,11 +211,24 @@ pub const COMMANDS: &[Entry] = &[
          `[[fault]]` in docs/simulation.md",
     ),
     Entry::new(&["faults"], "", "list the faults that act, and those to come", Reads::Nothing(Command::Faults)),
-    Entry::new(&["clear"], "", "end all faults, those of the scenario too", Reads::Nothing(Command::Clear)),
+    Entry::new(&["clear"], "[SENSOR]", "end all faults, those of the scenario too, or those of one sensor", Reads::With(clear))
+        .with_details("`clear gnss`, `clear motor -i 1`, `clear battery`; `fault gps ok` is the same in PX4's words"),
     Entry::new(&["speed"], "X", "fly at X times real time", Reads::With(speed))
         .with_details("X is between 0.01 and 1000"),
     Entry::new(&["quit", "exit"], "", "end the program", Reads::Nothing(Command::Quit)),
 ];
+
+fn fault(words: &[&str], now: Tick) -> Result<Command> {
+    if words.contains(&"ok") {
+        return clear(words, now);
+    }
+    Ok(Command::Fault(failures::parse(words.iter().copied(), now)?))
+}
+
+fn clear(words: &[&str], _: Tick) -> Result<Command> {
+    let of = (!words.is_empty()).then(|| Afflicted::parse(words)).transpose()?;
+    Ok(Command::Clear(of))
+}
 
 /// Words of other shells, as that of PX4, for which there is no command, and what there is instead.
 const ELSEWHERE: &[(&str, &str)] = &[

@@ -15,7 +15,7 @@ use super::answers::Answers;
 use super::events::{self, Watch};
 use super::line::{Line, Tone};
 use super::parse::{self, COMMANDS, Command};
-use crate::failures;
+use crate::failures::{self, Afflicted};
 use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
 use crate::report::timeline::fault_name;
@@ -120,8 +120,9 @@ impl Session {
         for failure in self.flight.autopilot.inner.take_failures() {
             if failure.manner == Manner::Well {
                 // Also what the console or the scenario has made fail: it is said to work again.
-                let _ = self.flight.clear_faults_where(|fault| failures::is_of(&failure, fault));
-                self.say(Tone::Plain, format!("ground station: {} works again", failures::unit_name(&failure)));
+                let of = Afflicted::of(&failure);
+                let _ = self.flight.clear_faults_where(|fault| of.has(fault));
+                self.say(Tone::Plain, format!("ground station: {} works again", of.name()));
             }
             for (slot, fault) in failures::of(&failure, self.flight.next_tick()) {
                 // The firmware is allowed failures on sensors alone, where this cannot fail.
@@ -232,7 +233,7 @@ impl Session {
             }
             Command::Fault(fault) => self.inject(fault)?,
             Command::Faults => self.list_faults(),
-            Command::Clear => self.clear()?,
+            Command::Clear(of) => self.clear(*of)?,
             Command::Speed(speed) => {
                 self.say(Tone::Plain, format!("speed: {speed} x real time"));
                 return Ok(Some(Control::Speed(*speed)));
@@ -309,10 +310,12 @@ impl Session {
         self.flight.sensors().map_or_else(Vec::new, |suite| suite.faults().list(tick).collect())
     }
 
-    fn clear(&mut self) -> Result<()> {
-        let count = self.faults().len();
-        self.flight.clear_faults()?;
-        let text = if count == 0 { "no faults".to_owned() } else { format!("no faults: {count} cleared") };
+    fn clear(&mut self, of: Option<Afflicted>) -> Result<()> {
+        let is_meant = |fault: &Fault| of.is_none_or(|of| of.has(fault));
+        let count = self.faults().iter().filter(|fault| is_meant(fault)).count();
+        self.flight.clear_faults_where(is_meant)?;
+        let what = of.map_or_else(String::new, |of| format!(" of {}", of.name()));
+        let text = if count == 0 { format!("no faults{what}") } else { format!("no faults{what}: {count} cleared") };
         self.say(Tone::Plain, text);
         Ok(())
     }

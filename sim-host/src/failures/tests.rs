@@ -105,7 +105,6 @@ fn bad_lines_are_refused_by_what_is_wrong_with_them() {
         ("motor off -i", "`-i` counts from 1 to 4"),
         ("motor off -i 1 index=0", "`index` is given twice, as `0` and `0`"),
         ("gps off -i 2", "there is one of it alone: leave out `-i 2`"),
-        ("gps ok", "`clear` ends all faults"),
         ("collapse 0.7", "`0.7` has no key: write `factor=0.7`"),
         ("collapse", "`collapse` needs `factor=…`"),
         ("gnss spikes 1", "`spikes` needs `probability=…` and `size=…`"),

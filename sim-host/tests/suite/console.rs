@@ -209,6 +209,10 @@ fn faults_are_told_when_they_begin_and_when_they_end() {
     assert!(begun.starts_with("[    1.0") && over.starts_with("[    2.0"), "{begun} {over}");
     assert_eq!(text(&bench.enter("faults")), "no faults");
     assert_eq!(text(&bench.enter("clear")), "no faults");
+    bench.enter("fault mag stuck");
+    bench.enter("fault baro stuck");
+    assert_eq!(text(&bench.enter("failure mag ok")), "no faults of mag: 1 cleared");
+    assert!(bench.enter("status").ends_with("; faults: baro stuck"), "the other goes on");
 }
 
 /// A `COMMAND_LONG` of ground station 255, by its number and first three parameters.
