@@ -34,6 +34,8 @@ pub struct Strength {
     pub angle_max_rad: f64,
     /// False if an axis took longer than the paper's 0.2 s, or the vehicle was lost.
     pub held: bool,
+    /// Which took longer.
+    pub late: Vec<&'static str>,
 }
 
 /// Greatest errors while the disturbance acts.
@@ -115,14 +117,15 @@ fn fly(scenario: &Scenario, base: &Disturbance, factor: f64, seed: u64) -> Resul
         recovery.away().join(", "),
         base.from_s
     );
-    let in_time = |time: &Option<f64>| time.is_some_and(|time| time <= DISTURBANCE_REMOVED.time_s);
+    let late = recovery.later_than(DISTURBANCE_REMOVED.time_s);
     Ok(Strength {
         factor,
         acceleration_m_s2: disturbance.acceleration_m_s2,
         angular_acceleration_rad_s2: disturbance.angular_acceleration_rad_s2,
         position_output_m: disturbance.position_output_m,
         angle_output_rad: disturbance.angle_output_rad,
-        held: recovery.as_array().iter().all(in_time),
+        held: late.is_empty(),
+        late,
         recovery_s: recovery,
         position_max_m: extremes.position,
         angle_max_rad: extremes.angle,

@@ -39,12 +39,13 @@ fn table(flown: &[Strength]) -> String {
             sigma(s.angle_output_rad.to_degrees()),
             1e3 * s.position_max_m,
             s.angle_max_rad.to_degrees(),
-            if s.held { "held" } else { "FAILED" }
+            if s.held { "held".to_owned() } else { format!("FAILED: {}", s.late.join(", ")) }
         ));
     }
     lines.push(format!(
         "factor and σ: of the disturbance; slowest: of all axes, the time from the onset to within 5 cm or 2° for good;\n\
-         max: greatest errors of position and angles while it acts; held: slowest at most {} s, the paper's claim",
+         max: greatest errors of position, and of angles against those asked for, while it acts; held: slowest at most {} s, \
+         the paper's claim",
         DISTURBANCE_REMOVED.time_s
     ));
     if !flown.iter().any(|strength| strength.held) {
@@ -70,9 +71,13 @@ mod tests {
             position_max_m: 0.1,
             angle_max_rad: 0.0,
             held: false,
+            late: vec!["x", "roll"],
         };
         let text = table(&[strength]);
         let row: Vec<&str> = text.lines().nth(1).expect("a row").split_whitespace().collect();
-        assert_eq!(row, ["0.03", "0.00488", "6.67", "0", "1.15e-4", "never", "100.000", "0.000", "FAILED"]);
+        assert_eq!(
+            row,
+            ["0.03", "0.00488", "6.67", "0", "1.15e-4", "never", "100.000", "0.000", "FAILED:", "x,", "roll"]
+        );
     }
 }

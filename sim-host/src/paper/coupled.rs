@@ -8,13 +8,15 @@ use super::flights::{Flights, Flown};
 use super::undisturbed::AVERAGE_FROM;
 
 pub(super) fn lines(flights: &Flights) -> Vec<Line> {
-    let Flights { literal, literal_strong, literal_thin, literal_slow, helix, .. } = flights;
+    let Flights { literal, literal_strong, literal_thin, literal_slow, literal_wide, helix, .. } = flights;
     vec![
         settled(literal, relay(literal)),
         error(literal, height_first(literal)),
         error(literal_strong, not_the_limits(literal_strong)),
         error(literal_thin, thin(literal_thin)),
         settled(literal_slow, slow(literal_slow)),
+        error(literal_slow, thin_attitude(literal_slow)),
+        error(literal_wide, wide_attitude(literal_wide)),
         settled(helix, bound(helix)),
         error(helix, own_gains()),
     ]
@@ -111,6 +113,32 @@ fn slow(flown: &Flown) -> String {
         f64::from(gains.gain) / layer_rate(gains),
         layer_rate(gains),
         roll.lambda,
+    )
+}
+
+/// Total variation of the commanded ω², in (rad/s)²/s.
+fn variation(flown: &Flown) -> f64 {
+    flown.metrics.chattering_after_4s().unwrap_or(f64::NAN)
+}
+
+fn thin_attitude(flown: &Flown) -> String {
+    let roll = &flown.control().roll;
+    format!(
+        "the attitude's layer is still {:.5} rad/s, and a sample of 1 ms moves s by K h = {:.2} rad/s: its laws switch the rotors \
+         between their limits, with a total variation of ω² of {:.1e} (rad/s)²/s",
+        f64::from(roll.gain) / layer_rate(roll),
+        f64::from(roll.gain) * 1e-3,
+        variation(flown),
+    )
+}
+
+fn wide_attitude(flown: &Flown) -> String {
+    let roll = &flown.control().roll;
+    format!(
+        "the same with {} rad/s for roll, pitch and yaw, wider than K h: they no longer switch, and the total variation is {:.1e} \
+         (rad/s)²/s",
+        f64::from(roll.gain) / layer_rate(roll),
+        variation(flown),
     )
 }
 

@@ -32,8 +32,18 @@ const SLOW: [&str; 3] = [
     "control.z={lambda=4.0,gain=20.0,reaching={sat={rho=2.0}}}",
 ];
 
+/// The same with roll, pitch and yaw in a layer wider than what a sample of 1 ms moves s by, K h = 0.22 rad/s.
+const SIX: [&str; 6] = [
+    SLOW[0],
+    SLOW[1],
+    SLOW[2],
+    "control.roll.reaching={sat={rho=0.25}}",
+    "control.pitch.reaching={sat={rho=0.25}}",
+    "control.yaw.reaching={sat={rho=0.25}}",
+];
+
 /// Scenarios with what is set in them and what that is called, in the order of [`Flights`].
-const FLOWN: [(&str, &[&str], &str); 9] = [
+const FLOWN: [(&str, &[&str], &str); 10] = [
     ("paper-ideal", &[], ""),
     ("paper-attitude", &[], ""),
     ("paper-disturbed", &[], ""),
@@ -41,7 +51,8 @@ const FLOWN: [(&str, &[&str], &str); 9] = [
     ("paper-literal", &[], ""),
     ("paper-literal", &["thrust_to_weight=25"], ", thrust-to-weight 25"),
     ("paper-literal", &THIN, ", slow gains"),
-    ("paper-literal", &SLOW, ", slow gains, wide layer"),
+    ("paper-literal", &SLOW, ", slow gains, three wide layers"),
+    ("paper-literal", &SIX, ", slow gains, six wide layers"),
     ("helix", &[], ""),
 ];
 
@@ -83,6 +94,8 @@ pub struct Flights {
     pub literal_thin: Flown,
     /// The same in a wide layer.
     pub literal_slow: Flown,
+    /// The same with a wide layer for the attitude too.
+    pub literal_wide: Flown,
     /// The helix on the rigid body, by gains of our own.
     pub helix: Flown,
 }
@@ -96,8 +109,18 @@ impl Flights {
         let fly = |(name, settings, what): &(&str, &[&str], &str)| Flown::new(name, settings, what).inspect(|_| done());
         let flown: Vec<Flown> = parallel::try_map(&FLOWN, fly)?;
         let flown = <[Flown; FLOWN.len()]>::try_from(flown);
-        let [ideal, attitude, disturbed, disturbed_output, literal, literal_strong, literal_thin, literal_slow, helix] =
-            flown.map_err(|flown| anyhow::anyhow!("{} flights in place of {}", flown.len(), FLOWN.len()))?;
+        let [
+            ideal,
+            attitude,
+            disturbed,
+            disturbed_output,
+            literal,
+            literal_strong,
+            literal_thin,
+            literal_slow,
+            literal_wide,
+            helix,
+        ] = flown.map_err(|flown| anyhow::anyhow!("{} flights in place of {}", flown.len(), FLOWN.len()))?;
         Ok(Self {
             ideal,
             attitude,
@@ -107,6 +130,7 @@ impl Flights {
             literal_strong,
             literal_thin,
             literal_slow,
+            literal_wide,
             helix,
         })
     }
@@ -125,6 +149,7 @@ impl Flights {
             &self.literal_strong,
             &self.literal_thin,
             &self.literal_slow,
+            &self.literal_wide,
             &self.helix,
         ]
     }

@@ -132,6 +132,12 @@ impl Recovery {
         self.as_array().into_iter().try_fold(0.0_f64, |most, time| Some(most.max(time?)))
     }
 
+    /// The names of those that took longer than `time_s`, or did not recover.
+    pub fn later_than(&self, time_s: f64) -> Vec<&'static str> {
+        let is_late = |time: Option<f64>| time.is_none_or(|time| time > time_s);
+        Self::NAMES.into_iter().zip(self.as_array()).filter_map(|(name, time)| is_late(time).then_some(name)).collect()
+    }
+
     /// The names of those that were outside at the onset already.
     pub fn away(&self) -> Vec<&'static str> {
         Self::NAMES.into_iter().zip(self.outside).filter_map(|(name, outside)| outside.then_some(name)).collect()

@@ -43,8 +43,9 @@ pub fn render(study: &Study) -> String {
 
 /// The claims with their numbers.
 fn table(study: &Study) -> String {
+    let width = study.claims.iter().map(|line| line.claim.chars().count()).max().unwrap_or(0);
     let row = |number: &str, [claim, paper, here, difference]: [&str; 4]| {
-        format!("{number:>2}  {claim:<67}  {paper:>9}  {here:>9}  {difference:>10}\n")
+        format!("{number:>2}  {claim:<width$}  {paper:>9}  {here:>9}  {difference:>10}\n")
     };
     let mut text = row("", ["claim", "paper", "here", "difference"]);
     for (i, line) in study.claims.iter().enumerate() {

@@ -28,10 +28,11 @@ use crate::words::counted;
 /// Files by which a folder is known to be ours: one of them is written by every command with `--out`.
 const MARKS: [&str; 4] = ["provenance.toml", "compare.json", "analyse.json", "paper.json"];
 /// What else such a folder may hold, besides figures, a folder per seed and the tunings of a comparison.
-const OURS: [&str; 10] = [
+const OURS: [&str; 11] = [
     "summary.json",
     "truth.csv",
     "estimate.csv",
+    "inputs.csv",
     "scenario.toml",
     "airframe.toml",
     "tuning.toml",

@@ -245,7 +245,7 @@ fn figures(summary: &Summary) -> String {
     if summary.survived && !has_rotors {
         line(
             "inputs",
-            "direct and unlimited; where a law switches them, a row shows one side, and `inputs.svg` their means",
+            "direct and unlimited; where a law switches them, a row shows one side, and `inputs.csv` their means",
         );
     }
     if has_rotors {

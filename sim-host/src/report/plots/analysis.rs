@@ -17,13 +17,18 @@ use crate::analyse::{Analysis, Attitude, Loop, Sample};
 /// When a file cannot be written; the message names it. So for every figure.
 pub fn draw(folder: &Path, analysis: &Analysis) -> Result<Vec<PathBuf>> {
     let mut files: Vec<PathBuf> =
-        analysis.loops.iter().map(|one| of_loop(folder, &analysis.scenario, one)).collect::<Result<_>>()?;
+        analysis.loops.iter().map(|one| of_loop(folder, &of(analysis), one)).collect::<Result<_>>()?;
     files.push(attitude(folder, analysis)?);
     Ok(files)
 }
 
+/// Which scenario and controller.
+fn of(analysis: &Analysis) -> String {
+    format!("{}, {}", analysis.scenario, analysis.controller)
+}
+
 /// |L|, its phase, its Nyquist diagram about −1, and |1/(1 + L)|, with what was measured in the simulation.
-fn of_loop(folder: &Path, scenario: &str, one: &Loop) -> Result<PathBuf> {
+fn of_loop(folder: &Path, of: &str, one: &Loop) -> Result<PathBuf> {
     let simulated: Vec<Sample> = one.checks.iter().map(|check| check.simulated).collect();
     let decibels = |samples: &[Sample]| -> Points {
         samples.iter().map(|s| (libm::log10(s.omega_rad_s), decibels_of(s.value.norm_sqr()))).collect()
@@ -44,7 +49,7 @@ fn of_loop(folder: &Path, scenario: &str, one: &Loop) -> Result<PathBuf> {
         bode("sensitivity", "|1/(1 + L)|, dB", sensitivity(&one.response), sensitivity(&simulated), vec![0.0]),
     ];
     let path = folder.join(format!("loop-{}.svg", one.name));
-    let heading = format!("Loop {}, opened at its law's demand\n{scenario}", one.name);
+    let heading = format!("Loop {}, opened at its law's demand\n{of}", one.name);
     save(&path, size_of(2, 360), &heading, &[Key::Linear, Key::Simulated], |area| grid(area, 2, &panels))?;
     Ok(path)
 }
@@ -94,7 +99,7 @@ fn nyquist(samples: &[Sample], simulated: &[Sample]) -> Panel {
 fn attitude(folder: &Path, analysis: &Analysis) -> Result<PathBuf> {
     let panels: Vec<Panel> = analysis.attitude.iter().flat_map(|axis| [step(axis), noise(axis)]).collect();
     let path = folder.join("attitude.svg");
-    let heading = format!("Steps of the attitude, noise of the rates\n{}", analysis.scenario);
+    let heading = format!("Steps of the attitude, noise of the rates\n{}", of(analysis));
     save(
         &path,
         size_of(3, 260),

@@ -134,6 +134,7 @@ impl<'a> Figures<'a> {
         // The paper's decoupled equations have no rotors.
         if let Some(of) = &self.inputs {
             files.push(inputs::inputs(folder, self, of)?);
+            inputs::table(folder, self, of)?;
         } else if self.rows.is_empty() || rotors::turn(self.rows) {
             files.push(rotors::rotors(folder, self)?);
         }

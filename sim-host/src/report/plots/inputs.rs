@@ -4,6 +4,7 @@
 //! is the mean over the millisecond from one row to the next, as the motion tells it, in the band within which it
 //! switches: single values taken every millisecond would show one side of the switching alone.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -20,6 +21,7 @@ use crate::controller::{Control, Controller};
 use crate::decoupled::STEP_S;
 use crate::plant::Constants;
 use crate::record::Row;
+use crate::report::out::write_file;
 use crate::scenario::{PlantKind, Scenario};
 
 /// What is shown of the approach, s.
@@ -163,6 +165,22 @@ pub(super) fn inputs(folder: &Path, figures: &Figures, inputs: &Inputs) -> Resul
     let legend: Vec<Key> = [Some(SWITCHES), acting].into_iter().flatten().collect();
     save(&path, size_of(4, PANEL), &figures.heading("Control inputs: means"), &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
+}
+
+/// Writes the means of U1 to U4 beside their figure: truth.csv has one side of the switching alone.
+///
+/// # Errors
+/// When the file cannot be written; the message names it.
+pub(super) fn table(folder: &Path, figures: &Figures, inputs: &Inputs) -> Result<()> {
+    let disturbance = figures.disturbance.as_ref();
+    let [thrust, torques @ ..] = [0, 1, 2, 3].map(|input| inputs.mean(figures.rows, input, disturbance));
+    let mut text = "t_s,U1_mean_n,U2_mean_n_m,U3_mean_n_m,U4_mean_n_m\n".to_owned();
+    // A torque is the mean around a row: the first has none.
+    for (k, (t, u1)) in thrust.iter().enumerate().skip(1) {
+        let [u2, u3, u4] = torques.each_ref().map(|torque| torque[k - 1].1);
+        let _ = writeln!(text, "{t},{u1},{u2},{u3},{u4}");
+    }
+    write_file(&folder.join("inputs.csv"), text)
 }
 
 #[cfg(test)]

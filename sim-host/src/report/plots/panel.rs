@@ -193,7 +193,7 @@ impl Panel {
         for (value, label) in rising {
             let (_, y) = scales.place((scales.across.0, value));
             chart.line([(0.0, y), (chart.width, y)], grid);
-            chart.text((-7.0, y), &label, Font::new(12.0, Anchor::End));
+            chart.text((-5.0, y), &label, Font::new(12.0, Anchor::End));
         }
         chart.line([(0.0, 0.0), (0.0, chart.height), (chart.width, chart.height)], ink);
         chart.text((0.5 * chart.width, chart.height + 31.0), &across, Font::new(12.0, Anchor::Middle));

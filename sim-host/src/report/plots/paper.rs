@@ -159,11 +159,12 @@ fn helix(folder: &Path, flown: &Flown) -> Result<PathBuf> {
 
 /// What Table 1 does where the vehicle has to tilt to move, beside gains that fly.
 fn coupled(folder: &Path, flights: &Flights) -> Result<PathBuf> {
-    let Flights { ideal, literal, literal_slow, helix, .. } = flights;
-    let compared: [(&str, &Flown, Color); 4] = [
+    let Flights { ideal, literal, literal_slow, literal_wide, helix, .. } = flights;
+    let compared: [(&str, &Flown, Color); 5] = [
         ("decoupled", ideal, palette::GREEN),
         ("coupled", literal, INK),
-        ("slow gains, wide layer", literal_slow, palette::PURPLE),
+        ("three wide layers", literal_slow, palette::PURPLE),
+        ("six wide layers", literal_wide, palette::VERMILION),
         ("own gains", helix, palette::SKY),
     ];
     let within = ideal.rows.len();
