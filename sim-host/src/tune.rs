@@ -72,9 +72,10 @@ impl Tune {
     pub fn load(name: &str) -> Result<Self> {
         let context = || format!("tune `{name}`");
         let file: TuneFile = files::read(name, "tune", &TUNES)?;
-        let base = files::read(&file.base, "tuning", &TUNINGS).with_context(context)?;
-        let space = Space::new(&file.base, base, file.parameters).with_context(context)?;
-        let course = Course::load(&file.course).with_context(context)?;
+        let (base_name, course) = (files::beside(name, &file.base), files::beside(name, &file.course));
+        let base = files::read(&base_name, "tuning", &TUNINGS).with_context(context)?;
+        let space = Space::new(&base_name, base, file.parameters).with_context(context)?;
+        let course = Course::load(&course).with_context(context)?;
         course.require_flyable(&space.base_controller()?).with_context(context)?;
         require_ends(&space, &course).with_context(context)?;
         Ok(Self { name: name.to_owned(), space, course })

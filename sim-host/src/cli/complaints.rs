@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::process::ExitCode;
 
 use clap::CommandFactory as _;
-use clap::error::{ContextKind, ContextValue};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use super::{Cli, names};
 use crate::refusal::did_you_mean;
@@ -46,6 +46,10 @@ fn misplaced_name(error: &clap::Error) -> Option<String> {
 
 /// What an argument that there is not may have meant: a key of a scenario, or the rest of a setting.
 fn misplaced_setting(error: &clap::Error) -> Option<String> {
+    // A value out of its range has the name of its argument here too.
+    if error.kind() != ErrorKind::UnknownArgument {
+        return None;
+    }
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
     let given = |name: &str| std::env::args().any(|argument| argument == name);
     let of_paper = std::env::args().nth(1).is_some_and(|command| command == "paper");

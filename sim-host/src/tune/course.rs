@@ -197,7 +197,8 @@ impl Course {
     /// One line with the file, the key and the error: a scenario or a disturbance that the matrix does not have, or a
     /// seed that it judges with.
     pub fn load(name: &str) -> Result<Self> {
-        let file: CourseFile = files::read(name, "course", &COURSES)?;
+        let mut file: CourseFile = files::read(name, "course", &COURSES)?;
+        file.matrix = files::beside(name, &file.matrix);
         let context = || format!("course `{name}`");
         file.cost.validate().with_context(context)?;
         let sorties = file.sorties().with_context(context)?;

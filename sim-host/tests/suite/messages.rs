@@ -59,8 +59,12 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("helix", "control.w.lambda=3", &["`control.w` is no key", "roll, pitch, yaw, x, y, z"]),
         ("helix", "contrl.x.lambda=3", &["`contrl` is no key", "did you mean `control`?"]),
         ("helix", "control=3", &["`control` must be a table, not 3"]),
+        ("outdoor-tour", "home=[47.0,8.0]", &["`home` must be a table, not an array"]),
+        ("outdoor-tour", "wind=[[1.0,2.0,3.0],3.0,4.0,5.0]", &["`wind` must be a table, not an array"]),
+        ("x500-helix", "truth.actuation_delay_s=0.005", &["`truth.actuation_delay_s`", "is never told of it"]),
         ("helix", "control.x.reaching={power={alpha=2}}", &["`control.x.reaching.power.alpha` must be below 1, not 2"]),
         ("helix", "control.z.reaching=tanh", &["`control.z.reaching` must be a table", "write {tanh={rho=…}}"]),
+        ("helix", "control.z.reaching={sat=0.5}", &["`control.z.reaching.sat` must be a table, not 0.5", "{rho=…}"]),
         ("helix", "control.z.K=1", &["`control.z.K` is no key: the paper's K is `gain`"]),
         (
             "helix",
