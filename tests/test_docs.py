@@ -100,6 +100,20 @@ def test_a_link_that_leads_nowhere_is_found(tmp_path):
     ]
 
 
+def test_what_the_table_of_equations_names_is_there():
+    section = (DOCS / "paper.md").read_text().split("## Where each equation is\n")[1].split("\n## ")[0]
+    named, file = 0, None
+    for name in re.findall(r"`([^`]+)`", section):
+        if name == "paper-decoupled":
+            continue
+        if "/" in name:
+            file = (ROOT / name).read_text()
+        else:
+            assert re.search(rf"\b(fn|struct|enum) {name}\b", file), f"docs/paper.md: {name}"
+            named += 1
+    assert named > 10
+
+
 def test_the_book_holds_every_page_and_its_links_lead_somewhere():
     assert MDBOOK, "mdbook is not installed: pip install -r tests/requirements.txt"
     listed = set(links((DOCS / "SUMMARY.md").read_text()))
