@@ -97,7 +97,7 @@ def measured_table(study, overall, on_sensors):
              " / ".join(others), "`compare x500`"],
             ["hover on GNSS in 5 m/s of wind, 100 seeds: 95 % within", f"{p95('outdoor-hover', 'horizontal-error-p95-m')} m "
              f"horizontally, {p95('outdoor-hover', 'height-error-max-m')} m in height", "`assess outdoor-hover`"],
-            ["a rotor lost at 20 m, 100 seeds: 95 % touch down with at most", f"{p95('lost-rotor', 'touchdown-m-s')} m/s",
+            ["a rotor lost at 20 m, thrust 3 times the weight, 100 seeds: 95 % touch down with at most", f"{p95('lost-rotor', 'touchdown-m-s')} m/s",
              "`assess lost-rotor`"],
         ],
     )

@@ -165,7 +165,7 @@ fn is_file_name(name: &str) -> bool {
 fn unknown(name: &str, kind: &str, built_in: &[(&str, &str)]) -> Error {
     let known: Vec<&str> = built_in.iter().map(|(name, _)| *name).collect();
     match nearest(name, known.iter().copied()) {
-        Some(near) => anyhow!("unknown {kind} `{name}`: did you mean `{near}`?"),
+        Some(near) => anyhow!("unknown {kind} `{name}`: did you mean `{near}`? A file is given by its path"),
         None if known.len() > 8 => {
             anyhow!("unknown {kind} `{name}`: `sim-host scenarios` lists them; or give a file's path")
         }

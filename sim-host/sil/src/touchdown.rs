@@ -11,6 +11,8 @@ const AIRBORNE_M: f64 = 0.5;
 /// The fastest touchdown that a vehicle survives, m/s: a fall from 0.8 m. The model of the ground is tested up to 3 m/s;
 /// landings sink at 0.4 m/s, and descents without a height at 1 to 3 m/s.
 pub const HARDEST_M_S: f64 = 4.0;
+/// A touchdown so soon after another is a bounce of it, s.
+const BOUNCE_S: f64 = 3.0;
 /// Cosine of the greatest tilt on the ground, 60°: beyond it, rotors touch before feet do.
 pub const UPRIGHT: f64 = 0.5;
 
@@ -41,7 +43,8 @@ impl Touchdown {
         self.first
     }
 
-    /// The last touchdown, if there was one: the first one, unless it has flown again.
+    /// The last touchdown, if there was one: the first one, unless it has flown again. Bounces are one touchdown, as hard as
+    /// the hardest.
     pub fn last(&self) -> Option<Contact> {
         self.last
     }
@@ -75,10 +78,23 @@ impl Touchdown {
                 from_start_m: away,
             };
             self.first.get_or_insert(contact);
-            (self.last, self.airborne) = (Some(contact), false);
+            (self.last, self.airborne) = (Some(contact.after(self.last.as_ref())), false);
         }
         if self.crash.is_none() {
             self.crash = crash(row, before);
+        }
+    }
+}
+
+impl Contact {
+    /// The same, if it is a bounce of the one before: where it came to, and as hard as the harder of both.
+    #[must_use]
+    pub fn after(self, before: Option<&Self>) -> Self {
+        match before {
+            Some(before) if self.t_s - before.t_s < BOUNCE_S && before.descent_m_s > self.descent_m_s => {
+                Self { position_m: self.position_m, from_start_m: self.from_start_m, ..*before }
+            }
+            _ => self,
         }
     }
 }
@@ -195,5 +211,23 @@ mod tests {
         assert_eq!(falls(13.0, level), Some(Crash { t_s: 2.0, descent_m_s: 13.0, tilt_rad: 0.0 }));
         let on_its_back = falls(0.5, [0.0, 1.0, 0.0, 0.0]).expect("its rotors touch first");
         assert!((on_its_back.tilt_rad - core::f64::consts::PI).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_bounce_is_the_same_touchdown_and_as_hard_as_the_harder() {
+        let contact = |t_s: f64, descent_m_s: f64, x: f64| Contact {
+            t_s,
+            descent_m_s,
+            drift_m_s: 0.0,
+            position_m: [x, 0.0, 0.0],
+            from_start_m: x,
+        };
+        let hard = contact(33.5, 3.5, 1.0);
+        let bounce = contact(34.3, 1.1, 2.0);
+        assert_eq!(bounce.after(Some(&hard)), Contact { position_m: [2.0, 0.0, 0.0], from_start_m: 2.0, ..hard });
+        assert_eq!(hard.after(Some(&contact(33.0, 1.0, 0.0))), hard, "the second was harder");
+        let later = contact(60.0, 0.4, 5.0);
+        assert_eq!(later.after(Some(&hard)), later, "another flight's");
+        assert_eq!(hard.after(None), hard);
     }
 }

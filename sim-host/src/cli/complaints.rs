@@ -52,13 +52,17 @@ fn misplaced_setting(error: &clap::Error) -> Option<String> {
     }
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
     let given = |name: &str| std::env::args().any(|argument| argument == name);
-    let of_paper = std::env::args().nth(1).is_some_and(|command| command == "paper");
+    let of = |name: &str| std::env::args().nth(1).is_some_and(|command| command == name);
+    let (of_paper, is_serve) = (of("paper"), of("serve"));
     let remedy = match word.as_str() {
         "--set" | "--seed" if of_paper => {
             "`paper` flies the paper's own numbers; fly others as `sim-host run paper-ideal --set KEY=VALUE --out DIR`"
         }
         "--duration" => "set the scenario's: --set duration_s=5",
         "-o" | "--output" => "use --out DIR",
+        "--out" if is_serve => {
+            "a flight by hand is not recorded; `run` records those of a scenario with `[[command]]`s"
+        }
         flag if flag.starts_with("--") => "keys of a scenario are set by --set KEY=VALUE",
         word if word.contains('=') && !given("--set") => "put --set before it",
         word if !word.starts_with('-') && given("--set") => {

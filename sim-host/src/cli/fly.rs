@@ -84,7 +84,7 @@ fn take<W: Write>(
 ) -> Result<Taken> {
     let bar = Progress::new(scenario.file.duration_s, visible);
     let course = TimelineRecorder::new(&scenario.file.command, scenario.joined_s());
-    let mut recorder = (((Metrics::new(), truth), (bar, rows)), (sensed, course));
+    let mut recorder = (((Metrics::new().over(flight::ground(scenario)), truth), (bar, rows)), (sensed, course));
     let start = Instant::now();
     let outcome = flight::fly(scenario, seed, &mut recorder)?;
     let flown = Flown { outcome, wall_s: start.elapsed().as_secs_f64() };

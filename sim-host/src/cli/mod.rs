@@ -233,13 +233,13 @@ struct CompareArgs {
     #[arg(default_value = "x500")]
     matrix: String,
     /// Tunings to compare, by name or path, in place of the matrix' own; the others are compared with the first.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = trimmed)]
     controllers: Option<Vec<String>>,
     /// Only these of the matrix' scenarios.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = trimmed)]
     scenarios: Option<Vec<String>>,
     /// Only these of the matrix' disturbances.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = trimmed)]
     disturbances: Option<Vec<String>>,
     /// Seeds to fly, first and last, in place of the matrix' own.
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
@@ -375,6 +375,11 @@ fn note_idle_seeds(scenario: &Scenario, given: bool) {
     if given && !scenario.file.is_random() {
         complain(&format!("note: the seed makes no difference: `{}` has no random part", scenario.name));
     }
+}
+
+/// A name of a list, whatever blanks stand around it.
+fn trimmed(name: &str) -> Result<String, std::convert::Infallible> {
+    Ok(name.trim().to_owned())
 }
 
 /// A scenario; what of it comes after its end is told, and flown without.

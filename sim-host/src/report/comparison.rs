@@ -194,7 +194,13 @@ fn lost_cells(comparison: &Comparison) -> Vec<String> {
     let (name, cells) = (&first.controller, comparison.cells.len());
     let against = |other: &Overall| {
         let Overall { controller, better_cells, worse_cells, .. } = other;
-        format!("{name} against {controller}: less RMS in {worse_cells} of {cells} cells, more in {better_cells}")
+        let equal = match cells - worse_cells - better_cells {
+            0 => String::new(),
+            equal => format!(", equal in {equal}"),
+        };
+        format!(
+            "{name} against {controller}: less RMS in {worse_cells} of {cells} cells, more in {better_cells}{equal}"
+        )
     };
     let mut text: Vec<String> = others.iter().map(against).collect();
     text.extend(comparison.lost.iter().map(lost_cell));

@@ -4,11 +4,13 @@
 //! Errors are `e = reference − truth` (m; yaw in rad, the short way round), against the paper's own trajectory.
 //! Every figure is an `Option`: `None` where it is not defined (no rows after 4 s, say) or not finite.
 
+use nalgebra::Quaternion;
 use serde::Serialize;
 
 pub use super::measures::Settling;
 use super::measures::{Recent, Size, Variation, finite};
 use crate::angles::{roll_pitch_yaw, wrap, yaw};
+use crate::plant::ground::Ground;
 use crate::record::{Recorder, Row};
 
 /// RMS and maximum error are taken from here on, s: what comes before is the approach.
@@ -211,6 +213,8 @@ pub struct Metrics {
     jumped_s: Option<f64>,
     /// Whether it was away from its reference in the first row.
     began_away: bool,
+    /// Where a foot touches it, errors of the attitude are not those of control.
+    ground: Option<Ground>,
 }
 
 impl Metrics {
@@ -229,7 +233,20 @@ impl Metrics {
             reference: None,
             jumped_s: None,
             began_away: false,
+            ground: None,
         }
+    }
+
+    /// The same over a ground: errors of the attitude count while no foot touches it.
+    #[must_use]
+    pub fn over(self, ground: Option<Ground>) -> Self {
+        Self { ground, ..self }
+    }
+
+    fn is_on_ground(&self, row: &Row) -> bool {
+        let [w, x, y, z] = row.attitude;
+        let attitude = Quaternion::new(w, x, y, z);
+        self.ground.as_ref().is_some_and(|ground| ground.touches(&row.position.into(), &attitude))
     }
 
     /// When the reference last jumped by [`WIDE_BAND`] or more from a row to the next, s. Overshoot counts from there.
@@ -352,8 +369,10 @@ impl Recorder for Metrics {
         for (settling, error) in self.angles.iter_mut().zip(angles) {
             settling.take(row.t, error);
         }
-        for (axis, error) in self.tilt.iter_mut().zip(angles) {
-            axis.take(row.t, error);
+        if !self.is_on_ground(row) {
+            for (axis, error) in self.tilt.iter_mut().zip(angles) {
+                axis.take(row.t, error);
+            }
         }
         if !row.reference_is_held {
             self.take_errors(row, &angles);

@@ -11,7 +11,7 @@ use crate::pilot::{Command, Order};
 use crate::record::{Activity, Recorder, Row};
 use crate::scenario::ScheduledPush;
 use crate::sensors::Fault;
-use crate::sensors::faults::Kind;
+use crate::sensors::faults::{Kind, Sensor};
 
 /// A stretch of a flight in which the vehicle did one thing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -374,6 +374,7 @@ fn push_name(push: &ScheduledPush) -> String {
 pub fn fault_name(fault: &Fault) -> String {
     let (sensor, unit) = fault.sensor.map_or(("", ""), |sensor| (sensor.name(), sensor.unit()));
     match fault.kind {
+        Kind::Off {} if fault.sensor == Some(Sensor::Battery) => "battery monitor off".to_owned(),
         Kind::Off {} => format!("{sensor} off"),
         Kind::Stuck {} => format!("{sensor} stuck"),
         Kind::Drift { rate, .. } => format!("{sensor} drifts by {rate} {unit} a second"),

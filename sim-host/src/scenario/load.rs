@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Error, Result, anyhow, bail};
 use toml::{Table, Value};
 
-use super::settings::{Setting, file_names, get};
+use super::settings::{Setting, file_names, get, get_mut};
 use super::{AIRFRAMES, SCENARIOS, Scenario, ScenarioFile, TUNINGS, default_airframe, trajectory};
 use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
@@ -56,9 +56,23 @@ impl Layer {
             return Ok(());
         }
         self.clear_for_part(key);
+        self.clear_for_kind(key);
         setting.apply(&mut self.table, key)?;
         self.set.push(key.to_owned());
         Ok(())
+    }
+
+    /// Another kind of trajectory, or of reaching law, replaces the file's.
+    fn clear_for_kind(&mut self, key: &str) {
+        let Self { table, set, .. } = self;
+        for (choice, kind) in choices(key) {
+            let is_set = |other: &str| set.iter().any(|key| is_within(key, &format!("{choice}.{other}")));
+            match get_mut(table, choice) {
+                Some(Value::Table(kinds)) => kinds.retain(|other, _| other == kind || is_set(other)),
+                Some(name @ Value::String(_)) => *name = Value::Table(Table::new()),
+                _ => {}
+            }
+        }
     }
 
     /// Another part replaces the sensor: the file's values were for the part before it. What was set stays.
@@ -101,6 +115,16 @@ impl Layer {
             Err(error) => error,
         })
     }
+}
+
+/// The keys above this one that are a choice of one kind, with the kind: `control.x.reaching` and `sat`.
+fn choices(key: &str) -> impl Iterator<Item = (&str, &str)> {
+    let ends = key.match_indices('.').map(|(dot, _)| dot);
+    ends.filter_map(move |dot| {
+        let (choice, rest) = (&key[..dot], &key[dot + 1..]);
+        let is_choice = choice == "trajectory" || choice.ends_with(".reaching");
+        is_choice.then(|| (choice, rest.split('.').next().unwrap_or(rest)))
+    })
 }
 
 /// Whether a dotted key is another, or below it.

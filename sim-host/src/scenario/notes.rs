@@ -1,7 +1,7 @@
 //! What can be flown and yet does not go together: told, not refused.
 
 use super::settings::Setting;
-use super::{AIRFRAMES, Scenario, TUNINGS};
+use super::{AIRFRAMES, SCENARIOS, Scenario, TUNINGS};
 
 /// What else than a trajectory a joining path was planned from.
 const PLANNED_FROM: [&str; 4] = ["trajectory", "start_position_m", "start_velocity_m_s", "thrust_to_weight"];
@@ -23,13 +23,32 @@ impl Scenario {
             _ => None,
         };
         let moved = keys.iter().find(|key| PLANNED_FROM.contains(&key.split('.').next().unwrap_or(key)));
-        let join = moved.filter(|_| self.file.join.is_some() && !keys.iter().any(|key| key.starts_with("join")));
+        let is_planned = self.file.join.as_ref().is_some_and(|join| !join.middle_m.is_empty());
+        let join = moved.filter(|_| is_planned && !keys.iter().any(|key| key.starts_with("join")));
         let join = join.map(|key| {
             format!(
                 "`join` was planned without `{key}`: plan another (`sim-host plan`), or --set join=false to fly without"
             )
         });
-        gains.into_iter().chain(join).collect()
+        gains.into_iter().chain(join).chain(self.copied_path()).collect()
+    }
+
+    /// Says of a joining path that was copied with a built-in scenario, and whose trajectory was not.
+    fn copied_path(&self) -> Option<String> {
+        let is_built_in = SCENARIOS.iter().any(|(name, _)| *name == self.name);
+        self.file.join.as_ref().filter(|join| !is_built_in && !join.middle_m.is_empty())?;
+        let origins: Vec<Self> = SCENARIOS
+            .iter()
+            .filter_map(|(name, _)| Self::load(name, &[]).ok())
+            .filter(|built_in| built_in.file.join == self.file.join)
+            .collect();
+        let is_same = |origin: &Self| origin.file.trajectory == self.file.trajectory;
+        let origin = origins.first().filter(|_| !origins.iter().any(is_same))?;
+        let bound = if self.file.time_optimal_s.is_some() { " (and `time_optimal_s`)" } else { "" };
+        Some(format!(
+            "`join`{bound} is that of `{}`, which has another trajectory: leave it out, or plan another",
+            origin.name
+        ))
     }
 }
 
@@ -73,5 +92,25 @@ mod tests {
             let found = told(name, settings);
             assert!(if expected.is_empty() { found.is_empty() } else { found.contains(expected) }, "{name}: {found}");
         }
+    }
+
+    #[test]
+    fn a_path_copied_to_another_trajectory_is_told() {
+        let (_, helix) = SCENARIOS.iter().find(|(name, _)| *name == "helix").expect("there is one");
+        let told = |text: &str, name: &str| {
+            let path = std::env::temp_dir().join(format!("glissade-notes-{}-{name}.toml", std::process::id()));
+            std::fs::write(&path, text).expect("written");
+            let told = Scenario::load(path.to_str().expect("a plain path"), &[]).expect("valid").mismatches(&[]);
+            std::fs::remove_file(&path).expect("it is there");
+            told.join("; ")
+        };
+        assert_eq!(told(helix, "same"), "");
+        let other = helix.replace("amplitude_m = [4.0, 5.0]", "amplitude_m = [2.0, 2.0]");
+        assert_ne!(&other, helix);
+        assert!(
+            told(&other, "other").starts_with("`join` (and `time_optimal_s`) is that of `helix`"),
+            "{}",
+            told(&other, "other")
+        );
     }
 }

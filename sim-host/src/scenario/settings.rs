@@ -101,6 +101,16 @@ pub(super) fn get<'a>(table: &'a Table, key: &str) -> Option<&'a Value> {
     })
 }
 
+/// The same, to be changed.
+pub(super) fn get_mut<'a>(table: &'a mut Table, key: &str) -> Option<&'a mut Value> {
+    let mut parts = key.split('.');
+    let first = table.get_mut(parts.next()?)?;
+    parts.try_fold(first, |place, part| match place {
+        Value::Array(values) => values.get_mut(part.parse::<usize>().ok()?),
+        other => other.get_mut(part),
+    })
+}
+
 /// A value as TOML has it; what is none, or more than one, is a string.
 pub(crate) fn value(text: &str) -> Value {
     let table = format!("value = {text}").parse::<Table>().ok().filter(|table| table.len() == 1);

@@ -134,3 +134,18 @@ fn every_controller_is_known_by_its_name() {
         assert!(Controller::NAMES.contains(&controller.name()) && name.ends_with(controller.name()), "{name}");
     }
 }
+
+#[test]
+fn a_setting_of_another_kind_takes_the_place_of_the_files() {
+    let eight = "trajectory.figure-eight={center_m=[0,0,2],amplitude_m=[4,2],rate_rad_s=1,yaw_rad=0}";
+    let loaded = Scenario::load("paper-ideal", &[eight.into(), "control.z.reaching.tanh.rho=5".into()]).expect("valid");
+    assert!(matches!(loaded.file.trajectory, firmware::guidance::Trajectory::FigureEight { .. }));
+    let Controller::Smc(control) = &loaded.controller else { panic!("sliding mode") };
+    assert_eq!(control.z.reaching, firmware::control::sliding::ReachingLaw::Tanh { rho: 5.0 });
+    // Both by the command line are one too many.
+    let both = [eight.to_owned(), "trajectory.hold.yaw_rad=0".to_owned()];
+    assert!(Scenario::load("paper-ideal", &both).is_err_and(|error| format!("{error:#}").contains("given twice")));
+    let tuned = Scenario::load("x500-step", &["control.x.reaching.sat.rho=1".into()]).expect("valid");
+    let Controller::Smc(control) = &tuned.controller else { panic!("sliding mode") };
+    assert_eq!(control.x.reaching, firmware::control::sliding::ReachingLaw::Sat { rho: 1.0 });
+}

@@ -92,8 +92,10 @@ pub(super) fn explain_missing(error: anyhow::Error) -> anyhow::Error {
     match error.downcast::<Refusal>() {
         Ok(refusal) if refusal.is_missing() && refusal.key() == "trajectory" => {
             let [kind, others @ ..] = KINDS;
-            let remedy =
-                format!("add a table `[trajectory.{kind}]` with `position_m`, or one of {}", others.join(", "));
+            let remedy = format!(
+                "add a table `[trajectory.{kind}]` with `position_m` and `yaw_rad`, or one of {}",
+                others.join(", ")
+            );
             refusal.remedy(remedy).into()
         }
         Ok(refusal) => refusal.into(),

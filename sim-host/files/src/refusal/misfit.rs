@@ -139,7 +139,10 @@ fn refusal(path: &str, reason: &Reason) -> Refusal {
         Reason::NoTable(given, keys) => no_table(path, given.clone(), &form(keys)),
         Reason::Kind { expected, given } => {
             let refusal = Refusal::new(path, format!("must be {expected}"));
-            given.iter().fold(refusal, Refusal::given)
+            let refusal = given.iter().fold(refusal, Refusal::given);
+            // `[push]` of what there may be several of.
+            let is_single = expected == "an array" && given.as_deref() == Some("a table");
+            if is_single { refusal.remedy(format!("write it as `[[{path}]]`, one for each")) } else { refusal }
         }
         Reason::Length { expected, count } => match expected.strip_prefix(ARRAY) {
             Some(right) => Refusal::new(path, format!("must have {}", values(right))).given(count),

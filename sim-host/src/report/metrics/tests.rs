@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use super::*;
+use crate::plant::ground::Ground;
 
 const TICK: f64 = 0.001;
 
@@ -179,4 +180,22 @@ fn no_rows_no_figures() {
     assert_eq!(metrics.axes(), Axes::default());
     assert_eq!(metrics.chattering(), None);
     assert_eq!(fly(TICK, hover).chattering(), None, "one row has no variation a second");
+}
+
+#[test]
+fn errors_of_the_attitude_count_while_no_foot_is_on_the_ground() {
+    let ground = Ground::for_vehicle(0.0, 2.0, 9.81, 0.04);
+    let mut metrics = Metrics::new().over(Some(ground));
+    for tick in 4_000..4_100_u32 {
+        // In the air level and 0.1 rad off; on the ground tilted by 0.5 rad, and 0.8 rad off.
+        let (height, half_tilt, off) = if tick < 4_050 { (5.0, 0.0, 0.1) } else { (0.0, 0.25, 1.3) };
+        metrics.record(&Row {
+            position: [0.0, 0.0, height],
+            attitude: [libm::cos(half_tilt), libm::sin(half_tilt), 0.0, 0.0],
+            desired_attitude: [off, 0.0, 0.0],
+            ..hover(f64::from(tick) * TICK)
+        });
+    }
+    let most = metrics.tilt().roll_max_rad.expect("it has flown");
+    assert!((most - 0.1).abs() < 1e-12, "{most}");
 }

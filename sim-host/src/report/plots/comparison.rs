@@ -40,7 +40,8 @@ fn errors(comparison: &Comparison, path: &Path) -> Result<()> {
     let keys: Vec<Key> =
         comparison.controllers.iter().enumerate().map(|(i, name)| Key::Series(name, color(i))).collect();
     let size = (CHART.0 * columns.max(1) as u32, 44 + CHART.1 * rows as u32);
-    let heading = "RMS distance from the trajectory\nmedian, 95 % interval (a cross: lost)";
+    let heading =
+        "RMS distance from the trajectory\nmedian, 95 % interval (a cross: lost); what is beyond lies on the edge";
     save(path, size, heading, &keys, |area| {
         for (i, scenario) in scenarios.iter().enumerate() {
             let (left, top) = (f64::from(CHART.0) * (i % 2) as f64, f64::from(CHART.1) * (i / 2) as f64);

@@ -242,7 +242,11 @@ fn ticks(quantity: &Quantity, range: (f64, f64), most: f64, logarithm: bool) -> 
         return (name, axis::decades(range).into_iter().map(|v| (v, axis::decade(v))).collect());
     }
     let shown = (factor * range.0, factor * range.1);
-    let step = quantity.step(shown.1 - shown.0, most);
+    let step = |most: f64| quantity.step(shown.1 - shown.0, most);
+    // One tick alone tells no scale.
+    let tells = |step: &f64| axis::ticks(shown, *step).len() > 1;
+    let finer = [1.0, 1.5, 2.0, 3.0].map(|times| step(times * most));
+    let step = finer.into_iter().find(tells).unwrap_or(finer[0]);
     (name, axis::ticks(shown, step).into_iter().map(|v| (v / factor, axis::label(v, step))).collect())
 }
 
@@ -270,6 +274,14 @@ mod tests {
         let (across, up) = equalised((0.0, 8.0), (-5.0, 5.0), (400.0, 300.0));
         assert!(((across.1 - across.0) / 400.0 - (up.1 - up.0) / 300.0).abs() < 1e-15);
         assert!(across.0 <= 0.0 && across.1 >= 8.0 && up.0 <= -5.0 && up.1 >= 5.0);
+    }
+
+    #[test]
+    fn an_axis_has_two_ticks_at_least() {
+        for (range, most) in [((-4.0, 4.9), 2.0), ((-0.4, 0.9), 1.0), ((3.1, 3.9), 2.0)] {
+            let (_, ticks) = ticks(&Quantity::new("speed", Unit::MetrePerSecond), range, most, false);
+            assert!(ticks.len() > 1, "{range:?}: {ticks:?}");
+        }
     }
 
     #[test]
