@@ -143,11 +143,10 @@ impl Decoupled {
     fn row(&self) -> Row {
         let Demands { force, torque, s } = self.demands;
         let t = self.time();
-        let mut reference = reference::at(&self.trajectory, t);
-        if self.wave.is_some() {
-            let [_, _, yaw] = self.attitude_reference(t);
-            reference[3] = yaw;
-        }
+        // The angles follow `[attitude]`, or stay level: the trajectory's yaw is nobody's.
+        let [x, y, z, _] = reference::at(&self.trajectory, t);
+        let [_, _, yaw] = self.attitude_reference(t);
+        let reference = [x, y, z, yaw];
         let thrust = force.z * self.constants.mass;
         Row {
             reference,

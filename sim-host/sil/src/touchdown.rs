@@ -88,13 +88,20 @@ impl Touchdown {
 
 impl Contact {
     /// The same, if it is a bounce of the one before: where it came to, and as hard as the harder of both.
-    #[must_use]
-    pub fn after(self, before: Option<&Self>) -> Self {
+    fn after(self, before: Option<&Self>) -> Self {
         match before {
-            Some(before) if self.t_s - before.t_s < BOUNCE_S && before.descent_m_s > self.descent_m_s => {
-                Self { position_m: self.position_m, from_start_m: self.from_start_m, ..*before }
-            }
+            Some(before) if self.t_s - before.t_s < BOUNCE_S => self.and(before),
             _ => self,
+        }
+    }
+
+    /// Two touches of one landing: where the vehicle came to, and as hard as the harder.
+    #[must_use]
+    pub fn and(self, before: &Self) -> Self {
+        if before.descent_m_s > self.descent_m_s {
+            Self { position_m: self.position_m, from_start_m: self.from_start_m, ..*before }
+        } else {
+            self
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::plant::ground::Ground;
 use crate::record::{Navigation, Recorder, Row};
 use crate::statistics::MeanSquare;
 use crate::touchdown::Touchdown;
-use crate::touchdown::{HARDEST_M_S, UPRIGHT};
+use crate::touchdown::UPRIGHT;
 
 /// A measure of a flight, over the judged time unless stated otherwise. Errors are true minus wanted values unless stated otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -51,7 +51,7 @@ pub enum Measure {
     MissMaxM,
     /// Fraction of the time in the air.
     FlownPart,
-    /// 1 if the vehicle was not lost, no motor command was NaN, every touchdown was slower than 4 m/s, and it ended within 60° of upright; otherwise 0.
+    /// 1 if the vehicle flew and was not lost, no motor command was NaN, every touchdown was slower than 4 m/s and within 60° of upright, and it ended so; otherwise 0.
     Survived,
 }
 
@@ -255,7 +255,8 @@ impl Assessor {
         let mut horizontal = self.horizontal;
         horizontal.sort_by(f64::total_cmp);
         let contact = self.touchdown.as_ref().and_then(Touchdown::first);
-        let whole = self.upright > UPRIGHT && contact.is_none_or(|contact| contact.descent_m_s < HARDEST_M_S);
+        let whole = self.touchdown.as_ref().is_none_or(|seen| seen.has_flown() && seen.crash().is_none());
+        let whole = whole && self.upright > UPRIGHT;
         let miss = self.places.iter().map(|(_, least)| *least).reduce(f64::max);
         let [tilt, heading, attitude, position] = self.known.map(MeanSquare::root);
         let [x, y, z] = self.axes.map(MeanSquare::root);

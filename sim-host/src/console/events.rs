@@ -101,8 +101,8 @@ impl Watch {
         let t_s = f64::from(flight.next_tick()) * TICK_S_EXACT;
         touchdown.record(&Row::of_motion(t_s, &motion));
         if let Some(contact) = touchdown.first() {
-            let before = self.contact.as_ref().map(|(before, _)| before);
-            self.contact = Some((contact.after(before), motion.position));
+            let contact = self.contact.as_ref().map_or(contact, |(before, _)| contact.and(before));
+            self.contact = Some((contact, motion.position));
             self.touchdown = self::touchdown(flight);
         }
     }

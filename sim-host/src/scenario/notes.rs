@@ -1,7 +1,8 @@
 //! What can be flown and yet does not go together: told, not refused.
 
 use super::settings::Setting;
-use super::{AIRFRAMES, SCENARIOS, Scenario, TUNINGS};
+use super::{AIRFRAMES, PlantKind, SCENARIOS, Scenario, TUNINGS};
+use crate::reference;
 
 /// What else than a trajectory a joining path was planned from.
 const PLANNED_FROM: [&str; 4] = ["trajectory", "start_position_m", "start_velocity_m_s", "thrust_to_weight"];
@@ -30,7 +31,25 @@ impl Scenario {
                 "`join` was planned without `{key}`: plan another (`sim-host plan`), or --set join=false to fly without"
             )
         });
-        gains.into_iter().chain(join).chain(self.copied_path()).collect()
+        let all = gains.into_iter().chain(join).chain(self.copied_path()).chain(self.unturned());
+        all.chain(keys.iter().filter_map(|key| self.idle_on_decoupled(key))).collect()
+    }
+
+    /// Says of a heading that the plant `paper-decoupled` does not fly.
+    fn unturned(&self) -> Option<String> {
+        let level = self.file.plant == PlantKind::PaperDecoupled && self.file.attitude.is_none();
+        let mut times = (0..=50).map(|i| f64::from(i) / 50.0 * self.file.duration_s);
+        let turns = level && times.any(|t| reference::at(&self.file.trajectory, t)[3] != 0.0);
+        turns.then(|| {
+            "the plant `paper-decoupled` turns by `[attitude]` alone: the trajectory's yaw is not flown".to_owned()
+        })
+    }
+
+    /// Says of a gain that the plant `paper-decoupled` has no use for.
+    fn idle_on_decoupled(&self, key: &str) -> Option<String> {
+        let unused = ["control.tilt_max_rad", "control.rotor_time_constant_s", "control.effectiveness_rate"];
+        let is_idle = self.file.plant == PlantKind::PaperDecoupled && unused.contains(&key);
+        is_idle.then(|| format!("`{key}` does nothing on the plant `paper-decoupled`, whose inputs are direct"))
     }
 
     /// Says of a joining path that was copied with a built-in scenario, and whose trajectory was not.
@@ -88,6 +107,9 @@ mod tests {
             ),
             ("helix", &["trajectory.helix.amplitude_m=[2,2]", "join=false"], ""),
             ("helix", &["control.x.gain=8"], ""),
+            ("paper-ideal", &["trajectory.helix.yaw_rad=0.5"], "the trajectory's yaw is not flown"),
+            ("paper-ideal", &["control.tilt_max_rad=0.5"], "`control.tilt_max_rad` does nothing"),
+            ("paper-literal", &["control.tilt_max_rad=0.5", "trajectory.helix.yaw_rad=0.5"], ""),
         ] {
             let found = told(name, settings);
             assert!(if expected.is_empty() { found.is_empty() } else { found.contains(expected) }, "{name}: {found}");

@@ -406,3 +406,15 @@ fn a_comparison_of_what_is_not_there_is_refused() {
         folder.refuses(&["compare", "spoilt.toml"], &[culprit]);
     }
 }
+
+#[test]
+fn a_vehicle_too_heavy_to_fly_has_not_survived() {
+    let settings = ["truth.mass_factor=2.2", "duration_s=20", "assess.from_s=5", "assess.to_s=15"];
+    let settings = settings.iter().flat_map(|setting| ["--set", setting]);
+    let arguments: Vec<&str> =
+        ["assess", "outdoor-hover", "--seeds", "1..1", "--json"].into_iter().chain(settings).collect();
+    let reports = Folder::new("too-heavy").json(&arguments);
+    let rows = reports[0]["rows"].as_array().expect("an array");
+    let survived = rows.iter().find(|row| row["measure"] == "survived").expect("a row");
+    assert_eq!(survived["max"], 0.0);
+}

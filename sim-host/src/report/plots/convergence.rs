@@ -10,7 +10,7 @@ use super::series::Points;
 use super::style::{Key, Role};
 use crate::tune::Iteration;
 
-/// Best and mean cost over the iterations, beside the cost of the gains that the search began with. Returns the file
+/// Best and mean cost over the iterations, beside the cost of the base's own gains. Returns the file
 /// written.
 ///
 /// # Errors
@@ -27,7 +27,7 @@ pub fn convergence(folder: &Path, iterations: &[Iteration], base_cost: f64) -> R
         panel("mean of the iteration", vec![(Role::Flown, over_iterations(|iteration| iteration.mean))]),
     ];
     let path = folder.join("convergence.svg");
-    let legend = [Key::Line("gains that the search began with", Role::Reference), Key::Line("search", Role::Flown)];
+    let legend = [Key::Line("the base's own gains", Role::Reference), Key::Line("search", Role::Flown)];
     save(&path, size_of(1, 380), "Convergence of the search", &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
 }

@@ -162,7 +162,8 @@ pub(super) fn inputs(folder: &Path, figures: &Figures, inputs: &Inputs) -> Resul
     let panels: Vec<Panel> = (0..4).flat_map(pair).collect();
     let path = folder.join("inputs.svg");
     let acting = disturbance.map(|_| Key::Disturbed);
-    let legend: Vec<Key> = [Some(SWITCHES), acting].into_iter().flatten().collect();
+    let switches = panels.iter().any(|panel| panel.band.is_some()).then_some(SWITCHES);
+    let legend: Vec<Key> = [switches, acting].into_iter().flatten().collect();
     save(&path, size_of(4, PANEL), &figures.heading("Control inputs: means"), &legend, |area| grid(area, 2, &panels))?;
     Ok(path)
 }
