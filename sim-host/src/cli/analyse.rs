@@ -7,9 +7,16 @@ use anyhow::Result;
 use super::Which;
 use crate::analyse::{Analysis, Loop, analyse};
 use crate::report::{Staged, plots};
+use crate::scenario::Scenario;
 
 pub(super) fn run(which: &Which, seed: u64, out: Option<&Path>, as_json: bool) -> Result<()> {
     let scenario = which.load()?;
+    if let Some(key) = untrimmed(&scenario) {
+        super::complain(&format!(
+            "note: with `{key}` the law trims itself in flight, and is analysed as it is before: margins, steps and noise do \
+             not hold (docs/analysis.md)"
+        ));
+    }
     // Before the analysis, which takes a while.
     let staged = out.map(Staged::begin).transpose()?;
     let analysis = analyse(&scenario, seed)?;
@@ -23,6 +30,15 @@ pub(super) fn run(which: &Which, seed: u64, out: Option<&Path>, as_json: bool) -
         return super::say(&serde_json::to_string(&analysis)?);
     }
     super::say(&super::and_wrote(table(&analysis), out, contents))
+}
+
+/// What of the truth makes the vehicle's first seconds a transient: another thrust, or another weight, than the law believes.
+fn untrimmed(scenario: &Scenario) -> Option<&'static str> {
+    let truth = &scenario.file.truth;
+    if truth.mass_factor != 1.0 {
+        return Some("truth.mass_factor");
+    }
+    truth.rotor_effectiveness.iter().any(|factor| *factor != 1.0).then_some("truth.rotor_effectiveness")
 }
 
 fn table(analysis: &Analysis) -> String {

@@ -418,3 +418,12 @@ fn a_vehicle_too_heavy_to_fly_has_not_survived() {
     let survived = rows.iter().find(|row| row["measure"] == "survived").expect("a row");
     assert_eq!(survived["max"], 0.0);
 }
+
+#[test]
+fn an_analysis_of_a_vehicle_that_has_to_trim_itself_says_so() {
+    let folder = Folder::new("untrimmed");
+    let (_, told) = folder.prints(&["analyse", "x500-hover", "--set", "truth.mass_factor=1.3"]);
+    assert!(told.contains("note: with `truth.mass_factor`") && told.contains("do not hold"), "{told}");
+    let (_, told) = folder.prints(&["analyse", "x500-hover", "--set", "truth.inertia_factor=1.3"]);
+    assert!(!told.contains("note"), "{told}");
+}
