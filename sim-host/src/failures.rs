@@ -45,14 +45,14 @@ pub fn parse<'a>(words: impl Iterator<Item = &'a str>, now: Tick) -> Result<Faul
 
 /// What can fail by itself, and be made to work again by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Afflicted {
+pub enum Equipment {
     /// A sensor; with its monitor, the battery itself.
     Sensor(Sensor),
     /// One rotor (from 0), or all.
     Rotors(Option<usize>),
 }
 
-impl Afflicted {
+impl Equipment {
     /// Reads the name of a sensor, of a rotor (`rotor index=1`, PX4's `motor -i 2`) or of the battery, with PX4's `ok` or
     /// without.
     ///

@@ -8,7 +8,7 @@ use anyhow::{Error, Result, anyhow, bail, ensure};
 use firmware::commander::{FARTHEST_M, FASTEST_M_S, Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M};
 use firmware::signals::Tick;
 
-use crate::failures::{self, Afflicted};
+use crate::failures::{self, Equipment};
 use crate::refusal::{did_you_mean, shortest};
 use crate::sensors::Fault;
 use crate::serve::SPEEDS;
@@ -38,7 +38,7 @@ pub enum Command {
     /// List the faults.
     Faults,
     /// End all faults, or those of one sensor, rotor or battery.
-    Clear(Option<Afflicted>),
+    Clear(Option<Equipment>),
     /// Fly at so many times real time.
     Speed(f64),
     /// End the program.
@@ -226,7 +226,7 @@ fn fault(words: &[&str], now: Tick) -> Result<Command> {
 }
 
 fn clear(words: &[&str], _: Tick) -> Result<Command> {
-    let of = (!words.is_empty()).then(|| Afflicted::parse(words)).transpose()?;
+    let of = (!words.is_empty()).then(|| Equipment::parse(words)).transpose()?;
     Ok(Command::Clear(of))
 }
 

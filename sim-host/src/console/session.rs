@@ -15,7 +15,7 @@ use super::answers::Answers;
 use super::events::{self, Watch};
 use super::line::{Line, Tone};
 use super::parse::{self, COMMANDS, Command};
-use crate::failures::{self, Afflicted};
+use crate::failures::{self, Equipment};
 use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
 use crate::report::timeline::fault_name;
@@ -120,7 +120,7 @@ impl Session {
         for failure in self.flight.autopilot.inner.take_failures() {
             if failure.manner == Manner::Well {
                 // Also what the console or the scenario has made fail: it is said to work again.
-                let of = Afflicted::of(&failure);
+                let of = Equipment::of(&failure);
                 let _ = self.flight.clear_faults_where(|fault| of.has(fault));
                 self.say(Tone::Plain, format!("ground station: {} works again", of.name()));
             }
@@ -310,7 +310,7 @@ impl Session {
         self.flight.sensors().map_or_else(Vec::new, |suite| suite.faults().list(tick).collect())
     }
 
-    fn clear(&mut self, of: Option<Afflicted>) -> Result<()> {
+    fn clear(&mut self, of: Option<Equipment>) -> Result<()> {
         let is_meant = |fault: &Fault| of.is_none_or(|of| of.has(fault));
         let count = self.faults().iter().filter(|fault| is_meant(fault)).count();
         self.flight.clear_faults_where(is_meant)?;
