@@ -28,6 +28,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
+use clap::builder::{StringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use complaints::{complain, one_line, refuse};
 use numbers::{number, whole};
@@ -233,13 +234,13 @@ struct CompareArgs {
     #[arg(default_value = "x500")]
     matrix: String,
     /// Tunings to compare, by name or path, in place of the matrix' own; the others are compared with the first.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = trimmed)]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = trimmed())]
     controllers: Option<Vec<String>>,
     /// Only these of the matrix' scenarios.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = trimmed)]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = trimmed())]
     scenarios: Option<Vec<String>>,
     /// Only these of the matrix' disturbances.
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = trimmed)]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = trimmed())]
     disturbances: Option<Vec<String>>,
     /// Seeds to fly, first and last, in place of the matrix' own.
     #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
@@ -378,8 +379,8 @@ fn note_idle_seeds(scenario: &Scenario, given: bool) {
 }
 
 /// A name of a list, whatever blanks stand around it.
-fn trimmed(name: &str) -> Result<String, std::convert::Infallible> {
-    Ok(name.trim().to_owned())
+fn trimmed() -> impl TypedValueParser<Value = String> {
+    StringValueParser::new().map(|name| name.trim().to_owned())
 }
 
 /// A scenario; what of it comes after its end is told, and flown without.
