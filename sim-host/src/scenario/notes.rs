@@ -48,8 +48,16 @@ impl Scenario {
     /// Says of a gain that the plant `paper-decoupled` has no use for.
     fn idle_on_decoupled(&self, key: &str) -> Option<String> {
         let unused = ["control.tilt_max_rad", "control.rotor_time_constant_s", "control.effectiveness_rate"];
-        let is_idle = self.file.plant == PlantKind::PaperDecoupled && unused.contains(&key);
-        is_idle.then(|| format!("`{key}` does nothing on the plant `paper-decoupled`, whose inputs are direct"))
+        if self.file.plant != PlantKind::PaperDecoupled {
+            return None;
+        }
+        if unused.contains(&key) {
+            return Some(format!("`{key}` does nothing on the plant `paper-decoupled`, whose inputs are direct"));
+        }
+        let of_attitude = ["control.roll", "control.pitch", "control.yaw"].iter().any(|axis| key.starts_with(axis));
+        let is_still = self.file.attitude.is_none() && self.file.disturbance.is_none();
+        (of_attitude && is_still)
+            .then(|| format!("`{key}` does nothing here, where nothing turns: `paper-attitude` does"))
     }
 
     /// Says of a joining path that was copied with a built-in scenario, and whose trajectory was not.
@@ -109,6 +117,8 @@ mod tests {
             ("helix", &["control.x.gain=8"], ""),
             ("paper-ideal", &["trajectory.helix.yaw_rad=0.5"], "the trajectory's yaw is not flown"),
             ("paper-ideal", &["control.tilt_max_rad=0.5"], "`control.tilt_max_rad` does nothing"),
+            ("paper-ideal", &["control.roll.gain=100"], "nothing turns: `paper-attitude` does"),
+            ("paper-attitude", &["control.roll.gain=100"], ""),
             ("paper-literal", &["control.tilt_max_rad=0.5", "trajectory.helix.yaw_rad=0.5"], ""),
         ] {
             let found = told(name, settings);

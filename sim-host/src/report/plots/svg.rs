@@ -161,7 +161,12 @@ impl<'p> Area<'p> {
     }
 
     /// A text at a place.
-    pub(super) fn text(&self, (x, y): (f64, f64), text: &str, font: Font) {
+    pub(super) fn text(&self, at: (f64, f64), text: &str, font: Font) {
+        self.text_and(at, text, font, ("", 0.0));
+    }
+
+    /// The same, going on in lighter letters of another size: wherever the first end, whatever letters a machine has.
+    pub(super) fn text_and(&self, (x, y): (f64, f64), text: &str, font: Font, (more, more_size): (&str, f64)) {
         let (x, y) = (self.left + x, self.top + y);
         // Letters reach about 0.7 of their size above the line that they stand on.
         let down = 0.35 * font.size;
@@ -176,7 +181,15 @@ impl<'p> Area<'p> {
             Anchor::End => " text-anchor=\"end\"",
         };
         let weight = if font.bold { " font-weight=\"bold\"" } else { "" };
-        let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+        let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+        let text = match more {
+            "" => escaped(text),
+            more => {
+                let more = escaped(more);
+                let light = format!("<tspan dx=\"12\" font-size=\"{more_size}\" font-weight=\"normal\">{more}</tspan>");
+                escaped(text) + &light
+            }
+        };
         let Font { size, color, .. } = font;
         self.page.write(&format!(
             "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"{size}\" fill=\"{color}\"{anchor}{weight}{turn}>{text}</text>",

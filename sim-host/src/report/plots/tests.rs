@@ -109,7 +109,13 @@ fn labels(svg: &str) -> Vec<Label<'_>> {
         let number = |name| attribute(element, name).and_then(|v: &str| v.parse::<f64>().ok()).expect("a number");
         let text = element.split_once('>').and_then(|(_, rest)| rest.strip_suffix("</text>")).expect("a text");
         let (x, y, size) = (number("x"), number("y"), number("font-size"));
-        let wide = svg::text_width(text, size);
+        let wide = match text.split_once("<tspan") {
+            Some((first, more)) => {
+                let more = more.split_once('>').map_or("", |(_, rest)| rest.trim_end_matches("</tspan>"));
+                svg::text_width(first, size) + 12.0 + svg::text_width(more, 12.0)
+            }
+            None => svg::text_width(text, size),
+        };
         let before = match attribute(element, "text-anchor") {
             Some("middle") => 0.5 * wide,
             Some(_) => wide,
