@@ -28,6 +28,7 @@ pub(super) fn run(args: &CompareArgs) -> Result<()> {
     let contest = Contest::new(&matrix)?;
     note_late(contest.cases());
     note_airframes(&contest);
+    note_beyond_reach(contest.cases());
     for (setting, disturbance) in matrix.replaced() {
         super::complain(&format!("note: {setting} does nothing under `{disturbance}`, which sets that itself"));
     }
@@ -58,6 +59,15 @@ fn note_late(cases: &[Case]) {
     for (note, Case { scenario_name, disturbance_name, .. }, more) in notes {
         let others = if more == 0 { String::new() } else { format!(", and {} more", counted(more, "cell")) };
         super::complain(&format!("{note} ({scenario_name} under {disturbance_name}{others})"));
+    }
+}
+
+/// Says of the cells that no controller can follow.
+fn note_beyond_reach(cases: &[Case]) {
+    for Case { scenario, scenario_name, disturbance_name } in cases {
+        if let Some(why) = scenario.beyond_reach() {
+            super::complain(&format!("note: {scenario_name} under {disturbance_name}: {why}"));
+        }
     }
 }
 

@@ -109,11 +109,12 @@ fn heading(comparison: &Comparison) -> String {
     let (seeds, trained) = (String::from(*seeds), comparison.seeds_are_trained_on);
     let trained = if trained { " (SOME OF THEM TUNED ON)" } else { "" };
     let few = comparison.seeds.count() < FOR_AN_INTERVAL as u64 && comparison.cells.iter().any(|cell| cell.random);
+    let summary = if summary.is_empty() { String::new() } else { format!(": {summary}") };
     let set = &comparison.set;
     let set = if set.is_empty() { String::new() } else { format!("every scenario with {}\n", set.join(", ")) };
     let few = if few { ". No interval: it takes six seeds or more" } else { "" };
     format!(
-        "{matrix}: {summary}\n{set}{}; seeds {seeds}{trained}; one flight where the seed changes nothing{few}\n\n\
+        "{matrix}{summary}\n{set}{}; seeds {seeds}{trained}; one flight where the seed changes nothing{few}\n\n\
          RMS distance from the trajectory, mm: median [95 % interval], survived/flown where some are lost\n\n",
         counted(flights.len(), "flight")
     )

@@ -2,6 +2,8 @@
 
 use super::settings::Setting;
 use super::{AIRFRAMES, PlantKind, SCENARIOS, Scenario, TUNINGS};
+use crate::airframe::AirframeFile;
+use crate::files;
 use crate::reference;
 
 /// What else than a trajectory a joining path was planned from.
@@ -83,9 +85,11 @@ impl Scenario {
 pub fn tuned_for_another(tuning: &str, airframe: &str) -> Option<String> {
     let is_built_in = TUNINGS.iter().any(|(name, _)| *name == tuning);
     let (of, _) = tuning.rsplit_once('-').filter(|_| is_built_in)?;
+    let read = |name: &str| files::read::<AirframeFile>(name, "airframe", &AIRFRAMES).ok();
+    let is_same = of == airframe || read(of).is_some_and(|tuned| read(airframe) == Some(tuned));
     let is_own = AIRFRAMES.iter().all(|(name, _)| *name != airframe);
     let remedy = if is_own { "docs/tuning.md tells how to tune for yours" } else { "its gains may not fly it" };
-    (of != airframe).then(|| format!("`{tuning}` was tuned for the airframe `{of}`, not for `{airframe}`: {remedy}"))
+    (!is_same).then(|| format!("`{tuning}` was tuned for the airframe `{of}`, not for `{airframe}`: {remedy}"))
 }
 
 #[cfg(test)]
