@@ -22,7 +22,8 @@ pub(super) fn sys_status(input: &GroundInput, bad_checksums: u32) -> SYS_STATUS_
     let present = CONTROLLERS | prearm | sensors;
     // There is no geofence, but a ground station takes a missing health bit for a breach.
     let mut health = CONTROLLERS | healthy | MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE;
-    health.set(prearm, input.armable);
+    // Armed it has passed: scripts wait for this bit whatever the vehicle is doing.
+    health.set(prearm, input.armable || input.armed);
     let sample = input.estimator.filter(|status| status.battery.healthy).and_then(|status| status.battery_sample);
     let [outer, commander, ground] = input.health.overruns.map(saturate);
     SYS_STATUS_DATA {

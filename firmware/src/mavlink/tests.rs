@@ -193,6 +193,15 @@ fn health_shows_in_sys_status() {
 }
 
 #[test]
+fn a_vehicle_that_is_armed_has_passed_its_checks_wherever_it_is() {
+    let mut bench = Bench::new();
+    (bench.input.armable, bench.input.armed, bench.input.landed) = (false, true, false);
+    let messages = bench.jobs(100);
+    let status = messages.iter().find_map(|m| if let MavMessage::SYS_STATUS(m) = m { Some(m) } else { None });
+    assert_ne!(status.expect("sent").onboard_control_sensors_health.bits() & 0x1000_0000, 0);
+}
+
+#[test]
 fn arming_goes_to_the_commander_and_its_reply_back_to_the_sender() {
     let mut bench = Bench::silent();
     let requests = [

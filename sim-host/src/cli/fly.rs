@@ -103,7 +103,8 @@ fn take<W: Write>(
 
 /// Adds what the plant and the ground did to each other.
 fn add_contacts(timeline: &mut Timeline, outcome: &Outcome) {
-    let again = outcome.landing.filter(|landing| Some(*landing) != outcome.touchdown);
+    let first_s = outcome.touchdown.map(|contact| contact.t_s);
+    let again = outcome.landing.filter(|landing| Some(landing.t_s) != first_s);
     for contact in outcome.touchdown.into_iter().chain(again) {
         let (down, away) = (contact.descent_m_s, contact.from_start_m);
         let text = format!("touchdown with {down:.2} m/s, {away:.1} m from the start");

@@ -161,7 +161,9 @@ pub fn end_text(end: &End, t: f64) -> String {
         End::Interrupted => format!("interrupted at {t:.1} s"),
         End::NeverFlew => "never flew".into(),
         End::Crashed(crash) if crash.tilt_rad > std::f64::consts::FRAC_PI_3 => {
-            format!("CRASHED at {:.1} s: on the ground with a tilt of {:.0}°", crash.t_s, crash.tilt_rad.to_degrees())
+            let (t, tilt, down) = (crash.t_s, crash.tilt_rad.to_degrees(), crash.descent_m_s);
+            let speed = if down > 0.1 { format!(", with {down:.1} m/s down") } else { String::new() };
+            format!("CRASHED at {t:.1} s: on the ground with a tilt of {tilt:.0}°{speed}")
         }
         End::Crashed(crash) => {
             format!("CRASHED at {:.1} s: hit the ground with {:.1} m/s", crash.t_s, crash.descent_m_s)
