@@ -6,7 +6,8 @@
 //! are released with a snapshot of their inputs, the inner loop runs, then the released partitions.
 
 use crate::commander::{
-    Command, Commander, CommanderInput, CommanderOutput, Commands, Events, Origin, Replies, Request,
+    Answers, Command, Commander, CommanderInput, CommanderOutput, Commands, Events, Origin, Outcome, Refusal, Reply,
+    Request,
 };
 use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
@@ -81,9 +82,9 @@ pub struct InnerTask<A = SlidingAttitude> {
     /// Record of each kind of measurement, for telemetry.
     fusion: Fusion,
     commander: CommanderOutput,
-    /// Commands for the commander's next job, and its replies for the ground's.
+    /// Commands for the commander's next job, and replies for the ground's.
     commands: Commands,
-    replies: Replies,
+    replies: Answers,
     /// Failsafe events for the ground's next job.
     events: Events,
     received: RxBytes,
@@ -93,9 +94,9 @@ pub struct InnerTask<A = SlidingAttitude> {
     /// Failures that the board can inject, and those it is to inject now.
     injectable: Injectable,
     failures: Failures,
-    /// Kill latch: set by a forced disarm as soon as that is published. Keeps the rotors stopped until the commander
-    /// has disarmed, and is cleared then.
-    kill: bool,
+    /// Kills since boot, wrapping. The rotors are stopped while the commander has not disarmed for as many: a count
+    /// cannot be lost, and an output of before the kill does not undo it.
+    kills: u8,
 }
 
 impl<A: AttitudeLaw> InnerTask<A> {
@@ -117,7 +118,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             fusion: Fusion::default(),
             commander,
             commands: Commands::new(),
-            replies: Replies::new(),
+            replies: Answers::new(),
             events: Events::new(),
             received: RxBytes::new(),
             transmit: TxBytes::new(),
@@ -125,7 +126,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             timing: None,
             injectable: Injectable::NONE,
             failures: Failures::new(),
-            kill: false,
+            kills: 0,
         }
     }
 
@@ -163,10 +164,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
             self.filtered_at = Some(tick);
         }
         if let Some(output) = mail.commander.publish(tick) {
-            self.kill &= output.armed;
             for reply in &output.replies {
-                // With a full queue the reply is lost; the sender repeats its request.
-                let _ = self.replies.push(*reply);
+                self.reply(*reply);
             }
             if let Some(event) = output.event {
                 // Never full: a commander job reports one event at most, and the ground partition runs twice as often.
@@ -175,10 +174,13 @@ impl<A: AttitudeLaw> InnerTask<A> {
             self.commander = output;
         }
         if let Some(output) = mail.ground.publish(tick) {
+            if output.kill {
+                self.kill();
+            }
             for command in &output.commands {
-                self.kill |= command.request == Request::Disarm { force: true };
-                // A full queue drops the command; the sender repeats what is not acknowledged.
-                let _ = self.commands.push(*command);
+                if let Err(command) = self.commands.push(*command) {
+                    self.reply(Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) });
+                }
             }
             if !output.transmit.is_empty() {
                 self.transmit = output.transmit;
@@ -187,6 +189,17 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 self.failures = output.failures;
             }
         }
+    }
+
+    fn reply(&mut self, reply: Reply) {
+        // Never full: a job of the commander has as many replies as commands, and one of the ground partition, which runs
+        // twice as often, refuses no more.
+        let _ = self.replies.push(reply);
+    }
+
+    /// Stops the rotors at once, until the commander has disarmed.
+    fn kill(&mut self) {
+        self.kills = self.kills.wrapping_add(1);
     }
 
     #[inline]
@@ -220,6 +233,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 thrust_n: self.inner.thrust_n(),
                 battery: self.inner.navigator().and_then(Navigator::battery),
                 failed_rotor: self.inner.failed_rotor(),
+                kills: self.kills,
                 commands: core::mem::take(&mut self.commands),
             };
             mail.commander.release(tick, input);
@@ -271,15 +285,18 @@ impl<A: AttitudeLaw> InnerTask<A> {
     }
 
     fn is_armed(&self) -> bool {
-        self.commander.armed && !self.kill
+        self.commander.armed && self.commander.kills == self.kills
     }
 
-    /// A request of a program on board, for the commander's next job; a forced disarm acts at once.
+    /// A request of a program on board, for the commander's next job; a kill acts at once, and is not replied to.
     ///
     /// # Errors
-    /// The request itself if too many are waiting.
+    /// The request itself if too many are waiting; never a kill.
     pub fn request(&mut self, request: Request) -> Result<(), Request> {
-        self.kill |= request == Request::Disarm { force: true };
+        if request == Request::Kill {
+            self.kill();
+            return Ok(());
+        }
         let command = Command { request, origin: Origin::OnBoard };
         self.commands.push(command).map_err(|command| command.request)
     }

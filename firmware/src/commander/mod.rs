@@ -5,8 +5,8 @@
 //! guidance.
 //!
 //! A refused request leaves the state unchanged and returns the reason; a request for what is already being done
-//! changes nothing. A forced disarm also acts at once, through the latch that the inner loop reads every tick (see
-//! `autopilot`).
+//! changes nothing. A kill is no request but a count of kills, which no queue can lose: the inner loop stops the rotors
+//! as soon as it is ahead of the commander's (see `autopilot`).
 
 mod checks;
 mod directive;
@@ -20,8 +20,8 @@ mod tests;
 
 pub use directive::{Directive, Known, Mode};
 pub use request::{
-    Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies, Reply, Request,
-    TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
+    Answers, Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies, Reply,
+    Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
 };
 pub use state::State;
 
@@ -51,6 +51,8 @@ pub struct CommanderInput {
     pub battery: Option<BatterySample>,
     /// The rotor that has failed, from 0.
     pub failed_rotor: Option<u8>,
+    /// Kills since boot, wrapping.
+    pub kills: u8,
     /// Commands since the last job.
     pub commands: Commands,
 }
@@ -60,6 +62,8 @@ pub struct CommanderInput {
 pub struct CommanderOutput {
     /// Whether the rotors may turn.
     pub armed: bool,
+    /// The kills since boot that have disarmed it.
+    pub kills: u8,
     /// What the vehicle is doing, for pilots.
     pub mode: Mode,
     /// The directive for guidance.
@@ -94,6 +98,8 @@ pub struct Commander {
     entry: Vector3<f32>,
     entry_yaw: f32,
     state: State,
+    /// Kills since boot that it has carried out.
+    kills: u8,
     /// Where the vehicle was armed.
     home: Vector3<f32>,
     navigation: NavWatch,
@@ -141,6 +147,7 @@ impl Commander {
             entry,
             entry_yaw,
             state: if flies { State::Follow { since: 0 } } else { State::Disarmed },
+            kills: 0,
             home: start,
             navigation: NavWatch::default(),
             battery: BatteryWatch::default(),
@@ -158,6 +165,7 @@ impl Commander {
     pub fn initial_output(&self) -> CommanderOutput {
         CommanderOutput {
             armed: self.state != State::Disarmed,
+            kills: self.kills,
             mode: self.state.mode(),
             directive: self.directive(self.home.z),
             landed: !self.ground.is_airborne(),
@@ -172,16 +180,18 @@ impl Commander {
         let effective = released.wrapping_add(COMMANDER.offset);
         self.watch(input);
         let mut replies = Replies::new();
-        let mut killed = false;
+        let killed = input.kills != self.kills;
+        if killed {
+            self.kills = input.kills;
+            self.stop();
+        }
         for command in &input.commands {
-            // An output with `armed` would not release the kill latch, so arming right after a forced disarm is
-            // refused.
+            // Which of the two came first is not known: a kill is not undone by an arming of the same job.
             let outcome = if killed && matches!(command.request, Request::Arm { .. }) {
                 Outcome::TemporarilyRejected(Refusal::Moving)
             } else {
                 self.decide(&command.request, effective, input)
             };
-            killed |= command.request == Request::Disarm { force: true };
             // As many replies fit as commands.
             let _ = replies.push(Reply { command: *command, outcome });
         }
@@ -189,6 +199,7 @@ impl Commander {
         self.progress(effective, input);
         CommanderOutput {
             armed: self.state != State::Disarmed,
+            kills: self.kills,
             mode: self.state.mode(),
             directive: self.directive(input.nav.position.z),
             landed: !self.ground.is_airborne(),
@@ -221,7 +232,11 @@ impl Commander {
         }
         let done = match *request {
             Request::Arm { force } => self.arm(force, input),
-            Request::Disarm { force } => self.disarm(force),
+            Request::Disarm => self.disarm(),
+            Request::Kill => {
+                self.stop();
+                Ok(())
+            }
             _ => self.fly(request, effective, input),
         };
         done.map_or_else(Outcome::TemporarilyRejected, |()| Outcome::Accepted)
@@ -241,11 +256,11 @@ impl Commander {
         Ok(())
     }
 
-    fn disarm(&mut self, force: bool) -> Result<(), Refusal> {
+    fn disarm(&mut self) -> Result<(), Refusal> {
         if self.state == State::Disarmed {
             return Ok(());
         }
-        if self.ground.is_airborne() && !force {
+        if self.ground.is_airborne() {
             return Err(Refusal::InAir);
         }
         self.stop();
@@ -298,7 +313,7 @@ impl Commander {
             Request::Follow => State::Join,
             Request::Land => State::Land,
             Request::Hold => State::Hold,
-            Request::Arm { .. } | Request::Disarm { .. } => self.state,
+            Request::Arm { .. } | Request::Disarm | Request::Kill => self.state,
         }
     }
 

@@ -22,11 +22,11 @@ pub enum Request {
         /// Skip the checks.
         force: bool,
     },
-    /// Disarm: the rotors stop.
-    Disarm {
-        /// Also in the air.
-        force: bool,
-    },
+    /// Disarm, on the ground: the rotors stop.
+    Disarm,
+    /// Stop the rotors at once, also in the air. Waits in no queue: [`InnerTask::request`](crate::autopilot::InnerTask::request)
+    /// latches it.
+    Kill,
     /// Climb from the ground, and hold there.
     TakeOff {
         /// Over the ground, m.
@@ -69,7 +69,9 @@ impl Request {
             Self::Velocity { velocity_m_s, yaw_rate_rad_s } => {
                 within(velocity_m_s, FASTEST_M_S) && within(&[*yaw_rate_rad_s], ANGLE)
             }
-            Self::Arm { .. } | Self::Disarm { .. } | Self::Hold | Self::Land | Self::Return | Self::Follow => true,
+            Self::Arm { .. } | Self::Disarm | Self::Kill | Self::Hold | Self::Land | Self::Return | Self::Follow => {
+                true
+            }
         }
     }
 }
@@ -137,6 +139,8 @@ pub enum Refusal {
     Disarmed,
     /// Not at the start point of the trajectory.
     NotAtStart,
+    /// More commands at once than the commander takes.
+    Busy,
 }
 
 /// The reply to a command.
@@ -179,5 +183,7 @@ pub enum Event {
 pub type Commands = heapless::Vec<Command, 4>;
 /// Replies of one job.
 pub type Replies = heapless::Vec<Reply, 4>;
+/// Replies between two jobs of the ground partition: those of a commander's job, and those to commands that did not fit.
+pub type Answers = heapless::Vec<Reply, 8>;
 /// Events between two jobs of the ground partition.
 pub type Events = heapless::Vec<Event, 4>;

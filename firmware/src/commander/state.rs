@@ -24,7 +24,7 @@
 //! Cruise, TakeOff, Land        ─ loss ─────────────► Descent
 //! Cruise, TakeOff, Land, Descent ─ rotor failed ───► MotorOut
 //! Cruise, TakeOff, Land, Descent, MotorOut ─ gone ─► Disarmed
-//! Idle, Cruise, TakeOff, Land, Descent, MotorOut ─ forced disarm ► Disarmed
+//! Idle, Cruise, TakeOff, Land, Descent, MotorOut ─ kill ────────► Disarmed
 //!
 //! Cruise = Hold, GoTo, Velocity, Join, Follow, Return
 //! ```
@@ -33,7 +33,7 @@
 //!
 //! *Loss* is a persistent loss of position, velocity, height, attitude or samples. If it recovers, the descent goes on
 //! until the pilot ends it. *Gone* means that samples have been missing for so long that control does more harm than
-//! good. In a flying state, a disarm that is not forced is accepted before lift-off only, and leads to Disarmed.
+//! good. In a flying state, a disarm is accepted before lift-off only, and leads to Disarmed.
 
 use nalgebra::Vector3;
 

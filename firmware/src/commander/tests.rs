@@ -24,6 +24,7 @@ fn standing() -> CommanderInput {
         thrust_n: 0.0,
         battery: None,
         failed_rotor: None,
+        kills: 0,
         commands: Commands::new(),
     }
 }
@@ -114,8 +115,8 @@ fn outcomes(state: State) -> Vec<(&'static str, State)> {
     let lost = NavHealth { position: false, ..NavHealth::ALL };
     vec![
         ("arm", ask(Request::Arm { force: false })),
-        ("disarm", ask(Request::Disarm { force: false })),
-        ("forced disarm", ask(Request::Disarm { force: true })),
+        ("disarm", ask(Request::Disarm)),
+        ("kill", last(0.1, CommanderInput { kills: 1, ..quiet.clone() })),
         ("take off", ask(TAKE_OFF)),
         ("hold", ask(Request::Hold)),
         ("go to", ask(GO_TO)),
@@ -263,7 +264,7 @@ fn a_request_that_the_state_does_not_allow_is_refused_with_the_reason() {
 
     let mut hold = Bench::new(State::Hold);
     assert_eq!(hold.ask(TAKE_OFF, &hovering()), No(Refusal::InAir));
-    assert_eq!(hold.ask(Request::Disarm { force: false }, &hovering()), No(Refusal::InAir));
+    assert_eq!(hold.ask(Request::Disarm, &hovering()), No(Refusal::InAir));
     let lost = CommanderInput { health: NavHealth { position: false, ..NavHealth::ALL }, ..hovering() };
     assert_eq!(hold.ask(GO_TO, &lost), No(Refusal::NoPosition));
     let mut falling = Bench::new(State::MotorOut);
@@ -438,7 +439,7 @@ fn disarming_is_accepted_before_lift_off_and_refused_after_it() {
     let mut lifted = standing();
     lifted.nav.position.z = 0.2;
     assert!(!bench.step(&lifted).landed);
-    let disarm = Request::Disarm { force: false };
+    let disarm = Request::Disarm;
     assert_eq!(bench.ask(disarm, &lifted), Outcome::TemporarilyRejected(Refusal::InAir));
 
     let mut bench = Bench::new(State::Idle { disarm_at: None });

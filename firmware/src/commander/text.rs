@@ -27,7 +27,8 @@ impl Request {
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Arm { .. } => "Arming",
-            Self::Disarm { .. } => "Disarming",
+            Self::Disarm => "Disarming",
+            Self::Kill => "Kill",
             Self::TakeOff { .. } => "Takeoff",
             Self::Hold => "Hold",
             Self::GoTo { .. } => "Go to",
@@ -56,6 +57,7 @@ impl Refusal {
             Self::OnGround => "vehicle on the ground",
             Self::Disarmed => "vehicle disarmed",
             Self::NotAtStart => "not at the start point",
+            Self::Busy => "too many commands at once",
         }
     }
 }
@@ -95,7 +97,8 @@ mod tests {
         let zero = [0.0; 3];
         let requests = [
             Request::Arm { force: false },
-            Request::Disarm { force: false },
+            Request::Disarm,
+            Request::Kill,
             Request::TakeOff { height_m: 0.0 },
             Request::Hold,
             Request::GoTo { position_m: zero, yaw_rad: 0.0 },
@@ -118,6 +121,7 @@ mod tests {
             Refusal::OnGround,
             Refusal::Disarmed,
             Refusal::NotAtStart,
+            Refusal::Busy,
         ];
         for (request, refusal) in requests.iter().flat_map(|request| refusals.map(|refusal| (request, refusal))) {
             let text = format!("{} refused: {}", request.name(), refusal.reason());

@@ -15,8 +15,9 @@ use crate::commander::{Command, Commands, Origin, Outcome, Request, TAKE_OFF_HEI
 use crate::failure::{Failure, Failures, Injectable, Manner, Unit};
 use crate::signals::Tick;
 
-/// Values of `param2` that force arming or disarming: MAVLink's and QGroundControl's.
-const FORCE: [f32; 2] = [21_196.0, 2_989.0];
+/// Value of `param2` that forces arming and disarming, and the one that forces arming alone.
+const FORCE: f32 = 21_196.0;
+const FORCE_ARMING: f32 = 2_989.0;
 
 /// Answer to the sender of a command.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +45,10 @@ pub(super) fn carry_out(
 ) -> Option<Answer> {
     let to_commander = &mut output.commands;
     match MavCmd::from_u16(message.command) {
+        Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) if is_kill(message) => {
+            output.kill = true;
+            Some(MavResult::MAV_RESULT_ACCEPTED.into())
+        }
         Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => pass_on(arm_request(message), message, sender, to_commander),
         Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => pass_on(Some(take_off(message)), message, sender, to_commander),
         Some(MavCmd::MAV_CMD_NAV_LAND) => pass_on(Some(Request::Land), message, sender, to_commander),
@@ -74,13 +79,17 @@ fn pass_on(
     }
 }
 
+/// A forced disarm.
+fn is_kill(message: &CommandMessage) -> bool {
+    message.param1 == 0.0 && message.param2 == FORCE
+}
+
 /// `None` if `param1` is neither 1 (arm) nor 0 (disarm), as for NaN.
 fn arm_request(message: &CommandMessage) -> Option<Request> {
-    let force = FORCE.contains(&message.param2);
     if message.param1 == 1.0 {
-        Some(Request::Arm { force })
+        Some(Request::Arm { force: [FORCE, FORCE_ARMING].contains(&message.param2) })
     } else if message.param1 == 0.0 {
-        Some(Request::Disarm { force })
+        Some(Request::Disarm)
     } else {
         None
     }

@@ -49,7 +49,7 @@ use glissade_dialect::{MISSION_COUNT_DATA, MavResult, TIMESYNC_DATA};
 use self::parser::{CommandMessage, Incoming, Parser, Sender};
 use self::telemetry::{Report, Telemetry};
 use self::writer::Writer;
-use crate::commander::{Commands, Event, Events, Mode, Origin, Outcome, Refusal, Replies, Request};
+use crate::commander::{Answers, Commands, Event, Events, Mode, Origin, Outcome, Refusal, Request};
 use crate::estimator::status::Status;
 use crate::failure::{Failures, Injectable};
 use crate::signals::{NavState, TICK_US, Tick};
@@ -116,7 +116,7 @@ pub struct GroundInput {
     /// Failures that the board can inject.
     pub injectable: Injectable,
     /// Replies of the commander since the last job.
-    pub replies: Replies,
+    pub replies: Answers,
     /// Failsafe events since the last job.
     pub events: Events,
     /// Bytes received since the last job.
@@ -130,6 +130,8 @@ pub struct GroundOutput {
     pub transmit: TxBytes,
     /// For the commander.
     pub commands: Commands,
+    /// Whether a ground station stops the rotors now. No entry of a queue: it is never lost, and acts first.
+    pub kill: bool,
     /// Accepted failure injections, for the board.
     pub failures: Failures,
 }
@@ -211,7 +213,7 @@ impl Ground {
         }
     }
 
-    fn post_replies(&mut self, replies: &Replies) {
+    fn post_replies(&mut self, replies: &Answers) {
         for reply in replies {
             let Origin::Station { sender, command } = reply.command.origin else { continue };
             let result = command::result_of(reply.outcome);

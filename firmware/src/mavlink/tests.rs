@@ -66,6 +66,7 @@ struct Bench {
     sequence: u8,
     input: GroundInput,
     commands: Vec<Command>,
+    killed: bool,
     largest: usize,
 }
 
@@ -80,11 +81,11 @@ impl Bench {
             health: Health { nav_fresh: true, ..Health::default() },
             estimator: None,
             injectable: Injectable::NONE,
-            replies: Replies::new(),
+            replies: Answers::new(),
             events: Events::new(),
             received: RxBytes::new(),
         };
-        Self { ground: Ground::default(), tick: 0, sequence: 0, input, commands: Vec::new(), largest: 0 }
+        Self { ground: Ground::default(), tick: 0, sequence: 0, input, commands: Vec::new(), killed: false, largest: 0 }
     }
 
     /// Without telemetry, so that only answers are seen.
@@ -104,6 +105,7 @@ impl Bench {
         self.input.replies.clear();
         self.input.events.clear();
         self.commands.extend(output.commands.iter().copied());
+        self.killed |= output.kill;
         self.largest = self.largest.max(output.transmit.len());
         parse(&output.transmit, &mut self.sequence)
     }
@@ -208,14 +210,15 @@ fn arming_goes_to_the_commander_and_its_reply_back_to_the_sender() {
         (1.0, 0.0, Request::Arm { force: false }),
         (1.0, f32::NAN, Request::Arm { force: false }),
         (1.0, 2989.0, Request::Arm { force: true }),
-        (0.0, 0.0, Request::Disarm { force: false }),
-        (0.0, 21196.0, Request::Disarm { force: true }),
+        (1.0, 21196.0, Request::Arm { force: true }),
+        (0.0, 0.0, Request::Disarm),
+        (0.0, 2989.0, Request::Disarm),
     ];
     for (param1, param2, request) in requests {
         assert_eq!(bench.result_of(&command(ARM, param1, param2)), None, "not before the commander has decided");
         assert_eq!(bench.commands.pop(), Some(from_station(ARM, request)));
     }
-    let command = from_station(ARM, Request::Disarm { force: false });
+    let command = from_station(ARM, Request::Disarm);
     let _ = bench.input.replies.push(Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::InAir) });
     let messages = bench.job(&[]);
     let [MavMessage::COMMAND_ACK(ack), MavMessage::STATUSTEXT(text)] = messages.as_slice() else {
@@ -235,6 +238,20 @@ fn an_invalid_arm_parameter_is_denied_and_too_many_commands_at_once_are_temporar
     let five: Vec<u8> = (0..5).flat_map(|_| command(ARM, 1.0, 0.0)).collect();
     assert_eq!(bench.result_of(&five), Some(MavResult::MAV_RESULT_TEMPORARILY_REJECTED));
     assert_eq!(bench.commands.len(), 4);
+}
+
+#[test]
+fn a_forced_disarm_is_accepted_at_once_however_many_commands_come_before_it() {
+    let mut bench = Bench::silent();
+    let five: Vec<u8> = (0..5).flat_map(|_| command(ARM, 1.0, 0.0)).collect();
+    assert_eq!(
+        bench.result_of(&[five, command(ARM, 0.0, 21196.0)].concat()),
+        Some(MavResult::MAV_RESULT_TEMPORARILY_REJECTED)
+    );
+    assert!(bench.killed, "the latch is set though the queue is full");
+    bench.killed = false;
+    assert_eq!(bench.result_of(&command(ARM, 0.0, 21196.0)), Some(MavResult::MAV_RESULT_ACCEPTED));
+    assert!(bench.killed && bench.commands.iter().all(|command| command.request != Request::Kill));
 }
 
 #[test]

@@ -202,7 +202,8 @@ fn a_pilots_request_is_decoded_as_it_was_encoded() {
     let [x, y, z, w] = numbers(-1.5);
     for asked in [
         commander::Request::Arm { force: true },
-        commander::Request::Disarm { force: false },
+        commander::Request::Disarm,
+        commander::Request::Kill,
         commander::Request::TakeOff { height_m: 2.5 },
         commander::Request::Hold,
         commander::Request::GoTo { position_m: [x, y, z], yaw_rad: w },

@@ -206,7 +206,7 @@ impl Words for Request {
     fn write(&self, to: &mut Writer) {
         let (kind, numbers) = match *self {
             Self::Arm { force } => (0, [f32::from(u8::from(force)), 0.0, 0.0, 0.0]),
-            Self::Disarm { force } => (1, [f32::from(u8::from(force)), 0.0, 0.0, 0.0]),
+            Self::Disarm => (1, [0.0; 4]),
             Self::TakeOff { height_m } => (2, [height_m, 0.0, 0.0, 0.0]),
             Self::Hold => (3, [0.0; 4]),
             Self::GoTo { position_m: [x, y, z], yaw_rad } => (4, [x, y, z, yaw_rad]),
@@ -214,6 +214,7 @@ impl Words for Request {
             Self::Land => (6, [0.0; 4]),
             Self::Return => (7, [0.0; 4]),
             Self::Follow => (8, [0.0; 4]),
+            Self::Kill => (9, [0.0; 4]),
         };
         to.word(kind);
         numbers.write(to);
@@ -222,10 +223,9 @@ impl Words for Request {
     fn read(from: &mut Reader) -> Option<Self> {
         let kind = from.word()?;
         let [x, y, z, w] = Words::read(from)?;
-        let force = x != 0.0;
         Some(match kind {
-            0 => Self::Arm { force },
-            1 => Self::Disarm { force },
+            0 => Self::Arm { force: x != 0.0 },
+            1 => Self::Disarm,
             2 => Self::TakeOff { height_m: x },
             3 => Self::Hold,
             4 => Self::GoTo { position_m: [x, y, z], yaw_rad: w },
@@ -233,6 +233,7 @@ impl Words for Request {
             6 => Self::Land,
             7 => Self::Return,
             8 => Self::Follow,
+            9 => Self::Kill,
             _ => return None,
         })
     }

@@ -3,12 +3,14 @@
 
 use firmware::airframe::Airframe;
 use firmware::autopilot::Autopilot;
+use firmware::commander::Request;
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
 use firmware::inner::STALE_AFTER;
 use firmware::schedule::{COMMANDER, GROUND, OUTER};
 use firmware::signals::{MotorCommand, NavState, SensorFrame};
 use nalgebra::{UnitQuaternion, Vector3};
+use proptest::prelude::*;
 
 /// Hovering in the air at the origin.
 fn in_flight() -> FlightConfig {
@@ -186,6 +188,11 @@ fn an_outer_loop_that_stops_answering_is_not_extrapolated_for_ever() {
 
 /// MAVLink 2 `COMMAND_LONG` 400 (arm or disarm), by hand: from system 255, component 190, to system 1, component 1.
 fn command_arm(arm: bool, force: bool) -> Vec<u8> {
+    command_arm_from(255, arm, force)
+}
+
+/// The same from another system.
+fn command_arm_from(system: u8, arm: bool, force: bool) -> Vec<u8> {
     let mut payload = Vec::new();
     let magic = if force { 21_196.0_f32 } else { 0.0 };
     for parameter in [f32::from(u8::from(arm)), magic, 0.0, 0.0, 0.0, 0.0, 0.0] {
@@ -196,7 +203,7 @@ fn command_arm(arm: bool, force: bool) -> Vec<u8> {
     while payload.len() > 1 && payload.last() == Some(&0) {
         payload.pop();
     }
-    let mut frame = vec![0xfd, payload.len() as u8, 0, 0, 0, 255, 190, 76, 0, 0];
+    let mut frame = vec![0xfd, payload.len() as u8, 0, 0, 0, system, 190, 76, 0, 0];
     frame.extend(payload);
     // X.25 over all but the first byte, then COMMAND_LONG's CRC_EXTRA.
     let crc = frame[1..].iter().chain(&[152]).fold(0xffff_u16, |crc, byte| {
@@ -252,4 +259,79 @@ fn after_a_forced_disarm_the_vehicle_can_be_armed_again() {
     assert_eq!(fly(&command_arm(true, false)), Some(false));
     assert_eq!(fly(&command_arm(false, true)), Some(true));
     assert_eq!(fly(&command_arm(true, false)), Some(false));
+}
+
+/// Results of the acknowledgements to a system among whole MAVLink 2 frames.
+fn acknowledged(mut frames: &[u8], system: u8) -> Vec<u8> {
+    let mut results = Vec::new();
+    while let [0xfd, length, ..] = *frames {
+        let (frame, rest) = frames.split_at(12 + usize::from(length));
+        let (id, payload) = ([frame[7], frame[8], frame[9]], &frame[10..]);
+        // COMMAND_ACK: command, result, progress, result_param2, target.
+        if id == [77, 0, 0] && length == 10 && payload[8] == system {
+            results.push(payload[2]);
+        }
+        frames = rest;
+    }
+    results
+}
+
+/// The armed flag of the last heartbeat among whole MAVLink 2 frames.
+fn says_armed(mut frames: &[u8]) -> Option<bool> {
+    let mut armed = None;
+    while let [0xfd, length, ..] = *frames {
+        let (frame, rest) = frames.split_at(12 + usize::from(length));
+        if frame[7..10] == [0, 0, 0] {
+            armed = Some(frame[10 + 6] & 0x80 != 0);
+        }
+        frames = rest;
+    }
+    armed
+}
+
+proptest! {
+    /// Forced disarms from two stations, whenever, with as many other commands around them as arrive at once: the rotors
+    /// stop within two jobs of the ground partition and stay stopped; commander, heartbeat and acknowledgement agree; and
+    /// arming works afterwards.
+    #[test]
+    fn a_kill_is_lost_in_no_queue(
+        offset in 0..40_u32,
+        before in 0..9_usize,
+        on_board in 0..5_usize,
+        stations in prop::collection::vec(prop::sample::select(vec![255_u8, 254]), 1..3),
+    ) {
+        let mut vehicle = autopilot(&in_flight());
+        let high = at([0.0, 0.0, 20.0]);
+        let mut sent = Vec::new();
+        let tick = |vehicle: &mut Autopilot, sent: &mut Vec<u8>| {
+            let stopped = is_stopped(&vehicle.tick(Some(&high)).motors);
+            sent.extend_from_slice(&vehicle.inner.take_transmit());
+            stopped
+        };
+        for _ in 0..offset {
+            prop_assert!(!tick(&mut vehicle, &mut sent));
+        }
+        for _ in 0..on_board {
+            let _ = vehicle.inner.request(Request::Hold);
+        }
+        for _ in 0..before {
+            vehicle.inner.receive(&command_arm_from(253, true, true));
+        }
+        for station in &stations {
+            vehicle.inner.receive(&command_arm_from(*station, false, true));
+        }
+        let latest = GROUND.period + GROUND.offset;
+        let stopped: Vec<bool> = (0..1_200).map(|_| tick(&mut vehicle, &mut sent)).collect();
+        prop_assert!(stopped[latest as usize - 1..].iter().all(|stopped| *stopped), "{stopped:?}");
+        prop_assert!(!vehicle.inner.commander_output().armed, "the commander knows");
+        prop_assert_eq!(says_armed(&sent), Some(false), "so does the heartbeat");
+        for station in &stations {
+            let results = acknowledged(&sent, *station);
+            prop_assert!(!results.is_empty() && results.iter().all(|result| *result == 0), "{results:?}");
+        }
+        vehicle.inner.receive(&command_arm(true, true));
+        let stopped = (0..100).map(|_| tick(&mut vehicle, &mut sent)).last();
+        prop_assert_eq!(stopped, Some(false), "armed again");
+        prop_assert!(vehicle.inner.commander_output().armed);
+    }
 }

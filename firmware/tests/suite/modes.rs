@@ -110,6 +110,7 @@ impl Vehicle {
                 thrust_n: self.inner.thrust_n(),
                 battery: None,
                 failed_rotor: None,
+                kills: 0,
                 commands: core::mem::take(&mut self.commands),
             };
             self.told = self.commander.step(self.tick, &input);

@@ -77,8 +77,8 @@ impl Order {
     pub fn request(&self) -> Request {
         match *self {
             Self::Arm => Request::Arm { force: false },
-            Self::Disarm => Request::Disarm { force: false },
-            Self::Kill => Request::Disarm { force: true },
+            Self::Disarm => Request::Disarm,
+            Self::Kill => Request::Kill,
             Self::TakeOff { height_m } => Request::TakeOff { height_m },
             Self::Hold => Request::Hold,
             Self::GoTo { position_m, yaw_deg } => Request::GoTo { position_m, yaw_rad: yaw_deg.to_radians() },

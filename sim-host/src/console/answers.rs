@@ -30,14 +30,14 @@ impl Answers {
         self.awaited.push(reply.command.origin);
     }
 
-    /// Tells the refusals among the frames of a datagram that the commander has not answered.
+    /// Tells the answers among the frames of a datagram that the commander has not given: refusals, and kills.
     pub(super) fn read(&mut self, datagram: &[u8], tell: &mut impl FnMut(String)) {
         for ack in acknowledgements(datagram) {
             let sender = (ack.target_system, ack.target_component);
             let origin = Origin::Station { sender, command: ack.command };
             if let Some(place) = self.awaited.iter().position(|awaited| *awaited == origin) {
                 self.awaited.remove(place);
-            } else if let Some(text) = refusal(&ack).filter(|_| !self.was_told(&ack, origin)) {
+            } else if let Some(text) = answer(&ack).filter(|_| !self.was_told(&ack, origin)) {
                 tell(text);
             }
         }
@@ -71,9 +71,9 @@ fn acknowledgements(mut frames: &[u8]) -> impl Iterator<Item = COMMAND_ACK_DATA>
     })
 }
 
-/// A refusal in words. Ground stations ask for messages all the time, and do without those that there are not: of that
+/// An answer in words. Ground stations ask for messages all the time, and do without those that there are not: of that
 /// nothing is told.
-fn refusal(ack: &COMMAND_ACK_DATA) -> Option<String> {
+fn answer(ack: &COMMAND_ACK_DATA) -> Option<String> {
     let known = MavCmd::from_u16(ack.command);
     if let Some(
         MavCmd::MAV_CMD_REQUEST_MESSAGE
@@ -87,6 +87,10 @@ fn refusal(ack: &COMMAND_ACK_DATA) -> Option<String> {
         MavResult::MAV_RESULT_UNSUPPORTED => "unsupported",
         MavResult::MAV_RESULT_DENIED => "denied",
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => "refused, too many at once",
+        // Of arming and disarming only a kill is accepted without the commander.
+        MavResult::MAV_RESULT_ACCEPTED if known == Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => {
+            return Some(format!("ground station {}: kill: accepted", ack.target_system));
+        }
         MavResult::MAV_RESULT_ACCEPTED => return None,
     };
     let name = known.map(|known| format!(" ({})", format!("{known:?}").trim_start_matches("MAV_CMD_")));

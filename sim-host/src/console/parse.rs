@@ -143,7 +143,7 @@ pub const COMMANDS: &[Entry] = &[
         &["disarm"],
         "[force]",
         "stop the rotors on the ground; `force` also in the air",
-        Reads::Force(|force| Request::Disarm { force }),
+        Reads::Force(|force| if force { Request::Kill } else { Request::Disarm }),
     ),
     Entry::new(&["takeoff", "take-off"], "[HEIGHT]", "climb by HEIGHT (m; 2.5) and hold", Reads::With(take_off))
         .with_details("It has to be armed and on the ground; HEIGHT is between 0.3 and 100 m"),
@@ -185,7 +185,7 @@ pub const COMMANDS: &[Entry] = &[
         &["kill", "terminate"],
         "",
         "stop the rotors at once, also in the air",
-        Reads::Nothing(Command::Request(Request::Disarm { force: true })),
+        Reads::Nothing(Command::Request(Request::Kill)),
     ),
     Entry::new(
         &["wind"],

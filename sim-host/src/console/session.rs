@@ -196,11 +196,11 @@ impl Session {
 
     fn ask(&mut self, request: Request) {
         let asked = Asked { request, sent: false, quiet: false };
-        if request == (Request::Disarm { force: true }) {
-            // Overtakes the waiting requests and drops them.
+        if request == Request::Kill {
+            // Overtakes the waiting requests and drops them; it needs no decision.
             self.asked.retain(|asked| asked.sent);
-            let sent = self.flight.autopilot.inner.request(request).is_ok();
-            self.asked.push_front(Asked { sent, ..asked });
+            let _ = self.flight.autopilot.inner.request(request);
+            self.say(Tone::Good, "kill: accepted".to_owned());
         } else {
             self.asked.push_back(asked);
             self.send();
@@ -367,8 +367,8 @@ fn describe(request: &Request) -> String {
     match *request {
         Request::Arm { force: false } => "arm".to_owned(),
         Request::Arm { force: true } => "arm without checks".to_owned(),
-        Request::Disarm { force: false } => "disarm".to_owned(),
-        Request::Disarm { force: true } => "kill".to_owned(),
+        Request::Disarm => "disarm".to_owned(),
+        Request::Kill => "kill".to_owned(),
         Request::TakeOff { height_m } => format!("take-off to {height_m} m"),
         Request::Hold => "hold".to_owned(),
         Request::GoTo { position_m, yaw_rad } => {

@@ -251,10 +251,18 @@ fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
 
 #[test]
 fn killed_in_the_air_it_falls_and_that_is_told() {
+    falls_by(|bench| assert_eq!(text(&bench.enter("kill")), "kill: accepted"));
+    falls_by(|bench| {
+        bench.session.tick(&command_long(400, [0.0, 21_196.0, 0.0]));
+        bench.until("ground station 255: kill: accepted", 0.1);
+    });
+}
+
+fn falls_by(kill: impl Fn(&mut Bench)) {
     let mut bench = Bench::new("field");
     bench.arm_and_climb(5.0);
     let height = bench.motion().position.z;
-    assert_eq!(text(&bench.enter("kill")), "kill: accepted");
+    kill(&mut bench);
     bench.until("disarmed in the air", 0.1);
     let landed = bench.until("touched down at", 20.0);
     // v = √(2 g h); drag takes a little.

@@ -12,7 +12,7 @@ fn any_request() -> impl Strategy<Value = Request> {
     let number = any_number;
     prop_oneof![
         any::<bool>().prop_map(|force| Request::Arm { force }),
-        Just(Request::Disarm { force: false }),
+        Just(Request::Disarm),
         number().prop_map(|height_m| Request::TakeOff { height_m }),
         Just(Request::Hold),
         ([number(), number(), number()], number())
