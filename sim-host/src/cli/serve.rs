@@ -3,6 +3,7 @@
 use std::net::SocketAddr;
 
 use anyhow::Result;
+use firmware::config::Start;
 
 use super::ServeArgs;
 use super::names::{self, Kind};
@@ -38,7 +39,7 @@ fn greeting(scenario: &Scenario, listen: SocketAddr, peers: &[SocketAddr]) -> St
     format!(
         "`{}`{}\n\
          MAVLink goes to {}, and comes in on {listen}.\n\
-         {}{}Type `help` for the commands; `arm`, `takeoff 5`, `land` is a first flight. `quit` or Ctrl-C ends it.\n",
+         {}{}Type `help` for the commands; {}. `quit` or Ctrl-C ends it.\n",
         scenario.name,
         about(&scenario.file.summary),
         addresses.join(" and "),
@@ -48,7 +49,17 @@ fn greeting(scenario: &Scenario, listen: SocketAddr, peers: &[SocketAddr]) -> St
              mavproxy.py --master=udp:127.0.0.1:14550\n"
         ),
         hint(14540, "MAVSDK: udpin://0.0.0.0:14540\n"),
+        first_flight(scenario),
     )
+}
+
+/// What to type first.
+fn first_flight(scenario: &Scenario) -> &'static str {
+    match (scenario.file.start, scenario.file.ground) {
+        (Start::OnGround, _) => "`arm`, `takeoff 5`, `land` is a first flight",
+        (Start::InFlight, true) => "it is in the air already: `goto 5 0 5`, `land`",
+        (Start::InFlight, false) => "it is in the air already, with no ground to land on: `goto 5 0 5`, `hold`",
+    }
 }
 
 fn about(summary: &str) -> String {

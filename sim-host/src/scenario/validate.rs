@@ -126,7 +126,8 @@ fn world(f: &ScenarioFile) -> Result<()> {
         let plant = f.plant == PlantKind::RigidBody;
         ensure!(
             !is_there || plant,
-            "`{key}` is modelled on the plant `rigid-body` alone: leave it out, or set `plant = \"rigid-body\"`"
+            "`{key}` is modelled on the plant `rigid-body` alone: leave it out, or fly a scenario on that plant, as `helix`; on the paper's \
+             plants `disturbance` acts"
         );
     }
     ensure!(
@@ -200,6 +201,12 @@ fn effects(f: &ScenarioFile, airframe: &AirframeFile) -> Result<()> {
         ("battery", f.battery.is_some(), "airframe.battery", airframe.battery.is_some()),
     ] {
         ensure!(!asked || is_there, "`{key}` needs `{needs}`: set it, or leave `{key}` out: --set {key}=false");
+    }
+    for (key, volts) in [("battery_low_v", f.modes.battery_low_v), ("battery_critical_v", f.modes.battery_critical_v)] {
+        if volts > 0.0 && f.battery.is_none() {
+            let refusal = Refusal::new(format!("modes.{key}"), "needs a battery").remedy("add a table `[battery]`");
+            return Err(refusal.into());
+        }
     }
     f.battery.map_or(Ok(()), |battery| within("battery.soc", battery.soc, 0.0, 1.0))
 }

@@ -299,6 +299,18 @@ fn an_axis_by_its_bounds_has_the_keys_of_its_bounds() {
     refuses(&[&bounds(-1.0)], &["`control.x.disturbance` must be above 0, not -1"]);
 }
 
+#[test]
+fn what_a_scenario_lacks_is_named_with_where_it_is() {
+    let folder = Folder::new("lacking");
+    let refuses = |name: &str, setting: &str, parts: &[&str]| folder.refuses(&["run", name, "--set", setting], parts);
+    refuses(
+        "x500-hover",
+        "modes.battery_low_v=14",
+        &["`modes.battery_low_v` needs a battery: add a table `[battery]`"],
+    );
+    refuses("paper-ideal", "wind.mean_m_s=[5,0,0]", &["`wind` is modelled on the plant `rigid-body`", "as `helix`"]);
+}
+
 const SCENARIO: &str = "\
 plant = \"rigid-body\"
 airframe = \"x500\"
