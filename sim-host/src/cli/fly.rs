@@ -130,13 +130,22 @@ fn told(scenario: &Scenario, mut course: Course, outcome: &Outcome) -> Option<To
     Some(Told::new(course, mission))
 }
 
-/// Why a vehicle never flew, if its rotors cannot lift it.
+/// Why a vehicle never flew, if its rotors cannot lift it, or not hold it level.
 fn too_heavy(scenario: &Scenario, outcome: &Outcome) -> Option<String> {
     let [thrust_n, weight_n] = scenario.thrust_and_weight_n();
     let ratio = thrust_n / weight_n;
-    (outcome.end == End::NeverFlew && ratio < 1.0).then(|| {
-        format!("its rotors give at most {thrust_n:.1} N and it weighs {weight_n:.1} N: thrust-to-weight {ratio:.2}")
-    })
+    if outcome.end != End::NeverFlew {
+        return None;
+    }
+    if ratio < 1.0 {
+        let text = format!("its rotors give at most {thrust_n:.1} N and it weighs {weight_n:.1} N");
+        return Some(format!("{text}: thrust-to-weight {ratio:.2}"));
+    }
+    // Squared speeds that carry the weight without turning it.
+    let squares = scenario.constants().geometry.try_inverse()?.column(0) * weight_n;
+    let most = scenario.airframe.omega_max().powi(2);
+    let rotor = squares.iter().position(|square| !(0.0..=most).contains(square))?;
+    Some(format!("its rotors cannot hold it level: rotor {} (index {rotor}) cannot give its share", rotor + 1))
 }
 
 /// What the vehicle took for a failed rotor, if none has failed.

@@ -427,3 +427,10 @@ fn an_analysis_of_a_vehicle_that_has_to_trim_itself_says_so() {
     let (_, told) = folder.prints(&["analyse", "x500-hover", "--set", "truth.inertia_factor=1.3"]);
     assert!(!told.contains("note"), "{told}");
 }
+
+#[test]
+fn a_vehicle_that_its_rotors_cannot_hold_level_says_so() {
+    let folder = Folder::new("unlevel");
+    let text = folder.text(&["run", "outdoor-tour", "--set", "airframe.rotors.2.x_m=-0.2", "--set", "duration_s=80"]);
+    assert!(text.contains("its rotors cannot hold it level: rotor "), "{text}");
+}
