@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::controller::Controller;
 use crate::files::beside;
 use crate::refusal::did_you_mean;
-use crate::scenario::{Scenario, is_of_controller, tuning, with_files};
+use crate::scenario::{Scenario, is_of_controller, is_within, tuning, with_files};
 use crate::score::counts_from_s;
 use crate::seeds::Seeds;
 
@@ -163,12 +163,10 @@ impl Matrix {
 
     /// The settings for every scenario that a disturbance replaces by its own, each with the disturbance's name.
     pub fn replaced(&self) -> Vec<(&str, &str)> {
-        let is_below = |key: &str, other: &str| {
-            key.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-        };
         let key = |setting: &str| setting.split('=').next().unwrap_or(setting).trim().to_owned();
-        let by =
-            |setting: &String, entry: &DisturbanceEntry| entry.set.iter().any(|own| is_below(&key(setting), &key(own)));
+        let by = |setting: &String, entry: &DisturbanceEntry| {
+            entry.set.iter().any(|own| is_within(&key(setting), &key(own)))
+        };
         let pairs = self.file.set.iter().flat_map(|set| self.file.disturbances.iter().map(move |entry| (set, entry)));
         pairs.filter(|(set, entry)| by(set, entry)).map(|(set, entry)| (set.as_str(), entry.name.as_str())).collect()
     }

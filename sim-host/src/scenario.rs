@@ -27,7 +27,7 @@ use crate::sensors::{Fault, Home, SuiteFile};
 pub use crate::world::{AttitudeWave, Disturbance, Gust, ScheduledPush, Tumble, Wind};
 pub use load::tuning;
 pub use notes::tuned_for_another;
-pub(crate) use settings::{is_of_controller, value, with_files};
+pub(crate) use settings::{is_of_controller, is_within, value, with_files};
 pub use world::{BatteryStart, Truth, World};
 
 /// Scenarios that come with the binary, in the order in which they are listed.

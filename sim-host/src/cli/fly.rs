@@ -12,6 +12,7 @@ use firmware::guidance::Trajectory;
 use serde::Serialize;
 use toml::{Table, Value};
 
+use crate::failures::Equipment;
 use crate::files::{LARGEST, read_regular};
 use crate::flight;
 use crate::record::Row;
@@ -24,7 +25,6 @@ use crate::report::{
 };
 use crate::scenario::{Group, PlantKind, Scenario};
 use crate::sensors::Fault;
-use crate::sensors::faults::Kind;
 use crate::sil::{End, Outcome};
 
 /// Figures are drawn of flights up to this long, s: beyond it, rows are not kept in memory.
@@ -125,13 +125,13 @@ fn told(scenario: &Scenario, mut course: Course, outcome: &Outcome) -> Option<To
         return None;
     }
     let mission = (commands > 0).then(|| mission::judge(&course, outcome, &scenario.file.command, radius_m(scenario)));
-    let cause = || too_heavy(scenario, outcome).or_else(|| no_rotor_failed(scenario, &course));
+    let cause = || cannot_lift(scenario, outcome).or_else(|| no_rotor_failed(scenario, &course));
     let mission = mission.map(|mission| mission.because(cause()));
     Some(Told::new(course, mission))
 }
 
 /// Why a vehicle never flew, if its rotors cannot lift it, or not hold it level.
-fn too_heavy(scenario: &Scenario, outcome: &Outcome) -> Option<String> {
+fn cannot_lift(scenario: &Scenario, outcome: &Outcome) -> Option<String> {
     let [thrust_n, weight_n] = scenario.thrust_and_weight_n();
     let ratio = thrust_n / weight_n;
     if outcome.end != End::NeverFlew {
@@ -152,8 +152,7 @@ fn too_heavy(scenario: &Scenario, outcome: &Outcome) -> Option<String> {
 fn no_rotor_failed(scenario: &Scenario, course: &Course) -> Option<String> {
     let (at_s, text) = course.response?;
     let rotor = (0..ROTORS).find(|rotor| commander::Event::RotorFailed { rotor: *rotor as u8 }.text() == text)?;
-    let is_one =
-        |fault: &Fault| matches!(fault.kind, Kind::Rotor { index, .. } if index == rotor) && fault.from_s <= at_s;
+    let is_one = |fault: &Fault| Equipment::Rotors(Some(rotor)).has(fault) && fault.from_s <= at_s;
     let has_failed = scenario.file.fault.iter().any(is_one) || scenario.file.truth.rotor_effectiveness[rotor] != 1.0;
     (!has_failed).then(|| mission::no_rotor_failed(rotor))
 }
@@ -161,7 +160,7 @@ fn no_rotor_failed(scenario: &Scenario, course: &Course) -> Option<String> {
 /// What was asked of a flight that it cannot do, if it did not do what was asked.
 fn beyond_reach(scenario: &Scenario, outcome: &Outcome) -> Option<String> {
     match outcome.end {
-        End::NeverFlew => too_heavy(scenario, outcome),
+        End::NeverFlew => cannot_lift(scenario, outcome),
         End::Interrupted => None,
         _ => scenario.beyond_reach(),
     }

@@ -10,6 +10,7 @@ use firmware::signals::{TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
 
 use super::line::Tone;
+use crate::failures::Equipment;
 use crate::outcome::Contact;
 use crate::plant::rigid_body::RigidBody;
 use crate::plant::{Motion, Plant as _};
@@ -17,7 +18,6 @@ use crate::record::{Recorder as _, Row};
 use crate::report::mission::{self, REACHED_BY_GNSS_M};
 use crate::report::timeline::fault_name;
 use crate::sensors::Fault;
-use crate::sensors::faults::Kind;
 use crate::sil::Flight;
 use crate::touchdown::{HARDEST_M_S, Touchdown};
 
@@ -257,8 +257,7 @@ fn touchdown(flight: &Flight<RigidBody>) -> Option<Touchdown> {
 /// Whether a fault has ever acted on a rotor (from 0).
 fn has_failed(flight: &Flight<RigidBody>, rotor: usize) -> bool {
     let now_s = f64::from(flight.next_tick()) * TICK_S_EXACT;
-    let is_of =
-        |fault: &Fault| matches!(fault.kind, Kind::Rotor { index, .. } if index == rotor) && fault.from_s <= now_s;
+    let is_of = |fault: &Fault| Equipment::Rotors(Some(rotor)).has(fault) && fault.from_s <= now_s;
     flight.sensors().is_some_and(|suite| suite.faults().list(0).any(|fault| is_of(&fault)))
 }
 

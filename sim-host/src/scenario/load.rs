@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Error, Result, anyhow, bail};
 use toml::{Table, Value};
 
-use super::settings::{Setting, file_names, get, get_mut};
+use super::settings::{Setting, file_names, get, get_mut, is_within};
 use super::{AIRFRAMES, SCENARIOS, Scenario, ScenarioFile, TUNINGS, default_airframe, trajectory};
 use crate::airframe::AirframeFile;
 use crate::controller::{Controller, TuningFile};
@@ -125,11 +125,6 @@ fn choices(key: &str) -> impl Iterator<Item = (&str, &str)> {
         let is_choice = choice == "trajectory" || choice.ends_with(".reaching");
         is_choice.then(|| (choice, rest.split('.').next().unwrap_or(rest)))
     })
-}
-
-/// Whether a dotted key is another, or below it.
-fn is_within(key: &str, other: &str) -> bool {
-    key.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// The files of a scenario: its own first.

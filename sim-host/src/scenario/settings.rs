@@ -53,6 +53,11 @@ impl<'a> Setting<'a> {
     }
 }
 
+/// Whether a dotted key is another, or below it.
+pub(crate) fn is_within(key: &str, other: &str) -> bool {
+    key.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
 /// Whether a `KEY=VALUE` sets a gain, or the file of gains.
 pub(crate) fn is_of_controller(text: &str) -> bool {
     Setting::parse(text).is_ok_and(|setting| setting.is_of_gains() || setting.split().0 == "tuning")
