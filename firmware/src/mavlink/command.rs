@@ -60,7 +60,7 @@ pub(super) fn carry_out(
         Some(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL) => Some(set_message_interval(message, now, telemetry).into()),
         Some(MavCmd::MAV_CMD_REQUEST_MESSAGE) => Some(request_message(message, input)),
         Some(MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES) => Some(request_capabilities(message)),
-        None => Some(MavResult::MAV_RESULT_UNSUPPORTED.into()),
+        _ => Some(MavResult::MAV_RESULT_UNSUPPORTED.into()),
     }
 }
 
@@ -102,7 +102,7 @@ fn take_off(message: &CommandMessage) -> Request {
 
 /// `None` unless it is a PX4 custom mode, flagged as such, that can be set.
 fn mode_request(message: &CommandMessage) -> Option<Request> {
-    let flags = MavModeFlag::from_bits_truncate(message.param1 as u8);
+    let flags = MavModeFlag::from_bits_truncate(u16::from(message.param1 as u8));
     if flags.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) {
         mode::request(message.param2, message.param3)
     } else {

@@ -187,10 +187,10 @@ fn heartbeat(input: &GroundInput) -> HEARTBEAT_DATA {
     };
     HEARTBEAT_DATA {
         custom_mode: mode::custom_mode(input.mode),
-        mavtype: MavType::MAV_TYPE_QUADROTOR,
-        autopilot: MavAutopilot::MAV_AUTOPILOT_PX4,
-        base_mode: flags | armed,
-        system_status: state,
+        mavtype: MavType::MAV_TYPE_QUADROTOR as u8,
+        autopilot: MavAutopilot::MAV_AUTOPILOT_PX4 as u8,
+        base_mode: (flags | armed).bits() as u8,
+        system_status: state as u8,
         mavlink_version: glissade_dialect::MINOR_MAVLINK_VERSION,
     }
 }

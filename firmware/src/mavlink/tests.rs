@@ -149,7 +149,7 @@ fn the_heartbeat_says_quadrotor_px4_and_whether_it_is_armed() {
         let messages = bench.jobs(100);
         let [MavMessage::HEARTBEAT(heartbeat)] = messages.as_slice() else { panic!("{messages:?}") };
         assert_eq!((heartbeat.mavtype as u8, heartbeat.autopilot as u8), (2, 12));
-        assert_eq!(heartbeat.base_mode.bits() & 0x81, if armed { 0x81 } else { 1 });
+        assert_eq!(heartbeat.base_mode & 0x81, if armed { 0x81 } else { 1 });
         assert_eq!(heartbeat.system_status as u8, if armed { 4 } else { 3 });
         assert_eq!(heartbeat.mavlink_version, 3);
     }
@@ -439,7 +439,7 @@ fn the_whole_autopilot_arms_on_command() {
     assert_eq!(ack.result, MavResult::MAV_RESULT_ACCEPTED);
     assert!(*answered <= 160, "within 60 ms, but at {answered}");
     let last = messages.iter().rev().find_map(|(_, m)| if let MavMessage::HEARTBEAT(m) = m { Some(m) } else { None });
-    assert_eq!(last.expect("sent").base_mode.bits() & 0x80, 0x80);
+    assert_eq!(last.expect("sent").base_mode & 0x80, 0x80);
 }
 
 proptest! {

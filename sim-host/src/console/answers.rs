@@ -85,13 +85,17 @@ fn answer(ack: &COMMAND_ACK_DATA) -> Option<String> {
     }
     let outcome = match ack.result {
         MavResult::MAV_RESULT_UNSUPPORTED => "unsupported",
+        MavResult::MAV_RESULT_COMMAND_LONG_ONLY
+        | MavResult::MAV_RESULT_COMMAND_INT_ONLY
+        | MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME => "unsupported in this form",
+        MavResult::MAV_RESULT_FAILED => "failed",
         MavResult::MAV_RESULT_DENIED => "denied",
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => "refused, too many at once",
         // Of arming and disarming only a kill is accepted without the commander.
         MavResult::MAV_RESULT_ACCEPTED if known == Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => {
             return Some(format!("ground station {}: kill: accepted", ack.target_system));
         }
-        MavResult::MAV_RESULT_ACCEPTED => return None,
+        MavResult::MAV_RESULT_ACCEPTED | MavResult::MAV_RESULT_IN_PROGRESS => return None,
     };
     let name = known.map(|known| format!(" ({})", format!("{known:?}").trim_start_matches("MAV_CMD_")));
     let (station, number, name) = (ack.target_system, ack.command, name.unwrap_or_default());
