@@ -17,7 +17,8 @@ use crate::estimator::status::{Fusion, Status};
 use crate::estimator::{Filter, FilterInput, FilterOutput};
 use crate::failure::{Failures, Injectable};
 use crate::inner::{Inner, InnerOutput};
-use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming, RxBytes, TxBytes};
+use crate::mavlink::port::Ports;
+use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming};
 use crate::navigator::Navigator;
 use crate::outer::{Authority, Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
@@ -87,9 +88,6 @@ pub struct InnerTask<A = SlidingAttitude> {
     replies: Answers,
     /// Failsafe events for the ground's next job.
     events: Events,
-    received: RxBytes,
-    transmit: TxBytes,
-    dropped_bytes: u32,
     timing: Option<LoopTiming>,
     /// Failures that the board can inject, and those it is to inject now.
     injectable: Injectable,
@@ -120,9 +118,6 @@ impl<A: AttitudeLaw> InnerTask<A> {
             commands: Commands::new(),
             replies: Answers::new(),
             events: Events::new(),
-            received: RxBytes::new(),
-            transmit: TxBytes::new(),
-            dropped_bytes: 0,
             timing: None,
             injectable: Injectable::NONE,
             failures: Failures::new(),
@@ -132,11 +127,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
 
     /// One tick: publish, release, control. Must be called once per tick, with `None` for a missing sample.
     #[inline]
-    pub fn tick(&mut self, mail: &mut Mailboxes, sample: Option<&SensorFrame>) -> Released {
+    pub fn tick(&mut self, mail: &mut Mailboxes, ports: &Ports, sample: Option<&SensorFrame>) -> Released {
         let tick = self.tick;
-        self.publish(tick, mail);
+        self.publish(tick, mail, ports);
         self.inner.sense(sample);
-        let released = self.release(tick, mail);
+        let released = self.release(tick, mail, ports);
         let armed = self.is_armed();
         match self.outer.authority {
             Authority::Idle if armed => self.inner.idle(),
@@ -151,7 +146,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
     }
 
     #[inline]
-    fn publish(&mut self, tick: Tick, mail: &mut Mailboxes) {
+    fn publish(&mut self, tick: Tick, mail: &mut Mailboxes, ports: &Ports) {
         if let Some(output) = mail.outer.publish(tick) {
             self.outer = output;
         }
@@ -182,9 +177,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                     self.reply(Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) });
                 }
             }
-            if !output.transmit.is_empty() {
-                self.transmit = output.transmit;
-            }
+            ports.publish();
             if !output.failures.is_empty() {
                 self.failures = output.failures;
             }
@@ -203,7 +196,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
     }
 
     #[inline]
-    fn release(&mut self, tick: Tick, mail: &mut Mailboxes) -> Released {
+    fn release(&mut self, tick: Tick, mail: &mut Mailboxes, ports: &Ports) -> Released {
         let released = Released {
             filter: self.inner.navigator().is_some() && mail.filter.is_due(tick),
             outer: mail.outer.is_due(tick),
@@ -239,6 +232,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             mail.commander.release(tick, input);
         }
         if released.ground {
+            ports.release();
             let overruns = mail.overruns();
             mail.ground.release(tick, self.ground_input(overruns));
         }
@@ -255,7 +249,6 @@ impl<A: AttitudeLaw> InnerTask<A> {
             health: Health {
                 nav_fresh: self.inner.is_nav_fresh(),
                 refused_samples: self.inner.refused_samples(),
-                dropped_bytes: self.dropped_bytes,
                 overruns,
                 timing: self.timing,
             },
@@ -263,7 +256,6 @@ impl<A: AttitudeLaw> InnerTask<A> {
             injectable: self.injectable,
             replies: core::mem::take(&mut self.replies),
             events: core::mem::take(&mut self.events),
-            received: core::mem::take(&mut self.received),
         }
     }
 
@@ -299,27 +291,6 @@ impl<A: AttitudeLaw> InnerTask<A> {
         }
         let command = Command { request, origin: Origin::OnBoard };
         self.commands.push(command).map_err(|command| command.request)
-    }
-
-    /// Bytes from the ground station, for the ground partition's next job. Bytes that do not fit are dropped and
-    /// counted.
-    pub fn receive(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            if self.received.push(*byte).is_err() {
-                self.dropped_bytes = self.dropped_bytes.saturating_add(1);
-            }
-        }
-    }
-
-    /// Bytes for the ground station that were published since the last call.
-    pub fn take_transmit(&mut self) -> TxBytes {
-        core::mem::take(&mut self.transmit)
-    }
-
-    /// True if [`take_transmit`](Self::take_transmit) would return bytes.
-    #[inline]
-    pub fn has_transmit(&self) -> bool {
-        !self.transmit.is_empty()
     }
 
     /// Loop rates measured by the board, for telemetry.
@@ -396,6 +367,8 @@ pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
     pub ground: Ground,
     /// The mailboxes between them.
     pub mail: Mailboxes,
+    /// The links to ground stations, all closed at first.
+    pub ports: Ports,
 }
 
 impl Autopilot {
@@ -428,13 +401,14 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
             commander,
             ground: Ground::default(),
             mail: Mailboxes::new(),
+            ports: Ports::new(),
         })
     }
 
     /// One tick of all partitions, in the order of the schedule: the desktop's executor.
     #[inline]
     pub fn tick(&mut self, sample: Option<&SensorFrame>) -> &InnerOutput {
-        let released = self.inner.tick(&mut self.mail, sample);
+        let released = self.inner.tick(&mut self.mail, &self.ports, sample);
         if released.filter
             && let Some((tick, input)) = self.mail.filter.take()
         {
@@ -453,7 +427,7 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
         if released.ground
             && let Some((tick, input)) = self.mail.ground.take()
         {
-            self.mail.ground.finish(self.ground.step(tick, &input));
+            self.mail.ground.finish(self.ground.step(tick, &input, &self.ports));
         }
         self.inner.inner_output()
     }

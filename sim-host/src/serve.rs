@@ -10,13 +10,12 @@ use std::time::{Duration, Instant};
 use core::ops::RangeInclusive;
 
 use anyhow::ensure;
-use firmware::mavlink::{RX_CAPACITY, TxBytes};
-use firmware::schedule::GROUND;
+use firmware::mavlink::port::Ports;
 use firmware::signals::TICK_S_EXACT;
 
 use crate::console::terminal::Terminal;
 use crate::console::{Control, Line, Session};
-use crate::link::UdpLink;
+use crate::link::UdpLinks;
 use crate::stations::{LOST_AFTER, News};
 
 /// Allowed simulated seconds per second.
@@ -24,9 +23,11 @@ pub const SPEEDS: RangeInclusive<f64> = 0.01..=1000.0;
 
 /// A vehicle in its world.
 pub trait Vehicle {
-    /// One tick of vehicle and world. `received` holds the bytes from the ground station since the last tick; the
-    /// returned bytes are whole messages and are sent as one datagram.
-    fn tick(&mut self, received: &[u8]) -> Option<TxBytes>;
+    /// One tick of vehicle and world.
+    fn tick(&mut self);
+
+    /// Its links: what has arrived is put into them before a tick, and what is to be sent taken from them after it.
+    fn ports(&self) -> &Ports;
 
     /// Executes a typed line. The loop handles the returned control.
     fn enter(&mut self, line: &str) -> Option<Control>;
@@ -39,8 +40,12 @@ pub trait Vehicle {
 }
 
 impl Vehicle for Session {
-    fn tick(&mut self, received: &[u8]) -> Option<TxBytes> {
-        Self::tick(self, received)
+    fn tick(&mut self) {
+        Self::tick(self);
+    }
+
+    fn ports(&self) -> &Ports {
+        Self::ports(self)
     }
 
     fn enter(&mut self, line: &str) -> Option<Control> {
@@ -75,10 +80,6 @@ pub struct Flown {
     pub wall_s: f64,
 }
 
-/// Capacity of the firmware's receive buffer between two of its jobs, spread over the ticks between them.
-const BYTES_PER_TICK: usize = RX_CAPACITY / GROUND.period as usize;
-/// Bytes beyond this wait in the socket.
-const INBOX_MAX: usize = 16 * RX_CAPACITY;
 /// Ticks between two reads of the socket when behind the wall clock.
 const BATCH: u64 = 100;
 /// Pause between two reads of the clock when on time.
@@ -92,7 +93,7 @@ const CATCH_UP_S: f64 = 0.1;
 /// A speed outside of [`SPEEDS`].
 pub fn serve(
     vehicle: &mut impl Vehicle,
-    link: &mut UdpLink,
+    links: &mut UdpLinks,
     terminal: &mut impl Terminal,
     pacing: Pacing,
     stop: impl Fn() -> bool,
@@ -101,12 +102,10 @@ pub fn serve(
     ensure!(SPEEDS.contains(&pacing.speed), "--speed must be between {low} and {high}, not {}", pacing.speed);
     let (start, mut ticks) = (Instant::now(), 0);
     let mut pacer = Pacer::starting(start, pacing.speed);
-    let mut inbox = Vec::new();
     while !stop() {
-        if inbox.len() < INBOX_MAX {
-            link.receive(&mut inbox);
-        }
-        while let Some(news) = link.news() {
+        links.receive();
+        links.forget_silent();
+        while let Some(news) = links.news() {
             vehicle.notice(&news);
         }
         match terminal.next_line().and_then(|line| vehicle.enter(&line)) {
@@ -116,7 +115,9 @@ pub fn serve(
         }
         let due = pacer.due(Instant::now()).min(BATCH);
         for _ in 0..due {
-            tick(vehicle, link, &mut inbox);
+            links.deliver(vehicle.ports());
+            vehicle.tick();
+            links.send(vehicle.ports());
         }
         pacer.done += due;
         ticks += due;
@@ -126,15 +127,6 @@ pub fn serve(
         }
     }
     Ok(Flown { simulated_s: ticks as f64 * TICK_S_EXACT, wall_s: start.elapsed().as_secs_f64() })
-}
-
-fn tick(vehicle: &mut impl Vehicle, link: &mut UdpLink, inbox: &mut Vec<u8>) {
-    let count = inbox.len().min(BYTES_PER_TICK);
-    let sent = vehicle.tick(&inbox[..count]);
-    inbox.drain(..count);
-    if let Some(bytes) = sent.filter(|bytes| !bytes.is_empty()) {
-        link.send(&bytes);
-    }
 }
 
 /// How many ticks simulated time is behind.
@@ -173,25 +165,25 @@ mod tests {
     use super::*;
     use crate::console::Tone;
 
-    /// Sends a datagram every ten ticks, and keeps what it receives; stops itself in the end.
+    /// Counts ticks; stops itself in the end.
     struct Counter<'a> {
         ticks: u64,
         end: u64,
-        received: Vec<u8>,
-        largest: usize,
+        ports: Ports,
         said: Vec<Line>,
         stop: &'a AtomicBool,
     }
 
     impl Vehicle for Counter<'_> {
-        fn tick(&mut self, received: &[u8]) -> Option<TxBytes> {
+        fn tick(&mut self) {
             self.ticks += 1;
-            self.received.extend_from_slice(received);
-            self.largest = self.largest.max(received.len());
             if self.ticks == self.end {
                 self.stop.store(true, Ordering::Relaxed);
             }
-            self.ticks.is_multiple_of(10).then(|| TxBytes::from_slice(b"whole").expect("fits"))
+        }
+
+        fn ports(&self) -> &Ports {
+            &self.ports
         }
 
         fn enter(&mut self, line: &str) -> Option<Control> {
@@ -235,39 +227,25 @@ mod tests {
     }
 
     fn counter(end: u64, stop: &AtomicBool) -> Counter<'_> {
-        Counter { ticks: 0, end, received: Vec::new(), largest: 0, said: Vec::new(), stop }
+        Counter { ticks: 0, end, ports: Ports::new(), said: Vec::new(), stop }
     }
 
-    fn unheard() -> UdpLink {
-        UdpLink::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port")
-    }
-
-    fn fly(speed: f64, end: u64, sent: &[u8]) -> (Duration, u64, Vec<u8>, usize) {
-        let stop = AtomicBool::new(false);
-        let mut vehicle = counter(end, &stop);
-        let local = "127.0.0.1:0".parse().expect("an address");
-        let mut link = UdpLink::bind(local, &[]).expect("a free port");
-        let station = std::net::UdpSocket::bind(local).expect("a free port");
-        station.send_to(sent, link.local_address().expect("bound")).expect("sent");
-        let start = Instant::now();
-        serve(&mut vehicle, &mut link, &mut Script::default(), Pacing { speed }, || stop.load(Ordering::Relaxed))
-            .expect("flies");
-        (start.elapsed(), vehicle.ticks, vehicle.received, vehicle.largest)
+    fn unheard() -> UdpLinks {
+        UdpLinks::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port")
     }
 
     #[test]
     fn a_tenth_of_a_second_takes_no_less() {
-        let (took, ticks, _, _) = fly(1.0, 100, b"");
+        let stop = AtomicBool::new(false);
+        let mut vehicle = counter(100, &stop);
+        let start = Instant::now();
+        serve(&mut vehicle, &mut unheard(), &mut Script::default(), Pacing { speed: 1.0 }, || {
+            stop.load(Ordering::Relaxed)
+        })
+        .expect("flies");
+        let took = start.elapsed();
         assert!(took >= Duration::from_millis(100), "{took:?}");
-        assert!(ticks < 100 + BATCH);
-    }
-
-    #[test]
-    fn everything_received_arrives_once_and_no_faster_than_the_firmware_takes_it() {
-        let sent: Vec<u8> = (0..1500_u32).map(|i| i as u8).collect();
-        let (_, _, received, largest) = fly(10.0, 500, &sent);
-        assert_eq!(received, sent);
-        assert!(largest * GROUND.period as usize <= RX_CAPACITY);
+        assert!(vehicle.ticks < 100 + BATCH);
     }
 
     #[test]

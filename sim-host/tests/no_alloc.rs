@@ -4,6 +4,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use firmware::mavlink::Ground;
+use firmware::mavlink::port::Profile;
 use firmware::schedule::GROUND;
 use sim_host::flight;
 use sim_host::plant::rigid_body::RigidBody;
@@ -62,12 +63,10 @@ fn fly(flight: &mut Flight<RigidBody>, ticks: u32, recorder: &mut impl Recorder)
     let mut sent = 0;
     for tick in 0..ticks {
         if tick % GROUND.period == 0 {
-            flight.autopilot.inner.receive(&noise(tick));
+            flight.autopilot.ports.first().receive(&noise(tick));
         }
         assert!(flight.step(recorder));
-        if flight.autopilot.inner.has_transmit() {
-            sent += flight.autopilot.inner.take_transmit().len();
-        }
+        sent += flight.autopilot.ports.first().take(&mut [0; 2048]).len();
     }
     sent
 }
@@ -78,6 +77,7 @@ fn allocations(scenario: &Scenario, from_ticks: u32) -> (u64, usize) {
     let mut flight = flight::lockstep(scenario, 1, flight::rigid_body(scenario, 1)).expect("can be flown");
     assert!(allocated() > before, "the counter counts");
     flight.autopilot.ground = Ground::default();
+    flight.autopilot.ports.first().open(Profile::Normal);
 
     let mut recorder = ((Metrics::new(), TruthWriter::hash_only()), Scorer::new(scenario));
     fly(&mut flight, from_ticks, &mut recorder);

@@ -10,8 +10,11 @@ mod image {
     use firmware::autopilot::Autopilot;
     use firmware::config::FlightConfig;
     use firmware::estimator::EstimatorSettings;
+    use firmware::mavlink::port::Ports;
     use firmware::sensors::Measurements;
     use firmware::signals::{NavState, SensorFrame};
+
+    static PORTS: Ports = Ports::new();
 
     #[cortex_m_rt::entry]
     fn main() -> ! {
@@ -22,7 +25,7 @@ mod image {
         loop {
             // On ideal state, on sensors, and without a sample.
             for sample in [Some(&motion), Some(&measured), None] {
-                black_box(inner.tick(black_box(&mut mail), black_box(sample)));
+                black_box(inner.tick(black_box(&mut mail), &PORTS, black_box(sample)));
             }
         }
     }

@@ -83,6 +83,8 @@ pub enum Origin {
     OnBoard,
     /// A ground station.
     Station {
+        /// The link on which it came.
+        link: u8,
         /// MAVLink system and component of the sender.
         sender: (u8, u8),
         /// The `MAV_CMD` that it sent.

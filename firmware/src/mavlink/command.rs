@@ -5,13 +5,12 @@
 //! for all of them.
 
 use glissade_dialect::num_traits::FromPrimitive;
-use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavModeFlag, MavResult};
+use glissade_dialect::{MavCmd, MavModeFlag, MavResult};
 
-use super::parser::{CommandMessage, Sender};
+use super::incoming::CommandMessage;
 use super::telemetry::{IntervalError, Report, Telemetry, is_available, report_by_id};
-use super::writer::Writer;
 use super::{GroundInput, GroundOutput, mode};
-use crate::commander::{Command, Commands, Origin, Outcome, Request, TAKE_OFF_HEIGHT_M};
+use crate::commander::{Outcome, Request, TAKE_OFF_HEIGHT_M};
 use crate::failure::{Failure, Failures, Injectable, Manner, Unit};
 use crate::signals::Tick;
 
@@ -19,63 +18,55 @@ use crate::signals::Tick;
 const FORCE: f32 = 21_196.0;
 const FORCE_ARMING: f32 = 2_989.0;
 
-/// Answer to the sender of a command.
+/// What a command leads to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Answer {
-    /// For `COMMAND_ACK`.
-    pub(super) result: MavResult,
-    /// A requested message.
-    pub(super) report: Option<Report>,
+pub(super) enum Effect {
+    /// It is done or refused.
+    Done(MavResult),
+    /// It is accepted, and this message sent once.
+    Report(Report),
+    /// The commander decides.
+    Ask(Request),
 }
 
-impl From<MavResult> for Answer {
+impl From<MavResult> for Effect {
     fn from(result: MavResult) -> Self {
-        Self { result, report: None }
+        Self::Done(result)
     }
 }
 
-/// Executes a command. `None` if it was passed to the commander, which will answer.
+impl From<Option<Request>> for Effect {
+    /// Denied without a request.
+    fn from(request: Option<Request>) -> Self {
+        request.map_or(Self::Done(MavResult::MAV_RESULT_DENIED), Self::Ask)
+    }
+}
+
+/// Carries out a command, or finds out what the commander is to be asked.
 pub(super) fn carry_out(
     message: &CommandMessage,
-    sender: Sender,
     now: Tick,
     input: &GroundInput,
     telemetry: &mut Telemetry,
     output: &mut GroundOutput,
-) -> Option<Answer> {
-    let to_commander = &mut output.commands;
+) -> Effect {
     match MavCmd::from_u16(message.command) {
         Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) if is_kill(message) => {
             output.kill = true;
-            Some(MavResult::MAV_RESULT_ACCEPTED.into())
+            MavResult::MAV_RESULT_ACCEPTED.into()
         }
-        Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => pass_on(arm_request(message), message, sender, to_commander),
-        Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => pass_on(Some(take_off(message)), message, sender, to_commander),
-        Some(MavCmd::MAV_CMD_NAV_LAND) => pass_on(Some(Request::Land), message, sender, to_commander),
-        Some(MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH) => pass_on(Some(Request::Return), message, sender, to_commander),
-        Some(MavCmd::MAV_CMD_DO_SET_MODE) => pass_on(mode_request(message), message, sender, to_commander),
+        Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => arm_request(message).into(),
+        Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => Effect::Ask(take_off(message)),
+        Some(MavCmd::MAV_CMD_NAV_LAND) => Effect::Ask(Request::Land),
+        Some(MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH) => Effect::Ask(Request::Return),
+        Some(MavCmd::MAV_CMD_DO_SET_MODE) => mode_request(message).into(),
         Some(MavCmd::MAV_CMD_INJECT_FAILURE) => {
-            Some(inject(message, &input.injectable, &mut output.failures).map_or_else(Into::into, Into::into))
+            inject(message, &input.injectable, &mut output.failures).map_or_else(Into::into, Into::into)
         }
-        Some(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL) => Some(set_message_interval(message, now, telemetry).into()),
-        Some(MavCmd::MAV_CMD_REQUEST_MESSAGE) => Some(request_message(message, input)),
-        Some(MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES) => Some(request_capabilities(message)),
-        _ => Some(MavResult::MAV_RESULT_UNSUPPORTED.into()),
-    }
-}
-
-/// Passes a request to the commander; denies the command if there is none.
-fn pass_on(
-    request: Option<Request>,
-    message: &CommandMessage,
-    sender: Sender,
-    to_commander: &mut Commands,
-) -> Option<Answer> {
-    let origin = Origin::Station { sender, command: message.command };
-    match request {
-        Some(request) if to_commander.push(Command { request, origin }).is_ok() => None,
-        Some(_) => Some(MavResult::MAV_RESULT_TEMPORARILY_REJECTED.into()),
-        None => Some(MavResult::MAV_RESULT_DENIED.into()),
+        Some(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL) => set_message_interval(message, now, telemetry).into(),
+        Some(MavCmd::MAV_CMD_REQUEST_MESSAGE) => request_message(message, input),
+        Some(MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES) => request_capabilities(message),
+        _ => MavResult::MAV_RESULT_UNSUPPORTED.into(),
     }
 }
 
@@ -102,12 +93,9 @@ fn take_off(message: &CommandMessage) -> Request {
 
 /// `None` unless it is a PX4 custom mode, flagged as such, that can be set.
 fn mode_request(message: &CommandMessage) -> Option<Request> {
-    let flags = MavModeFlag::from_bits_truncate(u16::from(message.param1 as u8));
-    if flags.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED) {
-        mode::request(message.param2, message.param3)
-    } else {
-        None
-    }
+    let flags = MavModeFlag::from_bits_truncate(whole(message.param1)?.into());
+    let custom = flags.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED);
+    custom.then(|| mode::request(message.param2, message.param3)).flatten()
 }
 
 /// Accepts a failure that the board supports, and passes it on. Denied if the board supports none, as PX4 does while
@@ -159,22 +147,16 @@ fn set_message_interval(message: &CommandMessage, now: Tick, telemetry: &mut Tel
     }
 }
 
-fn request_message(message: &CommandMessage, input: &GroundInput) -> Answer {
+fn request_message(message: &CommandMessage, input: &GroundInput) -> Effect {
     match report_by_id(message.param1) {
-        Some(report) if is_available(report, input) => {
-            Answer { result: MavResult::MAV_RESULT_ACCEPTED, report: Some(report) }
-        }
+        Some(report) if is_available(report, input) => Effect::Report(report),
         Some(_) => MavResult::MAV_RESULT_TEMPORARILY_REJECTED.into(),
         None => MavResult::MAV_RESULT_UNSUPPORTED.into(),
     }
 }
 
-fn request_capabilities(message: &CommandMessage) -> Answer {
-    if message.param1 == 1.0 {
-        Answer { result: MavResult::MAV_RESULT_ACCEPTED, report: Some(Report::AutopilotVersion) }
-    } else {
-        MavResult::MAV_RESULT_DENIED.into()
-    }
+fn request_capabilities(message: &CommandMessage) -> Effect {
+    if message.param1 == 1.0 { Effect::Report(Report::AutopilotVersion) } else { MavResult::MAV_RESULT_DENIED.into() }
 }
 
 /// The `MAV_RESULT` of the commander's outcome.
@@ -184,10 +166,4 @@ pub(super) fn result_of(outcome: Outcome) -> MavResult {
         Outcome::TemporarilyRejected(_) => MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
         Outcome::Denied => MavResult::MAV_RESULT_DENIED,
     }
-}
-
-/// Sends an acknowledgement; false if it does not fit.
-pub(super) fn write_ack(command: u16, result: MavResult, to: Sender, out: &mut Writer) -> bool {
-    let (target_system, target_component) = to;
-    out.write(&COMMAND_ACK_DATA { command, result, target_system, target_component, ..COMMAND_ACK_DATA::DEFAULT })
 }

@@ -1,5 +1,8 @@
 //! Modes in PX4's encoding: main mode and sub mode in the third and fourth byte of `custom_mode`.
 
+use glissade_dialect::MavCmd;
+
+use super::incoming::CommandMessage;
 use crate::commander::{Mode, Request, TAKE_OFF_HEIGHT_M};
 
 const AUTO: u8 = 4;
@@ -21,6 +24,14 @@ pub(super) fn custom_mode(mode: Mode) -> u32 {
         Mode::GoTo | Mode::Velocity => (OFFBOARD, 0),
     };
     u32::from(main) << 16 | u32::from(sub) << 24
+}
+
+/// The command that `SET_MODE` stands for: `DO_SET_MODE`, by which it is acknowledged too.
+pub(super) fn as_command(base_mode: u8, custom_mode: u32) -> CommandMessage {
+    let [_, _, main, sub] = custom_mode.to_le_bytes();
+    let command = MavCmd::MAV_CMD_DO_SET_MODE as u16;
+    let [param1, param2, param3] = [base_mode, main, sub].map(f32::from);
+    CommandMessage { command, param1, param2, param3, param7: f32::NAN }
 }
 
 /// The request that corresponds to setting a mode; `None` if it cannot be set.

@@ -16,7 +16,7 @@ const CONTROLLERS: MavSysStatusSensor = MavSysStatusSensor::MAV_SYS_STATUS_SENSO
     .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS);
 
 /// Fills in `SYS_STATUS`.
-pub(super) fn sys_status(input: &GroundInput, bad_checksums: u32) -> SYS_STATUS_DATA {
+pub(super) fn sys_status(input: &GroundInput, errors: u32) -> SYS_STATUS_DATA {
     let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
     let (sensors, healthy) = sensors(input);
     let present = CONTROLLERS | prearm | sensors;
@@ -33,7 +33,7 @@ pub(super) fn sys_status(input: &GroundInput, bad_checksums: u32) -> SYS_STATUS_
         voltage_battery: sample.map_or(u16::MAX, millivolts),
         current_battery: sample.map_or(-1, centiamperes),
         battery_remaining: -1,
-        errors_comm: saturate(input.health.dropped_bytes.saturating_add(bad_checksums)),
+        errors_comm: saturate(errors),
         errors_count1: saturate(input.health.refused_samples),
         errors_count2: outer,
         errors_count3: commander,

@@ -10,6 +10,8 @@ use glissade_dialect::{
     NAMED_VALUE_INT_DATA, SYS_STATUS_DATA,
 };
 
+use super::outbox::TELEMETRY_SHARE;
+use super::port::SENT_CAPACITY;
 use super::writer::{Writer, frame_len};
 use super::{GroundInput, LoopTiming, mode, status};
 use crate::commander::Mode;
@@ -92,12 +94,14 @@ impl Default for Telemetry {
 
 impl Telemetry {
     /// Sends what is due at `now` and fits.
-    pub(super) fn send(&mut self, now: Tick, input: &GroundInput, bad_checksums: u32, out: &mut Writer) {
+    pub(super) fn send(&mut self, now: Tick, input: &GroundInput, errors: u32, out: &mut Writer) {
         for (slot, stream) in self.slots.iter_mut().zip(&STREAMS) {
             if slot.period == 0 || now.wrapping_sub(slot.next) > Tick::MAX / 2 {
                 continue;
             }
-            if write(stream.report, now, input, bad_checksums, out) {
+            // Without a heartbeat the vehicle counts as lost, however much there is to say.
+            out.set_limit(if stream.report == Report::Heartbeat { SENT_CAPACITY } else { TELEMETRY_SHARE });
+            if write(stream.report, now, input, errors, out) {
                 let late = now.wrapping_sub(slot.next);
                 // Keeps the average rate, unless a whole period has been missed.
                 let from = if late < slot.period { slot.next } else { now };
@@ -151,12 +155,12 @@ pub(super) fn is_available(report: Report, input: &GroundInput) -> bool {
 }
 
 /// Appends a report; false, with nothing written, if it does not fit.
-pub(super) fn write(report: Report, now: Tick, input: &GroundInput, bad_checksums: u32, out: &mut Writer) -> bool {
+pub(super) fn write(report: Report, now: Tick, input: &GroundInput, errors: u32, out: &mut Writer) -> bool {
     match report {
         Report::Heartbeat => out.write(&heartbeat(input)),
         Report::Attitude => out.write(&attitude(now, input)),
         Report::LocalPosition => out.write(&local_position(now, input)),
-        Report::SysStatus => out.write(&status::sys_status(input, bad_checksums)),
+        Report::SysStatus => out.write(&status::sys_status(input, errors)),
         // On ideal state there is no estimator, and no message.
         Report::EstimatorStatus => {
             input.estimator.is_none_or(|estimator| out.write(&status::estimator_status(now, &estimator)))

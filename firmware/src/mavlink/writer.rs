@@ -1,8 +1,9 @@
-//! Encodes messages as MAVLink 2 frames, as many as fit into one job.
+//! Encodes messages as MAVLink 2 frames, as many as fit.
 
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MessageData};
 
-use super::{COMPONENT_ID, SYSTEM_ID, TxBytes};
+use super::port::{Ring, SENT_CAPACITY};
+use super::{COMPONENT_ID, Identity};
 
 /// Bytes of an unsigned frame besides its payload.
 const OVERHEAD: usize = 12;
@@ -12,29 +13,29 @@ pub(super) const fn frame_len<D: MessageData>() -> usize {
     D::ENCODED_LEN + OVERHEAD
 }
 
-/// The frames that one job sends.
+/// Writes frames to a link's ring.
 pub(super) struct Writer<'a> {
-    bytes: &'a mut TxBytes,
-    /// Sequence number, counted over all frames.
+    ring: &'a Ring<SENT_CAPACITY>,
+    /// The link's sequence number.
     sequence: &'a mut u8,
+    us: Identity,
     limit: usize,
 }
 
 impl<'a> Writer<'a> {
-    /// Writes to the end of `bytes`, up to its capacity.
-    pub(super) fn new(bytes: &'a mut TxBytes, sequence: &'a mut u8) -> Self {
-        let limit = bytes.capacity();
-        Self { bytes, sequence, limit }
+    /// Writes until the ring is full.
+    pub(super) fn new(ring: &'a Ring<SENT_CAPACITY>, sequence: &'a mut u8, us: Identity) -> Self {
+        Self { ring, sequence, us, limit: SENT_CAPACITY }
     }
 
-    /// Limits the total number of bytes from now on.
+    /// Writes from now on only as long as no more than this many bytes wait to be sent.
     pub(super) fn set_limit(&mut self, limit: usize) {
         self.limit = limit;
     }
 
     /// True if `count` more bytes fit.
     pub(super) fn has_room(&self, count: usize) -> bool {
-        self.bytes.len() + count <= self.limit
+        self.ring.held() + count <= self.limit
     }
 
     /// Appends a frame; false, with nothing written, if its longest form does not fit.
@@ -42,11 +43,13 @@ impl<'a> Writer<'a> {
         if !self.has_room(frame_len::<D>()) {
             return false;
         }
-        let header = MavHeader { system_id: SYSTEM_ID.into(), component_id: COMPONENT_ID, sequence: *self.sequence };
+        let header =
+            MavHeader { system_id: self.us.system.into(), component_id: COMPONENT_ID, sequence: *self.sequence };
         let mut raw = MAVLinkV2MessageRaw::new();
         raw.serialize_message_data(header, message);
-        let written = self.bytes.extend_from_slice(raw.raw_bytes()).is_ok();
-        *self.sequence = self.sequence.wrapping_add(u8::from(written));
-        written
+        // Only whole frames: there is room for the longest form.
+        self.ring.write(raw.raw_bytes());
+        *self.sequence = self.sequence.wrapping_add(1);
+        true
     }
 }

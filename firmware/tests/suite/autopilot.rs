@@ -7,6 +7,7 @@ use firmware::commander::Request;
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
 use firmware::inner::STALE_AFTER;
+use firmware::mavlink::port::Profile;
 use firmware::schedule::{COMMANDER, GROUND, OUTER};
 use firmware::signals::{MotorCommand, NavState, SensorFrame};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -23,7 +24,9 @@ fn in_flight() -> FlightConfig {
 }
 
 fn autopilot(config: &FlightConfig) -> Autopilot {
-    Autopilot::new(config).expect("valid")
+    let autopilot = Autopilot::new(config).expect("valid");
+    autopilot.ports.first().open(Profile::Normal);
+    autopilot
 }
 
 fn at(position: [f32; 3]) -> SensorFrame {
@@ -160,7 +163,7 @@ fn hover_asks_for_the_weight() {
 /// Ticks without the outer partition's jobs being run.
 fn fly_without_outer(pilot: &mut Autopilot, sample: &SensorFrame, ticks: u32) {
     for _ in 0..ticks {
-        pilot.inner.tick(&mut pilot.mail, Some(sample));
+        pilot.inner.tick(&mut pilot.mail, &pilot.ports, Some(sample));
     }
 }
 
@@ -228,7 +231,7 @@ fn a_forced_disarm_stops_the_rotors_at_the_tick_it_is_published() {
         vehicle.tick(Some(&high));
     }
     // Read by the ground's job released at tick 10, published at tick 20.
-    vehicle.inner.receive(&command_arm(false, true));
+    vehicle.ports.first().receive(&command_arm(false, true));
     for tick in GROUND.period..500 {
         let stopped = is_stopped(&vehicle.tick(Some(&high)).motors);
         assert_eq!(stopped, tick >= GROUND.period + GROUND.offset, "tick {tick}");
@@ -240,7 +243,7 @@ fn a_forced_disarm_stops_the_rotors_at_the_tick_it_is_published() {
 fn a_disarm_in_the_air_is_refused_unless_forced() {
     let mut vehicle = autopilot(&in_flight());
     let high = at([0.0, 0.0, 20.0]);
-    vehicle.inner.receive(&command_arm(false, false));
+    vehicle.ports.first().receive(&command_arm(false, false));
     for _ in 0..200 {
         assert!(!is_stopped(&vehicle.tick(Some(&high)).motors));
     }
@@ -252,7 +255,7 @@ fn after_a_forced_disarm_the_vehicle_can_be_armed_again() {
     let mut vehicle = autopilot(&FlightConfig::default());
     let ground = at([0.0; 3]);
     let mut fly = |frame: &[u8]| {
-        vehicle.inner.receive(frame);
+        vehicle.ports.first().receive(frame);
         (0..100).map(|_| is_stopped(&vehicle.tick(Some(&ground)).motors)).last()
     };
     assert_eq!(fly(&[]), Some(true), "disarmed at first");
@@ -290,7 +293,7 @@ fn says_armed(mut frames: &[u8]) -> Option<bool> {
 }
 
 proptest! {
-    /// Forced disarms from two stations, whenever, with as many other commands around them as arrive at once: the rotors
+    /// Forced disarms from two stations on links of their own, whenever, with as many other commands around them as arrive at once: the rotors
     /// stop within two jobs of the ground partition and stay stopped; commander, heartbeat and acknowledgement agree; and
     /// arming works afterwards.
     #[test]
@@ -302,10 +305,14 @@ proptest! {
     ) {
         let mut vehicle = autopilot(&in_flight());
         let high = at([0.0, 0.0, 20.0]);
-        let mut sent = Vec::new();
-        let tick = |vehicle: &mut Autopilot, sent: &mut Vec<u8>| {
+        let link = |station: u8| 255 - usize::from(station);
+        vehicle.ports.get(1).expect("a link").open(Profile::Onboard);
+        let mut sent = [Vec::new(), Vec::new()];
+        let tick = |vehicle: &mut Autopilot, sent: &mut [Vec<u8>; 2]| {
             let stopped = is_stopped(&vehicle.tick(Some(&high)).motors);
-            sent.extend_from_slice(&vehicle.inner.take_transmit());
+            for (sent, port) in sent.iter_mut().zip(&vehicle.ports) {
+                sent.extend_from_slice(port.take(&mut [0; 2048]));
+            }
             stopped
         };
         for _ in 0..offset {
@@ -315,21 +322,24 @@ proptest! {
             let _ = vehicle.inner.request(Request::Hold);
         }
         for _ in 0..before {
-            vehicle.inner.receive(&command_arm_from(253, true, true));
+            vehicle.ports.first().receive(&command_arm_from(253, true, true));
         }
         for station in &stations {
-            vehicle.inner.receive(&command_arm_from(*station, false, true));
+            vehicle.ports.get(link(*station)).expect("a link").receive(&command_arm_from(*station, false, true));
         }
         let latest = GROUND.period + GROUND.offset;
         let stopped: Vec<bool> = (0..1_200).map(|_| tick(&mut vehicle, &mut sent)).collect();
         prop_assert!(stopped[latest as usize - 1..].iter().all(|stopped| *stopped), "{stopped:?}");
         prop_assert!(!vehicle.inner.commander_output().armed, "the commander knows");
-        prop_assert_eq!(says_armed(&sent), Some(false), "so does the heartbeat");
+        for sent in &sent {
+            prop_assert_eq!(says_armed(sent), Some(false), "so does the heartbeat");
+        }
         for station in &stations {
-            let results = acknowledged(&sent, *station);
+            let results = acknowledged(&sent[link(*station)], *station);
+            prop_assert!(acknowledged(&sent[1 - link(*station)], *station).is_empty(), "on its own link alone");
             prop_assert!(!results.is_empty() && results.iter().all(|result| *result == 0), "{results:?}");
         }
-        vehicle.inner.receive(&command_arm(true, true));
+        vehicle.ports.first().receive(&command_arm(true, true));
         let stopped = (0..100).map(|_| tick(&mut vehicle, &mut sent)).last();
         prop_assert_eq!(stopped, Some(false), "armed again");
         prop_assert!(vehicle.inner.commander_output().armed);

@@ -165,11 +165,11 @@ fn jobs(text: &str) -> Result<usize, String> {
 }
 
 fn listen_address(text: &str) -> Result<SocketAddr, String> {
-    link::address(text, link::LISTEN_PORT).map_err(|error| format!("{error:#}"))
+    link::address::parse(text, link::LISTEN_PORT).map_err(|error| format!("{error:#}"))
 }
 
 fn peer_address(text: &str) -> Result<SocketAddr, String> {
-    match link::address(text, link::PEER_PORT) {
+    match link::address::parse(text, link::PEER_PORT) {
         Ok(address) if address.ip().is_unspecified() => {
             Err(format!("the host is missing: use 127.0.0.1:{}", address.port()))
         }

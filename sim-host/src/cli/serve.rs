@@ -11,7 +11,7 @@ use crate::console::Session;
 use crate::console::terminal::Stdio;
 use crate::flight;
 use crate::interrupt::{self, Interrupted};
-use crate::link::UdpLink;
+use crate::link::UdpLinks;
 use crate::scenario::Scenario;
 use crate::serve::{Flown, Pacing, serve};
 
@@ -22,11 +22,11 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     super::note_mismatches(&scenario, &args.settings.set);
     let flight = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;
     let mut session = Session::new(flight);
-    let mut link = UdpLink::bind(args.listen, &args.peers)?;
-    eprint!("{}", greeting(&scenario, link.local_address()?, &args.peers));
+    let mut links = UdpLinks::bind(args.listen, &args.peers)?;
+    eprint!("{}", greeting(&scenario, links.local_address()?, &args.peers));
     interrupt::listen();
     let mut terminal = Stdio::new();
-    let flown = serve(&mut session, &mut link, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
+    let flown = serve(&mut session, &mut links, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
     drop(terminal);
     eprintln!("{}", farewell(&flown));
     if interrupt::requested() { Err(Interrupted.into()) } else { Ok(()) }

@@ -30,11 +30,11 @@ impl Answers {
         self.awaited.push(reply.command.origin);
     }
 
-    /// Tells the answers among the frames of a datagram that the commander has not given: refusals, and kills.
-    pub(super) fn read(&mut self, datagram: &[u8], tell: &mut impl FnMut(String)) {
-        for ack in acknowledgements(datagram) {
+    /// Tells the answers among the frames that are sent on a link that the commander has not given: refusals, and kills.
+    pub(super) fn read(&mut self, link: u8, frames: &[u8], tell: &mut impl FnMut(String)) {
+        for ack in acknowledgements(frames) {
             let sender = (ack.target_system, ack.target_component);
-            let origin = Origin::Station { sender, command: ack.command };
+            let origin = Origin::Station { link, sender, command: ack.command };
             if let Some(place) = self.awaited.iter().position(|awaited| *awaited == origin) {
                 self.awaited.remove(place);
             } else if let Some(text) = answer(&ack).filter(|_| !self.was_told(&ack, origin)) {

@@ -7,7 +7,7 @@ use anyhow::{Result, ensure};
 use firmware::commander::{Mode, Origin, Outcome, Refusal, Reply, Request};
 use firmware::config::ModeSettings;
 use firmware::failure::Manner;
-use firmware::mavlink::TxBytes;
+use firmware::mavlink::port::{Ports, SENT_CAPACITY};
 use firmware::signals::Tick;
 use nalgebra::Vector3;
 
@@ -92,27 +92,33 @@ impl Session {
         self.said.push(Line { t_s: None, tone: Tone::Plain, text });
     }
 
-    /// One tick of vehicle and world. `received` holds the bytes from ground stations since the last tick; the returned
-    /// bytes are sent to them as one datagram.
-    pub fn tick(&mut self, received: &[u8]) -> Option<TxBytes> {
-        self.flight.autopilot.inner.receive(received);
+    /// The vehicle's links.
+    pub fn ports(&self) -> &Ports {
+        &self.flight.autopilot.ports
+    }
+
+    /// One tick of vehicle and world.
+    pub fn tick(&mut self) {
         self.flight.step(&mut ());
         self.take_failures();
         self.watch.step(&self.flight);
         if events::is_due(self.flight.next_tick()) {
             self.look();
         }
-        let vehicle = &mut self.flight.autopilot.inner;
-        let sent = vehicle.has_transmit().then(|| vehicle.take_transmit())?;
-        self.read_answers(&sent);
-        Some(sent)
+        self.read_answers();
     }
 
     /// Reports what the vehicle refuses ground stations without the commander.
-    fn read_answers(&mut self, sent: &[u8]) {
+    fn read_answers(&mut self) {
         let t_s = Some(self.time_s());
-        let Self { answers, said, .. } = self;
-        answers.read(sent, &mut |text| said.push(Line { t_s, tone: Tone::Refused, text }));
+        let Self { answers, said, flight, .. } = self;
+        for (number, port) in (0..).zip(&flight.autopilot.ports) {
+            if port.has_output() {
+                let mut sent = [0; SENT_CAPACITY];
+                let tell = &mut |text| said.push(Line { t_s, tone: Tone::Refused, text });
+                answers.read(number, port.look(&mut sent), tell);
+            }
+        }
     }
 
     /// Applies the failures that were accepted from ground stations.

@@ -2,6 +2,7 @@
 //! against the truth.
 
 use firmware::commander::{Event, Refusal};
+use firmware::mavlink::port::{Profile, SENT_CAPACITY};
 use firmware::signals::TICK_S_EXACT;
 use glissade_dialect::COMMAND_LONG_DATA;
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
@@ -34,6 +35,7 @@ struct Bench {
 impl Bench {
     fn new(name: &str) -> Self {
         let session = Session::new(flight(name, 1));
+        session.ports().first().open(Profile::Normal);
         let before = session.flight().plant().motion();
         Self { session, printed: Vec::new(), seen: 0, touchdowns: Vec::new(), before, has_flown: false }
     }
@@ -48,8 +50,15 @@ impl Bench {
         ground.clearances(&motion.position, &attitude).iter().all(|clearance| *clearance > 0.0)
     }
 
+    /// A tick in which this arrives from a ground station.
+    fn hear(&mut self, bytes: &[u8]) {
+        self.session.ports().first().receive(bytes);
+        self.tick();
+    }
+
     fn tick(&mut self) {
-        self.session.tick(&[]);
+        self.session.tick();
+        self.session.ports().first().take(&mut [0; SENT_CAPACITY]);
         let now = self.motion();
         self.has_flown |= now.position.z > 0.5;
         if self.has_flown && self.in_air(&self.before) && !self.in_air(&now) {
@@ -229,7 +238,7 @@ fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
     bench.until("] ready to arm", 10.0);
     for (command, parameters, told) in [
         // DO_REPOSITION, to offboard (PX4's main mode 6), neither arm nor disarm.
-        (192, [0.0; 3], &["command 192: unsupported"][..]),
+        (192, [0.0; 3], &["command 192 (DO_REPOSITION): unsupported"][..]),
         // The same again, as stations do every other second.
         (192, [0.0; 3], &[]),
         (176, [1.0, 6.0, 0.0], &["command 176 (DO_SET_MODE): denied"]),
@@ -241,7 +250,7 @@ fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
         (22, [0.0; 3], &["take-off to 0 m: denied: a value is out of its range"]),
     ] {
         bench.seen = bench.printed.len();
-        bench.session.tick(&command_long(command, parameters));
+        bench.hear(&command_long(command, parameters));
         bench.fly(0.2);
         let lines: Vec<_> =
             bench.printed[bench.seen..].iter().filter_map(|line| line.split_once("station 255: ")).collect();
@@ -253,7 +262,7 @@ fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
 fn killed_in_the_air_it_falls_and_that_is_told() {
     falls_by(|bench| assert_eq!(text(&bench.enter("kill")), "kill: accepted"));
     falls_by(|bench| {
-        bench.session.tick(&command_long(400, [0.0, 21_196.0, 0.0]));
+        bench.hear(&command_long(400, [0.0, 21_196.0, 0.0]));
         bench.until("ground station 255: kill: accepted", 0.1);
     });
 }
@@ -291,14 +300,14 @@ fn a_rotor_that_works_again_is_flown_after_arming_by_force() {
     let mut bench = Bench::new("field");
     bench.arm_and_climb(3.0);
     // INJECT_FAILURE: motor 2 off, and later well again.
-    bench.session.tick(&command_long(420, [101.0, 1.0, 2.0]));
+    bench.hear(&command_long(420, [101.0, 1.0, 2.0]));
     bench.until("mode: hold → motor-out", 1.0);
     let hold = bench.enter("hold");
     assert_eq!(text(&hold), refusal("hold", Refusal::RotorFailed, ""), "in the air");
     bench.until("] disarmed", 30.0);
     let refused = refusal("arm", Refusal::RotorFailed, "; once it works (`clear`), `arm force`");
     assert_eq!(text(&bench.enter("arm")), refused);
-    bench.session.tick(&command_long(420, [101.0, 0.0, 2.0]));
+    bench.hear(&command_long(420, [101.0, 0.0, 2.0]));
     bench.until("ground station: rotor 2 (index 1) works again", 0.1);
     assert_eq!(text(&bench.enter("arm force")), "arm without checks: accepted");
     assert_eq!(text(&bench.enter("takeoff 2")), "take-off to 2 m: accepted");
@@ -311,7 +320,7 @@ fn what_a_ground_station_says_works_again_does_whoever_broke_it() {
     bench.until("] ready to arm", 10.0);
     bench.enter("fault rotor index=1 effectiveness=0.5");
     bench.enter("fault gnss off");
-    bench.session.tick(&command_long(420, [101.0, 0.0, 2.0]));
+    bench.hear(&command_long(420, [101.0, 0.0, 2.0]));
     bench.until("ground station: rotor 2 (index 1) works again", 0.1);
     let left = bench.enter("faults");
     assert!(left.contains("fault sensor=gnss kind=off"), "{left}");
@@ -416,7 +425,7 @@ fn questions_and_bad_lines_change_no_bit_of_the_flight() {
             session.enter(harmless[tick / 100 % harmless.len()]);
         }
         plain.step(&mut ());
-        session.tick(&[]);
+        session.tick();
         assert_eq!(session.flight().plant().motion(), plain.plant().motion(), "tick {tick}");
     }
     assert!(session.take_lines().len() > 100, "each was answered");

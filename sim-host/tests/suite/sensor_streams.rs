@@ -1,6 +1,7 @@
 //! What each sensor delivers in flight is its own affair: no other sensor, and no other's fault, changes a number of it.
 //! And who listens to the vehicle changes nothing of its flight.
 
+use firmware::mavlink::port::Profile;
 use firmware::schedule::GROUND;
 use firmware::sensors::Measurements;
 use sim_host::flight;
@@ -85,15 +86,16 @@ fn sensors_do_not_know_of_each_other() {
 fn fly(listens: bool) -> ([u64; 2], usize) {
     let mut flight = start(&load("outdoor-hover", &[]));
     let (mut seen, mut heard) = (Fingerprint::default(), 0);
+    if listens {
+        flight.autopilot.ports.first().open(Profile::Normal);
+    }
     for tick in 0..TICKS {
         if listens && tick % GROUND.period == 0 {
             // No message among them.
-            flight.autopilot.inner.receive(&tick.wrapping_mul(0x9e37_79b9).to_le_bytes());
+            flight.autopilot.ports.first().receive(&tick.wrapping_mul(0x9e37_79b9).to_le_bytes());
         }
         assert!(flight.step(&mut seen));
-        if listens && flight.autopilot.inner.has_transmit() {
-            heard += flight.autopilot.inner.take_transmit().len();
-        }
+        heard += flight.autopilot.ports.first().take(&mut [0; 2048]).len();
     }
     (seen.hashes(), heard)
 }

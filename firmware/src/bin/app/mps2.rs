@@ -35,18 +35,13 @@ mod app {
     use firmware::board::{Imu as _, Rotors as _, Start, StartError};
     use firmware::commander::Commander;
     use firmware::estimator::Filter;
-    use firmware::mavlink::{Ground, LoopTiming, TxBytes};
+    use firmware::mavlink::port::{Port, Ports, Profile};
+    use firmware::mavlink::{Ground, LoopTiming};
     use firmware::meter::LoopMeter;
     use firmware::outer::Outer;
     use firmware::signals::TICK_US;
-    use heapless::spsc::{Consumer, Producer, Queue};
 
     use crate::drivers::{self, Diagnostics, Imu, Rotors};
-
-    /// Room for a burst between two ticks: QEMU delivers as fast as the receiving task reads, whatever the baud rate.
-    const RECEIVE_BYTES: usize = 1024;
-    /// Outputs of the ground partition that may wait for the serial line: 150 ms.
-    const TRANSMIT_JOBS: usize = 16;
 
     #[shared]
     struct Shared {
@@ -61,11 +56,13 @@ mod app {
     struct Local {
         top: Top,
         uart_rx: UartRx,
-        received: Producer<'static, u8>,
+        /// The serial port's link, for the tasks that fill and empty it.
+        received: &'static Port,
         filter: Filter,
         outer: Outer,
         commander: Commander,
         ground: Ground,
+        ports: &'static Ports,
         busy_outer: Diagnostics,
         busy_commander: Diagnostics,
         busy_ground: Diagnostics,
@@ -80,16 +77,13 @@ mod app {
         imu: Imu,
         rotors: Rotors,
         flight: InnerTask,
-        received: Consumer<'static, u8>,
-        transmit: Producer<'static, TxBytes>,
+        ports: &'static Ports,
     }
 
-    /// Bytes for the serial port: outputs of the ground partition, the first one possibly partly sent.
+    /// The serial port, and the link whose bytes it sends.
     pub(crate) struct Line {
         uart: UartTx,
-        waiting: Consumer<'static, TxBytes>,
-        current: TxBytes,
-        sent: usize,
+        port: &'static Port,
     }
 
     /// The peripherals, the flight's configuration, and the partitions built for it.
@@ -108,10 +102,7 @@ mod app {
         Ok(Boot { tick, clock, uart, start, autopilot })
     }
 
-    #[init(local = [
-        rx_queue: Queue<u8, RECEIVE_BYTES> = Queue::new(),
-        tx_queue: Queue<TxBytes, TRANSMIT_JOBS> = Queue::new(),
-    ])]
+    #[init(local = [links: Ports = Ports::new()])]
     fn init(cx: init::Context) -> (Shared, Local) {
         let Boot { mut tick, clock, uart, start, autopilot } = match boot() {
             Ok(boot) => boot,
@@ -119,27 +110,29 @@ mod app {
         };
         drivers::answer(Ok(()));
         defmt::info!("glissade {=str} is up", env!("CARGO_PKG_VERSION"));
-        let (received_in, received) = cx.local.rx_queue.split();
-        let (transmit, waiting) = cx.local.tx_queue.split();
+        let ports: &'static Ports = cx.local.links;
+        let port = ports.first();
+        port.open(Profile::Normal);
         let (uart_rx, uart) = uart.start();
         let Start { imu, rotors, diagnostics, .. } = start;
-        let Autopilot { inner: flight, filter, outer, commander, ground, mail } = autopilot;
+        let Autopilot { inner: flight, filter, outer, commander, ground, mail, .. } = autopilot;
         tick.start(TICK_US);
         let meter = LoopMeter::new(COUNTS_PER_US);
         (
             Shared { mail, outer_jobs: 0, timing: None },
             Local {
-                top: Top { tick, clock, meter, imu, rotors, flight, received, transmit },
+                top: Top { tick, clock, meter, imu, rotors, flight, ports },
                 uart_rx,
-                received: received_in,
+                received: port,
                 filter,
                 outer,
                 commander,
                 ground,
+                ports,
                 busy_outer: diagnostics,
                 busy_commander: diagnostics,
                 busy_ground: diagnostics,
-                line: Line { uart, waiting, current: TxBytes::new(), sent: 0 },
+                line: Line { uart, port },
             },
         )
     }
@@ -155,15 +148,16 @@ mod app {
             top.flight.report_timing(timing);
             cx.shared.timing.lock(|shared| *shared = Some(timing));
         }
-        top.take_received();
         if let Some(request) = top.imu.asked() {
             // A full queue drops it, like a ground station's.
             let _ = top.flight.request(request);
         }
         let (released, overruns) =
-            cx.shared.mail.lock(|mail| (top.flight.tick(mail, sample.as_ref()), mail.overruns()));
+            cx.shared.mail.lock(|mail| (top.flight.tick(mail, top.ports, sample.as_ref()), mail.overruns()));
         top.rotors.drive(&top.flight, overruns);
-        top.hand_over_transmit();
+        if top.ports.first().has_output() {
+            rtic::pend(Interrupt::UARTTX0);
+        }
         if released.filter || released.outer {
             rtic::pend(Interrupt::DUALTIMER);
         }
@@ -172,23 +166,6 @@ mod app {
         }
         if released.ground {
             rtic::pend(Interrupt::PORT0);
-        }
-    }
-
-    impl Top {
-        /// Bounded by the queue: the task that fills it cannot run meanwhile.
-        fn take_received(&mut self) {
-            while let Some(byte) = self.received.dequeue() {
-                self.flight.receive(&[byte]);
-            }
-        }
-
-        fn hand_over_transmit(&mut self) {
-            if self.flight.has_transmit() {
-                // If the line is too slow, whole outputs are dropped, never a fraction of a message.
-                let _ = self.transmit.enqueue(self.flight.take_transmit());
-                rtic::pend(Interrupt::UARTTX0);
-            }
         }
     }
 
@@ -201,8 +178,7 @@ mod app {
             let mut byte = [0];
             if uart.read(&mut byte).is_ok() {
                 let [byte] = byte;
-                // MAVLink's checksum detects a lost byte.
-                let _ = received.enqueue(byte);
+                received.receive(&[byte]);
             }
         }
     }
@@ -228,10 +204,10 @@ mod app {
         cx.shared.mail.lock(|mail| mail.commander.finish(output));
     }
 
-    #[task(binds = PORT0, priority = 2, local = [ground, busy_ground], shared = [mail])]
+    #[task(binds = PORT0, priority = 2, local = [ground, ports, busy_ground], shared = [mail])]
     fn ground(mut cx: ground::Context) {
         let Some((tick, input)) = cx.shared.mail.lock(|mail| mail.ground.take()) else { return };
-        let output = cx.local.ground.step(tick, &input);
+        let output = cx.local.ground.step(tick, &input, cx.local.ports);
         cx.local.busy_ground.ground();
         cx.shared.mail.lock(|mail| mail.ground.finish(output));
     }
@@ -240,21 +216,10 @@ mod app {
     fn transmit(cx: transmit::Context) {
         let line = cx.local.line;
         line.uart.acknowledge();
-        while let (Ok(true), Some(byte)) = (line.uart.write_ready(), line.next()) {
-            let _ = line.uart.write(&[byte]);
-        }
-    }
-
-    impl Line {
-        /// The next byte to send.
-        fn next(&mut self) -> Option<u8> {
-            if self.sent >= self.current.len() {
-                self.current = self.waiting.dequeue()?;
-                self.sent = 0;
+        while line.port.has_output() && line.uart.write_ready().unwrap_or(false) {
+            if let Some(byte) = line.port.next_byte() {
+                let _ = line.uart.write(&[byte]);
             }
-            let byte = self.current.get(self.sent).copied();
-            self.sent += 1;
-            byte
         }
     }
 

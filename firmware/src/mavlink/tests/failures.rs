@@ -57,9 +57,7 @@ fn accepted_failures_are_passed_to_the_board_and_nothing_else() {
         ((260.0, 1.0, 0.0), denied, None),
     ] {
         let mut bench = bench(gnss_and_motors());
-        bench.input.received = RxBytes::from_slice(&request(params.0, params.1, params.2)).expect("fits");
-        let output = bench.ground.step(bench.tick, &bench.input);
-        let messages = parse(&output.transmit, &mut bench.sequence);
+        let (output, messages) = bench.output_of(&request(params.0, params.1, params.2));
         let [MavMessage::COMMAND_ACK(ack)] = messages.as_slice() else { panic!("{messages:?}") };
         assert_eq!((ack.command, ack.result), (INJECT_FAILURE, result), "{params:?}");
         assert_eq!(output.failures.first().copied(), failure, "{params:?}");
@@ -87,11 +85,11 @@ fn the_whole_autopilot_passes_a_failure_to_the_board_in_the_tick_of_its_acknowle
     let mut sequence = 0;
     for tick in 0..200 {
         if tick == 100 {
-            autopilot.inner.receive(&request(4.0, 1.0, 0.0));
+            autopilot.ports.first().receive(&request(4.0, 1.0, 0.0));
         }
         autopilot.tick(Some(&sample));
         let failures = autopilot.inner.take_failures();
-        let messages = parse(&autopilot.inner.take_transmit(), &mut sequence);
+        let messages = parse(autopilot.ports.first().take(&mut [0; SENT_CAPACITY]), &mut sequence);
         assert_eq!(failures.len(), count(&messages, 77), "at {tick}");
     }
     assert!(autopilot.inner.take_failures().is_empty());

@@ -29,7 +29,7 @@ fn modes_and_landed_states_are_encoded_as_px4_encodes_them() {
         let heartbeat = messages.iter().find_map(|m| if let MavMessage::HEARTBEAT(m) = m { Some(m) } else { None });
         let heartbeat = heartbeat.expect("sent");
         assert_eq!((heartbeat.custom_mode >> 16 & 0xff, heartbeat.custom_mode >> 24), (main, sub), "{mode:?}");
-        assert_eq!(heartbeat.system_status as u8, state, "{mode:?}");
+        assert_eq!(heartbeat.system_status, state, "{mode:?}");
         let landed =
             messages.iter().rev().find_map(|m| if let MavMessage::EXTENDED_SYS_STATE(m) = m { Some(m) } else { None });
         assert_eq!(landed.expect("sent").landed_state as u8, landed_state, "{mode:?}");

@@ -1,0 +1,148 @@
+//! One link: its parser, what has been asked on it and is still to be done or answered, its telemetry rates and its
+//! sequence numbers. Nothing of it is shared with another link.
+
+use glissade_dialect::MavResult;
+use heapless::Deque;
+
+use super::incoming::{CommandMessage, Incoming, Sender};
+use super::outbox::{Answer, Outbox};
+use super::parser::Parser;
+use super::port::{Port, Profile};
+use super::telemetry::Telemetry;
+use super::writer::Writer;
+use super::{GroundInput, GroundOutput, Identity, command, mode};
+use crate::commander::{Command, Event, Origin, Outcome, Refusal, Reply};
+use crate::signals::{TICK_S, TICK_US, Tick};
+
+/// Commands of a link that wait for the commander.
+const WAITING: usize = 8;
+
+/// Rates that a peer has set are forgotten once nothing has been heard of it for this long, s.
+const SILENT_AFTER_S: f32 = 10.0;
+
+/// What a job of the ground partition knows and passes on.
+pub(super) struct Job<'a> {
+    /// When it was released.
+    pub(super) now: Tick,
+    /// Its snapshot.
+    pub(super) input: &'a GroundInput,
+    /// Who the vehicle is.
+    pub(super) us: Identity,
+    /// Its output.
+    pub(super) output: &'a mut GroundOutput,
+}
+
+/// The state of a link.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Link {
+    /// Which opening of the link this is.
+    session: u32,
+    parser: Parser,
+    pub(super) telemetry: Telemetry,
+    outbox: Outbox,
+    sequence: u8,
+    waiting: Deque<Command, WAITING>,
+    /// When something for this vehicle, or a heartbeat, was last received.
+    heard_at: Option<Tick>,
+}
+
+impl Link {
+    /// Forgets the last peer if there is a new one. The sequence goes on: the new one cannot know where it began.
+    pub(super) fn begin(&mut self, session: u32, _profile: Profile) {
+        if session != self.session {
+            *self = Self { session, sequence: self.sequence, ..Self::default() };
+        }
+    }
+
+    /// Reads and carries out what has been received. `number` is the link's own.
+    pub(super) fn read(&mut self, number: u8, port: &Port, job: &mut Job) {
+        self.parser.begin(port.received());
+        while let Some((sender, message)) = self.parser.next(port.received(), job.us) {
+            self.heard_at = Some(job.now);
+            self.handle(number, sender, message, job);
+        }
+        let silent_after = (SILENT_AFTER_S / TICK_S) as Tick;
+        if self.heard_at.is_some_and(|at| job.now.wrapping_sub(at) > silent_after) {
+            self.heard_at = None;
+            self.telemetry = Telemetry::default();
+        }
+    }
+
+    fn handle(&mut self, number: u8, sender: Sender, message: Incoming, job: &mut Job) {
+        match message {
+            Incoming::Heartbeat { .. } => {}
+            Incoming::Command(command) => self.handle_command(number, sender, &command, job),
+            Incoming::SetMode { base_mode, custom_mode } => {
+                let command = mode::as_command(base_mode, custom_mode);
+                self.handle_command(number, sender, &command, job);
+            }
+            Incoming::Mission { request, mission_type } => {
+                self.outbox.answer(Answer::Mission { request, mission_type, to: sender });
+            }
+            Incoming::File(request) => self.outbox.answer(Answer::File { request, to: sender }),
+            Incoming::Logs => self.outbox.answer(Answer::NoLogs),
+            Incoming::Timesync { ts1 } => {
+                let tc1 = i64::from(job.now) * i64::from(TICK_US) * 1000;
+                self.outbox.answer(Answer::Timesync { tc1, ts1, to: sender });
+            }
+            Incoming::Ping { time_usec, seq } => self.outbox.answer(Answer::Ping { time_usec, seq, to: sender }),
+        }
+    }
+
+    fn handle_command(&mut self, link: u8, sender: Sender, message: &CommandMessage, job: &mut Job) {
+        use command::Effect;
+        let result = match command::carry_out(message, job.now, job.input, &mut self.telemetry, job.output) {
+            Effect::Done(result) => result,
+            Effect::Report(report) => {
+                self.outbox.answer(Answer::Report(report));
+                MavResult::MAV_RESULT_ACCEPTED
+            }
+            Effect::Ask(request) => {
+                let origin = Origin::Station { link, sender, command: message.command };
+                match self.waiting.push_back(Command { request, origin }) {
+                    // The commander will answer.
+                    Ok(()) => return,
+                    Err(command) => {
+                        self.outbox.answer(Answer::Refusal(command.request, Refusal::Busy));
+                        MavResult::MAV_RESULT_TEMPORARILY_REJECTED
+                    }
+                }
+            }
+        };
+        self.outbox.acknowledge(message.command, result, sender);
+    }
+
+    /// The next command for the commander.
+    pub(super) fn next_command(&mut self) -> Option<Command> {
+        self.waiting.pop_front()
+    }
+
+    /// Refuses what is still waiting for the commander: a kill came after it.
+    pub(super) fn refuse_waiting(&mut self) {
+        while let Some(command) = self.waiting.pop_front() {
+            self.reply(&Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) });
+        }
+    }
+
+    /// Passes on a reply of the commander.
+    pub(super) fn reply(&mut self, reply: &Reply) {
+        let Origin::Station { sender, command, .. } = reply.command.origin else { return };
+        self.outbox.acknowledge(command, command::result_of(reply.outcome), sender);
+        if let Outcome::TemporarilyRejected(refusal) = reply.outcome {
+            self.outbox.answer(Answer::Refusal(reply.command.request, refusal));
+        }
+    }
+
+    /// Tells the pilot of a failure.
+    pub(super) fn report(&mut self, event: Event) {
+        self.outbox.report(event);
+    }
+
+    /// Writes what is to be said and fits: failures, acknowledgements, answers, telemetry.
+    pub(super) fn write(&mut self, now: Tick, input: &GroundInput, us: Identity, port: &Port) {
+        let errors = self.parser.bad_checksums().saturating_add(port.received().lost());
+        let mut out = Writer::new(port.sent(), &mut self.sequence, us);
+        self.outbox.send(now, input, errors, &mut out);
+        self.telemetry.send(now, input, errors, &mut out);
+    }
+}

@@ -1,0 +1,368 @@
+//! The bytes between a link's driver and the ground partition: two rings a link, each with one writer and one reader,
+//! and a gate between them.
+//!
+//! ```text
+//! driver ── received ──┤gate├──► ground partition ── sent ──┤gate├──► driver
+//! ```
+//!
+//! The inner task moves the gates: that of `received` when the ground partition is released, that of `sent` when its
+//! output is published. So what a job reads, and when its bytes leave, depends on ticks alone, whenever the bytes came
+//! and however long the job took; and no byte passes through the tick's interrupt.
+//!
+//! Positions are counted in bytes since boot, wrapping. Each is stored by one side only, after the bytes that it covers,
+//! so the rings need no lock.
+
+use core::sync::atomic::{AtomicU8, AtomicU32, Ordering};
+
+/// Links that can be open at the same time.
+pub const LINKS: usize = 4;
+/// Received bytes that can wait: 20 ms of a line of 1 Mbit/s.
+pub const RECEIVED_CAPACITY: usize = 2048;
+/// Bytes to send that can wait.
+pub const SENT_CAPACITY: usize = 2048;
+
+/// Bytes from one writer to one reader, who sees them once the gate has been moved past them.
+#[derive(Debug)]
+pub struct Ring<const N: usize> {
+    bytes: [AtomicU8; N],
+    /// Stored by the writer.
+    written: AtomicU32,
+    /// Stored by who moves the gate.
+    gate: AtomicU32,
+    /// Stored by the reader.
+    read: AtomicU32,
+    /// Bytes that did not fit, since boot; stored by the writer.
+    lost: AtomicU32,
+}
+
+impl<const N: usize> Ring<N> {
+    const fn new() -> Self {
+        // Positions wrap at 2³², so the slots of neighbouring positions are neighbours only if N divides it.
+        const { assert!(N.is_power_of_two()) };
+        Self {
+            bytes: [const { AtomicU8::new(0) }; N],
+            written: AtomicU32::new(0),
+            gate: AtomicU32::new(0),
+            read: AtomicU32::new(0),
+            lost: AtomicU32::new(0),
+        }
+    }
+
+    fn slot(&self, position: u32) -> Option<&AtomicU8> {
+        self.bytes.get(position as usize % N)
+    }
+
+    /// Free space; for the writer.
+    pub fn room(&self) -> usize {
+        N.saturating_sub(self.held())
+    }
+
+    /// Bytes written and not read yet.
+    pub fn held(&self) -> usize {
+        self.written.load(Ordering::Relaxed).wrapping_sub(self.read.load(Ordering::Acquire)) as usize
+    }
+
+    /// Writes what fits; the rest is lost, and counted. Returns how many bytes were written.
+    pub fn write(&self, bytes: &[u8]) -> usize {
+        let (fits, rest) = bytes.split_at(bytes.len().min(self.room()));
+        let mut position = self.written.load(Ordering::Relaxed);
+        for byte in fits {
+            if let Some(slot) = self.slot(position) {
+                slot.store(*byte, Ordering::Relaxed);
+            }
+            position = position.wrapping_add(1);
+        }
+        self.written.store(position, Ordering::Release);
+        if !rest.is_empty() {
+            self.lose(rest.len() as u32);
+        }
+        fits.len()
+    }
+
+    /// Counts bytes that were lost before they reached this ring; for the writer.
+    pub fn lose(&self, count: u32) {
+        self.lost.store(self.lost().saturating_add(count), Ordering::Relaxed);
+    }
+
+    /// Bytes lost since boot.
+    pub fn lost(&self) -> u32 {
+        self.lost.load(Ordering::Relaxed)
+    }
+
+    /// Lets the reader see all that has been written.
+    pub fn open_gate(&self) {
+        self.gate.store(self.written.load(Ordering::Acquire), Ordering::Release);
+    }
+
+    /// Bytes that can be read now; for the reader.
+    pub fn readable(&self) -> usize {
+        self.gate.load(Ordering::Acquire).wrapping_sub(self.read.load(Ordering::Relaxed)) as usize
+    }
+
+    /// The byte at a distance from the next one to be read, which stays; for the reader.
+    pub fn peek(&self, distance: usize) -> Option<u8> {
+        if distance >= self.readable() {
+            return None;
+        }
+        let position = self.read.load(Ordering::Relaxed).wrapping_add(distance as u32);
+        Some(self.slot(position)?.load(Ordering::Relaxed))
+    }
+
+    /// Copies the next bytes, which stay, as many as there are and as fit; for the reader.
+    pub fn copy<'a>(&self, into: &'a mut [u8]) -> &'a [u8] {
+        let count = into.len().min(self.readable());
+        let (into, _) = into.split_at_mut(count);
+        let from = self.read.load(Ordering::Relaxed);
+        for (distance, byte) in (0..).zip(into.iter_mut()) {
+            *byte = self.slot(from.wrapping_add(distance)).map_or(0, |slot| slot.load(Ordering::Relaxed));
+        }
+        into
+    }
+
+    /// Passes over the next bytes; for the reader.
+    pub fn skip(&self, count: usize) {
+        let count = count.min(self.readable()) as u32;
+        self.read.store(self.read.load(Ordering::Relaxed).wrapping_add(count), Ordering::Release);
+    }
+}
+
+impl<const N: usize> Clone for Ring<N> {
+    fn clone(&self) -> Self {
+        let ring = Self::new();
+        for (to, from) in ring.bytes.iter().zip(&self.bytes) {
+            to.store(from.load(Ordering::Relaxed), Ordering::Relaxed);
+        }
+        for (to, from) in [
+            (&ring.written, &self.written),
+            (&ring.gate, &self.gate),
+            (&ring.read, &self.read),
+            (&ring.lost, &self.lost),
+        ] {
+            to.store(from.load(Ordering::Relaxed), Ordering::Relaxed);
+        }
+        ring
+    }
+}
+
+/// What a link is for, which decides how much is sent on it by default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Profile {
+    /// A ground station, perhaps by radio.
+    Normal,
+    /// A computer on board or a program by a fast line.
+    Onboard,
+}
+
+/// One link.
+#[derive(Debug)]
+pub struct Port {
+    /// From the link to the ground partition.
+    received: Ring<RECEIVED_CAPACITY>,
+    /// From the ground partition to the link.
+    sent: Ring<SENT_CAPACITY>,
+    /// 0 while the link is closed; else bit 0 is 1, bit 1 the profile, and the rest counts how often it was opened.
+    session: AtomicU32,
+    /// The same, as seen by the ground partition.
+    seen: AtomicU32,
+}
+
+impl Port {
+    const fn new() -> Self {
+        Self { received: Ring::new(), sent: Ring::new(), session: AtomicU32::new(0), seen: AtomicU32::new(0) }
+    }
+
+    /// Opens the link for a new peer: what the last one had asked for is forgotten.
+    pub fn open(&self, profile: Profile) {
+        let count = (self.session.load(Ordering::Relaxed) >> 2).wrapping_add(1);
+        let onboard = u32::from(profile == Profile::Onboard);
+        self.sent.skip(SENT_CAPACITY);
+        self.session.store(count << 2 | onboard << 1 | 1, Ordering::Relaxed);
+    }
+
+    /// Closes the link: nothing is read from it, and nothing sent.
+    pub fn close(&self) {
+        self.session.store(self.session.load(Ordering::Relaxed) & !1, Ordering::Relaxed);
+    }
+
+    /// Whether the link is open.
+    pub fn is_open(&self) -> bool {
+        self.session.load(Ordering::Relaxed) & 1 == 1
+    }
+
+    /// The driver's side: bytes that have arrived. What does not fit is lost, and counted.
+    pub fn receive(&self, bytes: &[u8]) -> usize {
+        self.received.write(bytes)
+    }
+
+    /// The driver's side: space for bytes that arrive.
+    pub fn room(&self) -> usize {
+        self.received.room()
+    }
+
+    /// The driver's side: counts bytes that were lost before they got here.
+    pub fn lose(&self, count: u32) {
+        self.received.lose(count);
+    }
+
+    /// The driver's side: the next byte to send.
+    pub fn next_byte(&self) -> Option<u8> {
+        let byte = self.sent.peek(0)?;
+        self.sent.skip(1);
+        Some(byte)
+    }
+
+    /// The driver's side: takes bytes to send, as many as there are and as fit. They are whole frames unless `into` is
+    /// too short.
+    pub fn take<'a>(&self, into: &'a mut [u8]) -> &'a [u8] {
+        let bytes = self.sent.copy(into);
+        self.sent.skip(bytes.len());
+        bytes
+    }
+
+    /// The driver's side: the bytes to send, which stay.
+    pub fn look<'a>(&self, into: &'a mut [u8]) -> &'a [u8] {
+        self.sent.copy(into)
+    }
+
+    /// The driver's side: whether there are bytes to send.
+    pub fn has_output(&self) -> bool {
+        self.sent.readable() > 0
+    }
+
+    /// Which opening of the link the ground partition has to do with: its count and profile; `None` while it is closed.
+    pub(super) fn session(&self) -> Option<(u32, Profile)> {
+        let seen = self.seen.load(Ordering::Relaxed);
+        let profile = if seen & 2 == 0 { Profile::Normal } else { Profile::Onboard };
+        (seen & 1 == 1).then_some((seen >> 2, profile))
+    }
+
+    /// The ground partition's side: what has arrived.
+    pub fn received(&self) -> &Ring<RECEIVED_CAPACITY> {
+        &self.received
+    }
+
+    /// The ground partition's side: what is to be sent.
+    pub fn sent(&self) -> &Ring<SENT_CAPACITY> {
+        &self.sent
+    }
+}
+
+impl Clone for Port {
+    fn clone(&self) -> Self {
+        let copy = |from: &AtomicU32| AtomicU32::new(from.load(Ordering::Relaxed));
+        Self {
+            received: self.received.clone(),
+            sent: self.sent.clone(),
+            session: copy(&self.session),
+            seen: copy(&self.seen),
+        }
+    }
+}
+
+/// All links.
+#[derive(Clone, Debug)]
+pub struct Ports([Port; LINKS]);
+
+impl Ports {
+    /// All of them closed.
+    #[expect(clippy::large_stack_arrays, reason = "a constant, which a board puts into a static")]
+    pub const fn new() -> Self {
+        Self([const { Port::new() }; LINKS])
+    }
+
+    /// The link with this number.
+    pub fn get(&self, number: usize) -> Option<&Port> {
+        self.0.get(number)
+    }
+
+    /// All links, by number.
+    pub fn iter(&self) -> core::slice::Iter<'_, Port> {
+        self.0.iter()
+    }
+
+    /// The first link: a board's serial port, or the first ground station of the simulator.
+    pub fn first(&self) -> &Port {
+        let [first, ..] = &self.0;
+        first
+    }
+
+    /// At the release of the ground partition: shows it what has arrived.
+    pub fn release(&self) {
+        for port in self {
+            port.received.open_gate();
+            port.seen.store(port.session.load(Ordering::Relaxed), Ordering::Relaxed);
+        }
+    }
+
+    /// When the ground partition's output is published: lets its bytes leave.
+    pub fn publish(&self) {
+        for port in self {
+            port.sent.open_gate();
+        }
+    }
+}
+
+impl Default for Ports {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<'a> IntoIterator for &'a Ports {
+    type Item = &'a Port;
+    type IntoIter = core::slice::Iter<'a, Port>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_pass_in_order_once_the_gate_has_moved() {
+        let ring: Ring<8> = Ring::new();
+        assert_eq!(ring.write(b"abc"), 3);
+        assert_eq!((ring.readable(), ring.peek(0)), (0, None));
+        ring.open_gate();
+        ring.write(b"d");
+        let mut into = [0; 8];
+        assert_eq!(ring.copy(&mut into), b"abc");
+        ring.skip(2);
+        assert_eq!((ring.peek(0), ring.peek(1)), (Some(b'c'), None));
+        ring.open_gate();
+        assert_eq!(ring.copy(&mut into), b"cd");
+        ring.skip(100);
+        assert_eq!((ring.readable(), ring.room()), (0, 8));
+    }
+
+    #[test]
+    fn what_does_not_fit_is_counted_and_nothing_is_overwritten() {
+        let ring: Ring<4> = Ring::new();
+        // Long enough for the positions to go round the ring many times.
+        for round in 0..100_u8 {
+            assert_eq!(ring.write(&[round, 1, 2, 3, 4, 5]), 4);
+            ring.open_gate();
+            let mut into = [0; 3];
+            assert_eq!(ring.copy(&mut into), [round, 1, 2]);
+            assert_eq!(ring.peek(3), Some(3));
+            ring.skip(4);
+        }
+        assert_eq!(ring.lost(), 200);
+    }
+
+    #[test]
+    fn a_new_peer_gets_nothing_that_was_for_the_last_one() {
+        let port = Port::new();
+        port.open(Profile::Normal);
+        port.sent.write(b"old");
+        port.sent.open_gate();
+        port.open(Profile::Onboard);
+        assert!(port.is_open() && !port.has_output());
+        assert_eq!(port.session(), None, "not before the next release");
+        port.close();
+        assert!(!port.is_open());
+    }
+}

@@ -1,0 +1,134 @@
+//! The borders of MAVLink frames in datagrams: which frames come whole, and where to cut what is sent.
+
+use std::ops::Range;
+
+use glissade_dialect::MavMessage;
+use glissade_dialect::mavlink_core::{Message as _, calculate_crc, consts};
+
+const HEADER_V1: usize = consts::STX_SIZE + consts::v1::HEADER_SIZE;
+const HEADER_V2: usize = consts::STX_SIZE + consts::v2::MIN_HEADER_SIZE;
+
+/// A whole frame in a datagram.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Where it stands.
+    pub range: Range<usize>,
+    /// The MAVLink system that has sent it.
+    pub system: u8,
+    /// Whether it is known here and its checksum is right.
+    pub valid: bool,
+}
+
+/// The whole frames of a datagram. A frame ends where its datagram ends at the latest: half a one, and bytes that belong to
+/// none, are left out.
+pub fn whole(datagram: &[u8]) -> impl Iterator<Item = Frame> {
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        while at < datagram.len() {
+            let from = at;
+            match length(&datagram[from..]) {
+                Some(length) if from + length <= datagram.len() => {
+                    at += length;
+                    return Some(judge(datagram, from..at));
+                }
+                _ => at += 1,
+            }
+        }
+        None
+    })
+}
+
+/// The length of the frame that begins here, by its header.
+fn length(bytes: &[u8]) -> Option<usize> {
+    let payload = usize::from(*bytes.get(1)?);
+    match bytes[0] {
+        0xfe => Some(HEADER_V1 + payload + consts::CHECKSUM_SIZE),
+        0xfd => {
+            let signed = bytes.get(2)? & consts::v2::IFLAG_SIGNED != 0;
+            let signature = if signed { consts::v2::SIGNATURE_SIZE } else { 0 };
+            Some(HEADER_V2 + payload + consts::CHECKSUM_SIZE + signature)
+        }
+        _ => None,
+    }
+}
+
+fn judge(datagram: &[u8], range: Range<usize>) -> Frame {
+    let bytes = &datagram[range.clone()];
+    let payload = usize::from(bytes[1]);
+    let (header, system, id) = if bytes[0] == 0xfe {
+        (HEADER_V1, bytes[3], u32::from(bytes[5]))
+    } else {
+        (HEADER_V2, bytes[5], u32::from_le_bytes([bytes[7], bytes[8], bytes[9], 0]))
+    };
+    let end = header + payload;
+    let checksum = u16::from_le_bytes([bytes[end], bytes[end + 1]]);
+    let known = MavMessage::default_message_from_id(id).is_some();
+    let valid = known && calculate_crc(&bytes[1..end], MavMessage::extra_crc(id)) == checksum;
+    Frame { range, system, valid }
+}
+
+/// Whole frames cut into pieces of at most `most` bytes, each of whole frames.
+pub fn datagrams(mut frames: &[u8], most: usize) -> impl Iterator<Item = &[u8]> {
+    std::iter::from_fn(move || {
+        let mut end = 0;
+        while let Some(length) = length(&frames[end..]).filter(|length| end + length <= frames.len()) {
+            if end > 0 && end + length > most {
+                break;
+            }
+            end += length;
+        }
+        // What is no frame goes as it is.
+        let (piece, rest) = frames.split_at(if end == 0 { frames.len() } else { end });
+        frames = rest;
+        (!piece.is_empty()).then_some(piece)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use glissade_dialect::HEARTBEAT_DATA;
+    use glissade_dialect::mavlink_core::{MAVLinkV1MessageRaw, MAVLinkV2MessageRaw, MavHeader};
+
+    use super::*;
+
+    const FROM: MavHeader = MavHeader { system_id: 255, component_id: 190, sequence: 0 };
+
+    fn heartbeat() -> Vec<u8> {
+        let mut raw = MAVLinkV2MessageRaw::new();
+        raw.serialize_message_data(FROM, &HEARTBEAT_DATA { mavtype: 6, ..HEARTBEAT_DATA::DEFAULT });
+        raw.raw_bytes().to_vec()
+    }
+
+    #[test]
+    fn frames_of_both_versions_are_found_among_noise_and_half_ones_are_not() {
+        let mut v1 = MAVLinkV1MessageRaw::new();
+        v1.serialize_message_data(FROM, &HEARTBEAT_DATA { mavtype: 6, ..HEARTBEAT_DATA::DEFAULT });
+        let (one, two) = (heartbeat(), v1.raw_bytes());
+        let datagram = [b"noise", &one[..], two, &one[..10]].concat();
+        let found: Vec<Frame> = whole(&datagram).collect();
+        let end = 5 + one.len() + two.len();
+        assert_eq!(
+            found,
+            [
+                Frame { range: 5..5 + one.len(), system: 255, valid: true },
+                Frame { range: 5 + one.len()..end, system: 255, valid: true },
+            ]
+        );
+    }
+
+    #[test]
+    fn a_damaged_frame_is_not_valid() {
+        let mut frame = heartbeat();
+        frame[12] ^= 1;
+        assert!(whole(&frame).all(|frame| !frame.valid));
+    }
+
+    #[test]
+    fn pieces_are_whole_frames() {
+        let one = heartbeat();
+        let many = one.repeat(10);
+        let pieces: Vec<&[u8]> = datagrams(&many, 3 * one.len() + 1).collect();
+        assert_eq!(pieces.iter().map(|piece| piece.len() / one.len()).collect::<Vec<_>>(), [3, 3, 3, 1]);
+        assert_eq!(pieces.concat(), many);
+    }
+}

@@ -1,0 +1,235 @@
+//! The vehicle's links over UDP: each peer has one of its own, bytes in datagrams either way.
+//!
+//! Owns the socket and who has which link: the configured peers for good, and up to [`LINKS`] in all every other address
+//! that a valid frame has come from. A datagram that cannot be sent is dropped, as the network may drop it too.
+
+pub mod address;
+pub mod frames;
+
+use std::io::ErrorKind;
+use std::net::{SocketAddr, UdpSocket};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, bail, ensure};
+use firmware::mavlink::port::{LINKS, Ports, Profile, SENT_CAPACITY};
+
+use self::address::{cannot_listen, elsewhere, is_own};
+use crate::stations::{News, Stations};
+
+/// The default address on which `serve` listens.
+pub const DEFAULT_LISTEN: &str = "127.0.0.1:14580";
+/// The default peers of `serve`: ground stations, and programs that use MAVSDK.
+pub const DEFAULT_PEERS: [&str; 2] = ["127.0.0.1:14550", "127.0.0.1:14540"];
+
+/// The port of each, where an address is given without one.
+pub const LISTEN_PORT: u16 = 14580;
+/// See [`LISTEN_PORT`].
+pub const PEER_PORT: u16 = 14550;
+/// Where programs listen that are meant to run on board: more is sent to them.
+const ONBOARD_PORT: u16 = 14540;
+
+/// A guest that has been silent this long has gone; ground stations send a heartbeat every second.
+const FORGET_AFTER: Duration = Duration::from_secs(10);
+/// A guest that has been silent this long gives way to a new one.
+const YIELD_AFTER: Duration = Duration::from_secs(3);
+/// Datagrams read at one go, so that a flood cannot hold up the flight.
+const BURST: usize = 256;
+/// No datagram is larger.
+const DATAGRAM_MAX: usize = 65_536;
+/// What is sent is cut so that no network has to.
+const SENT_MAX: usize = 1_400;
+/// Bytes of a peer that wait for its link; the rest is lost, and counted.
+const INBOX_MAX: usize = 65_536;
+
+/// Who is at a link.
+#[derive(Clone, Copy, Debug)]
+struct Peer {
+    address: SocketAddr,
+    /// Whether it was not named at the start.
+    guest: bool,
+    heard: Instant,
+    /// Whether the vehicle has been told of it.
+    opened: bool,
+}
+
+/// A link: who is there, and what has come from there.
+#[derive(Debug, Default)]
+struct Slot {
+    peer: Option<Peer>,
+    inbox: Vec<u8>,
+    lost: u32,
+}
+
+/// A UDP socket that never blocks, and its peers.
+#[derive(Debug)]
+pub struct UdpLinks {
+    socket: UdpSocket,
+    slots: [Slot; LINKS],
+    stations: Stations,
+    datagram: Vec<u8>,
+}
+
+impl UdpLinks {
+    /// Listens on an address; what is sent goes to `peers`, and to whoever sends a valid frame.
+    ///
+    /// # Errors
+    /// One line that names the address, and what to do, if it cannot be listened on; more peers than links.
+    pub fn bind(listen: SocketAddr, peers: &[SocketAddr]) -> anyhow::Result<Self> {
+        if let Some(peer) = peers.iter().find(|peer| peer.port() == 0) {
+            bail!("--peer {peer} has no port from 1 to 65535: use {}", SocketAddr::new(peer.ip(), PEER_PORT));
+        }
+        if let Some(peer) = peers.iter().find(|peer| peer.is_ipv4() != listen.is_ipv4()) {
+            bail!("cannot send from {listen} to {peer}: one is IPv4, the other IPv6: give both of one kind");
+        }
+        if let (true, Some(far)) = (listen.ip().is_loopback(), peers.iter().find(|peer| !peer.ip().is_loopback())) {
+            bail!(
+                "cannot send from {listen}, which reaches this machine alone, to {far}: add --listen :{}",
+                listen.port()
+            );
+        }
+        ensure!(peers.len() <= LINKS, "--peer is given {} times, but the vehicle has {LINKS} links", peers.len());
+        let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, peers, &error))?;
+        let own = socket.local_addr().unwrap_or(listen);
+        if let Some(peer) = peers.iter().find(|peer| is_own(own, peer)) {
+            bail!(
+                "--peer {peer} is where the vehicle itself listens: give the ground station's address, as {}",
+                elsewhere(own)
+            );
+        }
+        socket.set_nonblocking(true).with_context(|| format!("cannot use UDP address {listen}"))?;
+        let mut slots: [Slot; LINKS] = Default::default();
+        for (slot, peer) in slots.iter_mut().zip(peers) {
+            slot.peer = Some(Peer { address: *peer, guest: false, heard: Instant::now(), opened: false });
+        }
+        Ok(Self { socket, slots, stations: Stations::default(), datagram: vec![0; DATAGRAM_MAX] })
+    }
+
+    /// The address on which it listens; with the port that was assigned for port 0.
+    ///
+    /// # Errors
+    /// The system's.
+    pub fn local_address(&self) -> anyhow::Result<SocketAddr> {
+        self.socket.local_addr().context("the socket has no address")
+    }
+
+    /// Reads what has arrived, without waiting.
+    pub fn receive(&mut self) {
+        let mut datagram = core::mem::take(&mut self.datagram);
+        for _ in 0..BURST {
+            match self.socket.recv_from(&mut datagram) {
+                Ok((length, from)) => self.take(from, &datagram[..length], Instant::now()),
+                // An earlier datagram found nobody at its port: no news about what has arrived.
+                Err(error) if matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset) => {}
+                Err(_) => break,
+            }
+        }
+        self.datagram = datagram;
+    }
+
+    /// Puts a datagram's whole frames into its sender's inbox. Whoever has sent no valid frame yet is nobody.
+    fn take(&mut self, from: SocketAddr, datagram: &[u8], now: Instant) {
+        let valid = frames::whole(datagram).find(|frame| frame.valid);
+        let Some(slot) = self.slot_of(from, valid.is_some(), now) else { return };
+        let bytes: usize = frames::whole(datagram).map(|frame| frame.range.len()).sum();
+        if slot.inbox.len() + bytes > INBOX_MAX {
+            slot.lost = slot.lost.saturating_add(datagram.len() as u32);
+            return;
+        }
+        frames::whole(datagram).for_each(|frame| slot.inbox.extend_from_slice(&datagram[frame.range]));
+        slot.lost = slot.lost.saturating_add((datagram.len() - bytes) as u32);
+        if let Some(frame) = valid {
+            self.stations.hear(from, frame.system, now);
+        }
+    }
+
+    /// The link of an address; a new one if it has sent a valid frame and there is room.
+    fn slot_of(&mut self, from: SocketAddr, valid: bool, now: Instant) -> Option<&mut Slot> {
+        let known = self.slots.iter().position(|slot| slot.peer.is_some_and(|peer| peer.address == from));
+        let number = match known {
+            Some(number) => number,
+            None if valid => self.place_for_guest(now)?,
+            None => return None,
+        };
+        let slot = self.slots.get_mut(number)?;
+        if known.is_none() {
+            *slot =
+                Slot { peer: Some(Peer { address: from, guest: true, heard: now, opened: false }), ..Slot::default() };
+        }
+        if let Some(peer) = slot.peer.as_mut().filter(|_| valid) {
+            peer.heard = now;
+        }
+        Some(slot)
+    }
+
+    /// A free link, or that of the guest that has been silent for longest.
+    fn place_for_guest(&self, now: Instant) -> Option<usize> {
+        let silent = |slot: &Slot| match slot.peer {
+            None => Some(Duration::MAX),
+            Some(peer) if peer.guest => Some(now.saturating_duration_since(peer.heard)),
+            Some(_) => None,
+        };
+        let places = self.slots.iter().enumerate().filter_map(|(number, slot)| Some((silent(slot)?, number)));
+        // Of several free ones the first.
+        let longest = places.max_by_key(|(silent, number)| (*silent, core::cmp::Reverse(*number)));
+        longest.filter(|(silent, _)| *silent > YIELD_AFTER).map(|(_, number)| number)
+    }
+
+    /// Hands on what has arrived, as much as the vehicle takes, and tells it which links are open.
+    pub fn deliver(&mut self, ports: &Ports) {
+        for (slot, port) in self.slots.iter_mut().zip(ports) {
+            let Some(peer) = &mut slot.peer else {
+                if port.is_open() {
+                    port.close();
+                }
+                continue;
+            };
+            if !peer.opened {
+                peer.opened = true;
+                port.open(if peer.address.port() == ONBOARD_PORT { Profile::Onboard } else { Profile::Normal });
+            }
+            port.lose(core::mem::take(&mut slot.lost));
+            if !slot.inbox.is_empty() {
+                let count = slot.inbox.len().min(port.room());
+                port.receive(&slot.inbox[..count]);
+                slot.inbox.drain(..count);
+            }
+        }
+    }
+
+    /// The next ground station that was heard for the first time or lost, if any.
+    pub fn news(&mut self) -> Option<News> {
+        self.stations.news(Instant::now())
+    }
+
+    /// Sends each link's bytes to its peer. Nobody listening is not an error.
+    pub fn send(&mut self, ports: &Ports) {
+        for (slot, port) in self.slots.iter().zip(ports) {
+            if !port.has_output() {
+                continue;
+            }
+            let mut bytes = [0; SENT_CAPACITY];
+            let bytes = port.take(&mut bytes);
+            if let Some(peer) = slot.peer {
+                frames::datagrams(bytes, SENT_MAX).for_each(|piece| {
+                    let _ = self.socket.send_to(piece, peer.address);
+                });
+            }
+        }
+    }
+
+    /// Forgets guests that have gone.
+    pub fn forget_silent(&mut self) {
+        self.forget_at(Instant::now());
+    }
+
+    fn forget_at(&mut self, now: Instant) {
+        for slot in &mut self.slots {
+            if slot.peer.is_some_and(|peer| peer.guest && now.saturating_duration_since(peer.heard) > FORGET_AFTER) {
+                *slot = Slot::default();
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

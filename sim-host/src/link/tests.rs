@@ -1,0 +1,186 @@
+use glissade_dialect::HEARTBEAT_DATA;
+use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
+
+use super::address::beside;
+use super::*;
+
+fn local() -> SocketAddr {
+    "127.0.0.1:0".parse().expect("an address")
+}
+
+fn station() -> UdpSocket {
+    let socket = UdpSocket::bind(local()).expect("a free port");
+    socket.set_read_timeout(Some(Duration::from_secs(5))).expect("a socket");
+    socket
+}
+
+fn heartbeat(system: u8) -> Vec<u8> {
+    let from = MavHeader { system_id: system.into(), component_id: 190, sequence: 0 };
+    let mut raw = MAVLinkV2MessageRaw::new();
+    raw.serialize_message_data(from, &HEARTBEAT_DATA { mavtype: 6, ..HEARTBEAT_DATA::DEFAULT });
+    raw.raw_bytes().to_vec()
+}
+
+fn hears(station: &UdpSocket) -> Vec<u8> {
+    let mut buffer = [0; 100];
+    let length = station.recv(&mut buffer).expect("something was sent");
+    buffer[..length].to_vec()
+}
+
+/// Links with a vehicle's ports.
+struct Bench {
+    links: UdpLinks,
+    ports: Ports,
+}
+
+impl Bench {
+    fn new(peers: &[SocketAddr]) -> Self {
+        Self { links: UdpLinks::bind(local(), peers).expect("a free port"), ports: Ports::new() }
+    }
+
+    fn address(&self) -> SocketAddr {
+        self.links.local_address().expect("bound")
+    }
+
+    /// What comes in on a link, with what the ground partition would then read.
+    fn receive(&mut self, number: usize) -> Vec<u8> {
+        let port = self.ports.get(number).expect("a link");
+        let start = Instant::now();
+        while port.received().held() == 0 && start.elapsed() < Duration::from_secs(5) {
+            self.links.receive();
+            self.links.deliver(&self.ports);
+        }
+        self.ports.release();
+        let mut bytes = [0; 2048];
+        let bytes = port.received().copy(&mut bytes);
+        port.received().skip(bytes.len());
+        bytes.to_vec()
+    }
+
+    /// What the ground partition would write to every open link.
+    fn say(&mut self, bytes: &[u8]) {
+        self.links.deliver(&self.ports);
+        for port in self.ports.iter().filter(|port| port.is_open()) {
+            port.sent().write(bytes);
+        }
+        self.ports.publish();
+        self.links.send(&self.ports);
+    }
+}
+
+#[test]
+fn peers_hear_without_having_spoken_and_guests_after_a_valid_frame() {
+    let (peer, guest) = (station(), station());
+    let mut bench = Bench::new(&[peer.local_addr().expect("bound")]);
+    bench.say(&heartbeat(1));
+    assert_eq!(hears(&peer), heartbeat(1));
+    // Noise makes nobody a guest.
+    guest.send_to(b"x", bench.address()).expect("sent");
+    guest.send_to(&heartbeat(255), bench.address()).expect("sent");
+    assert_eq!(bench.receive(1), heartbeat(255));
+    bench.say(&heartbeat(2));
+    assert_eq!((hears(&peer), hears(&guest)), (heartbeat(2), heartbeat(2)));
+}
+
+#[test]
+fn each_peer_has_its_own_link_and_half_a_frame_of_one_holds_up_no_other() {
+    let (one, two) = (station(), station());
+    let peers = [&one, &two].map(|station| station.local_addr().expect("bound"));
+    let mut bench = Bench::new(&peers);
+    one.send_to(&heartbeat(1)[..10], bench.address()).expect("sent");
+    two.send_to(&heartbeat(2), bench.address()).expect("sent");
+    assert_eq!(bench.receive(1), heartbeat(2));
+    one.send_to(&heartbeat(1), bench.address()).expect("sent");
+    assert_eq!(bench.receive(0), heartbeat(1), "without the half");
+    assert_eq!(bench.ports.first().received().lost(), 10, "which is counted");
+}
+
+#[test]
+fn a_large_datagram_arrives_whole_as_fast_as_the_vehicle_takes_it() {
+    let one = station();
+    let mut bench = Bench::new(&[one.local_addr().expect("bound")]);
+    let many = heartbeat(255).repeat(400);
+    one.send_to(&many, bench.address()).expect("sent");
+    let mut received = Vec::new();
+    while received.len() < many.len() {
+        let piece = bench.receive(0);
+        assert!(!piece.is_empty());
+        received.extend(piece);
+    }
+    assert_eq!(received, many);
+}
+
+#[test]
+fn a_peer_that_is_not_there_stops_nothing() {
+    let gone = station().local_addr().expect("bound");
+    let peer = station();
+    let mut bench = Bench::new(&[gone, peer.local_addr().expect("bound")]);
+    for _ in 0..3 {
+        bench.say(&heartbeat(1));
+        assert_eq!(hears(&peer), heartbeat(1));
+    }
+    peer.send_to(&heartbeat(255), bench.address()).expect("sent");
+    assert_eq!(bench.receive(1), heartbeat(255));
+}
+
+#[test]
+fn a_busy_address_is_named_with_a_remedy_in_one_line() {
+    let first = UdpLinks::bind(local(), &[]).expect("a free port");
+    let address = first.local_address().expect("bound");
+    let peers = DEFAULT_PEERS.map(|peer| peer.parse().expect("an address"));
+    let error = format!("{:#}", UdpLinks::bind(address, &peers).expect_err("in use"));
+    // Both vehicles are system 1: a ground station that hears both takes them for one.
+    let expected = format!(
+        "{address} is in use (another `sim-host serve`?): stop it, or fly another vehicle for another ground \
+         station with --listen {} --peer 127.0.0.1:14551",
+        beside(address)
+    );
+    assert_eq!(error, expected);
+}
+
+#[test]
+fn nothing_can_be_sent_to_port_0_and_there_are_no_more_peers_than_links() {
+    let error = format!("{:#}", UdpLinks::bind(local(), &[local()]).expect_err("no port"));
+    assert_eq!(error, "--peer 127.0.0.1:0 has no port from 1 to 65535: use 127.0.0.1:14550");
+    let five: Vec<SocketAddr> = (1..=5).map(|port| SocketAddr::from(([127, 0, 0, 1], port))).collect();
+    let error = format!("{:#}", UdpLinks::bind(local(), &five).expect_err("too many"));
+    assert_eq!(error, "--peer is given 5 times, but the vehicle has 4 links");
+}
+
+#[test]
+fn its_own_address_is_no_peer() {
+    let free = station().local_addr().expect("bound").port();
+    for (listen, peer) in [("127.0.0.1", "127.0.0.1"), ("0.0.0.0", "127.0.0.1"), ("0.0.0.0", "127.0.0.2")] {
+        let at = |ip: &str| SocketAddr::new(ip.parse().expect("an address"), free);
+        let error = format!("{:#}", UdpLinks::bind(at(listen), &[at(peer)]).expect_err("its own"));
+        let expected = format!(
+            "--peer {peer}:{free} is where the vehicle itself listens: give the ground station's address, as \
+             127.0.0.1:14550"
+        );
+        assert_eq!(error, expected);
+    }
+}
+
+#[test]
+fn a_silent_guest_gives_way_and_one_that_speaks_stays() {
+    let mut bench = Bench::new(&[]);
+    let start = Instant::now();
+    let at = |seconds: u64| start + Duration::from_secs(seconds);
+    let address = |port: u16| SocketAddr::from(([127, 0, 0, 1], port));
+    let is_guest = |bench: &Bench, port| {
+        bench.links.slots.iter().any(|slot| slot.peer.is_some_and(|peer| peer.address == address(port)))
+    };
+    for port in 1..=4 {
+        bench.links.take(address(port), &heartbeat(255), start);
+    }
+    for port in 2..=4 {
+        bench.links.take(address(port), &heartbeat(255), at(4));
+    }
+    bench.links.take(address(5), &heartbeat(255), at(4));
+    bench.links.take(address(6), &heartbeat(255), at(4));
+    assert_eq!([1, 2, 3, 4, 5, 6].map(|port| is_guest(&bench, port)), [false, true, true, true, true, false]);
+    bench.links.forget_at(at(15));
+    assert!((1..=6).all(|port| !is_guest(&bench, port)));
+    bench.links.deliver(&bench.ports);
+    assert!(bench.ports.iter().all(|port| !port.is_open()));
+}
