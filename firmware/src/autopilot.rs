@@ -6,8 +6,8 @@
 //! are released with a snapshot of their inputs, the inner loop runs, then the released partitions.
 
 use crate::commander::{
-    Answers, Command, Commander, CommanderInput, CommanderOutput, Commands, Events, Origin, Outcome, Refusal, Reply,
-    Request,
+    Answers, Asked, Command, Commander, CommanderInput, CommanderOutput, Commands, Events, Origin, Outcome, Refusal,
+    Reply, Request,
 };
 use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
@@ -190,8 +190,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
         let _ = self.replies.push(reply);
     }
 
-    /// Stops the rotors at once, until the commander has disarmed.
-    fn kill(&mut self) {
+    /// Stops the rotors at once, until the commander has disarmed. It is not replied to.
+    pub fn kill(&mut self) {
         self.kills = self.kills.wrapping_add(1);
     }
 
@@ -280,15 +280,25 @@ impl<A: AttitudeLaw> InnerTask<A> {
         self.commander.armed && self.commander.kills == self.kills
     }
 
-    /// A request of a program on board, for the commander's next job; a kill acts at once, and is not replied to.
+    /// What a pilot asks for: a [`request`](Self::request) or a [`kill`](Self::kill).
     ///
     /// # Errors
     /// The request itself if too many are waiting; never a kill.
-    pub fn request(&mut self, request: Request) -> Result<(), Request> {
-        if request == Request::Kill {
-            self.kill();
-            return Ok(());
+    pub fn ask(&mut self, asked: Asked) -> Result<(), Request> {
+        match asked {
+            Asked::Request(request) => self.request(request),
+            Asked::Kill => {
+                self.kill();
+                Ok(())
+            }
         }
+    }
+
+    /// A request of a program on board, for the commander's next job.
+    ///
+    /// # Errors
+    /// The request itself if too many are waiting.
+    pub fn request(&mut self, request: Request) -> Result<(), Request> {
         let command = Command { request, origin: Origin::OnBoard };
         self.commands.push(command).map_err(|command| command.request)
     }

@@ -17,7 +17,7 @@ mod words;
 use nalgebra::Vector3;
 
 use crate::autopilot::InnerTask;
-use crate::commander;
+use crate::commander::Asked;
 use crate::inner::InnerOutput;
 use crate::sensors::Measurements;
 use crate::signals::{NavState, SensorFrame, Tick};
@@ -44,8 +44,8 @@ pub enum Request {
     Sample(SensorFrame),
     /// Run a tick without a sample.
     Missing,
-    /// Pass this to the commander before the tick, which follows in the next frame. Has no reply.
-    Ask(commander::Request),
+    /// Hand this to the inner task before the tick, which follows in the next frame. Has no reply.
+    Ask(Asked),
     /// Exit.
     Exit,
 }

@@ -17,7 +17,7 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use firmware::autopilot::InnerTask;
-use firmware::commander;
+use firmware::commander::Asked;
 use firmware::config::FlightConfig;
 use firmware::inner::InnerOutput;
 use firmware::pil::{Answer, Cause, Hello, REPLY_BYTES, Reply, Request, State};
@@ -158,11 +158,11 @@ impl Pil {
         self.exchange(&Request::Sample(*sample))
     }
 
-    /// Sends the image a pilot's request, before the next tick.
+    /// Sends the image what a pilot asks for, before the next tick.
     ///
     /// # Errors
     /// In one line, why it could not be sent.
-    pub fn ask(&mut self, asked: commander::Request) -> Result<()> {
+    pub fn ask(&mut self, asked: Asked) -> Result<()> {
         self.qemu.send(&Request::Ask(asked).encode())
     }
 

@@ -14,7 +14,7 @@ use super::{Start, StartError, fault};
 use crate::airframe::ROTORS;
 use crate::autopilot::InnerTask;
 use crate::board::mps2::{FreeRunning, RecordingPwm};
-use crate::commander;
+use crate::commander::Asked;
 use crate::pil::{Answer, BusyWait, Cause, Fault, HELLO_BYTES, Hello, REPLY_BYTES, REQUEST_BYTES, Reply, Request};
 use crate::rotors::PwmRotors;
 use crate::signals::{SensorFrame, Tick};
@@ -28,7 +28,7 @@ static TO_HOST: Mutex<RefCell<Option<File>>> = Mutex::new(RefCell::new(None));
 /// An IMU whose samples come from the host.
 pub struct Imu {
     from_host: File,
-    asked: Option<commander::Request>,
+    asked: Option<Asked>,
 }
 
 impl Imu {
@@ -60,7 +60,7 @@ impl super::Imu for Imu {
         }
     }
 
-    fn asked(&mut self) -> Option<commander::Request> {
+    fn asked(&mut self) -> Option<Asked> {
         self.asked.take()
     }
 }

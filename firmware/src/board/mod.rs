@@ -18,7 +18,7 @@ pub mod mps2;
 pub mod pad;
 
 use crate::autopilot::InnerTask;
-use crate::commander::Request;
+use crate::commander::Asked;
 use crate::config::FlightConfig;
 use crate::signals::SensorFrame;
 use crate::validate::ConfigError;
@@ -30,7 +30,7 @@ pub trait Imu {
     fn sample(&mut self) -> Option<SensorFrame>;
 
     /// A request since the last tick that did not come by MAVLink. Called once per tick, after the sample.
-    fn asked(&mut self) -> Option<Request> {
+    fn asked(&mut self) -> Option<Asked> {
         None
     }
 }

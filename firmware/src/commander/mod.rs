@@ -20,8 +20,8 @@ mod tests;
 
 pub use directive::{Directive, Known, Mode};
 pub use request::{
-    Answers, Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies, Reply,
-    Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
+    Answers, Asked, Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies,
+    Reply, Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
 };
 pub use state::State;
 
@@ -233,10 +233,6 @@ impl Commander {
         let done = match *request {
             Request::Arm { force } => self.arm(force, input),
             Request::Disarm => self.disarm(),
-            Request::Kill => {
-                self.stop();
-                Ok(())
-            }
             _ => self.fly(request, effective, input),
         };
         done.map_or_else(Outcome::TemporarilyRejected, |()| Outcome::Accepted)
@@ -313,7 +309,7 @@ impl Commander {
             Request::Follow => State::Join,
             Request::Land => State::Land,
             Request::Hold => State::Hold,
-            Request::Arm { .. } | Request::Disarm | Request::Kill => self.state,
+            Request::Arm { .. } | Request::Disarm => self.state,
         }
     }
 

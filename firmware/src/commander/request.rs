@@ -24,9 +24,6 @@ pub enum Request {
     },
     /// Disarm, on the ground: the rotors stop.
     Disarm,
-    /// Stop the rotors at once, also in the air. Waits in no queue: [`InnerTask::request`](crate::autopilot::InnerTask::request)
-    /// latches it.
-    Kill,
     /// Climb from the ground, and hold there.
     TakeOff {
         /// Over the ground, m.
@@ -69,10 +66,23 @@ impl Request {
             Self::Velocity { velocity_m_s, yaw_rate_rad_s } => {
                 within(velocity_m_s, FASTEST_M_S) && within(&[*yaw_rate_rad_s], ANGLE)
             }
-            Self::Arm { .. } | Self::Disarm | Self::Kill | Self::Hold | Self::Land | Self::Return | Self::Follow => {
-                true
-            }
+            Self::Arm { .. } | Self::Disarm | Self::Hold | Self::Land | Self::Return | Self::Follow => true,
         }
+    }
+}
+
+/// What a program on board or a scripted pilot asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Asked {
+    /// A request, which waits in a queue for the commander's decision.
+    Request(Request),
+    /// Stop the rotors at once, also in the air. Waits in no queue and needs no decision.
+    Kill,
+}
+
+impl From<Request> for Asked {
+    fn from(request: Request) -> Self {
+        Self::Request(request)
     }
 }
 

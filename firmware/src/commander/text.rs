@@ -28,7 +28,6 @@ impl Request {
         match self {
             Self::Arm { .. } => "Arming",
             Self::Disarm => "Disarming",
-            Self::Kill => "Kill",
             Self::TakeOff { .. } => "Takeoff",
             Self::Hold => "Hold",
             Self::GoTo { .. } => "Go to",
@@ -98,7 +97,6 @@ mod tests {
         let requests = [
             Request::Arm { force: false },
             Request::Disarm,
-            Request::Kill,
             Request::TakeOff { height_m: 0.0 },
             Request::Hold,
             Request::GoTo { position_m: zero, yaw_rad: 0.0 },

@@ -2,6 +2,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use proptest::prelude::*;
 
 use super::*;
+use crate::commander;
 use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, PoseSample};
 use crate::signals::{ControlInput, MotorCommand};
 
@@ -201,16 +202,16 @@ fn a_long_reason_is_truncated() {
 fn a_pilots_request_is_decoded_as_it_was_encoded() {
     let [x, y, z, w] = numbers(-1.5);
     for asked in [
-        commander::Request::Arm { force: true },
-        commander::Request::Disarm,
-        commander::Request::Kill,
-        commander::Request::TakeOff { height_m: 2.5 },
-        commander::Request::Hold,
-        commander::Request::GoTo { position_m: [x, y, z], yaw_rad: w },
-        commander::Request::Velocity { velocity_m_s: [w, z, y], yaw_rate_rad_s: x },
-        commander::Request::Land,
-        commander::Request::Return,
-        commander::Request::Follow,
+        commander::Request::Arm { force: true }.into(),
+        commander::Request::Disarm.into(),
+        commander::Request::TakeOff { height_m: 2.5 }.into(),
+        commander::Request::Hold.into(),
+        commander::Request::GoTo { position_m: [x, y, z], yaw_rad: w }.into(),
+        commander::Request::Velocity { velocity_m_s: [w, z, y], yaw_rate_rad_s: x }.into(),
+        commander::Request::Land.into(),
+        commander::Request::Return.into(),
+        commander::Request::Follow.into(),
+        Asked::Kill,
     ] {
         assert_survives(&Request::Ask(asked));
         assert_eq!(Request::decode(&Request::Ask(asked).encode()), Some(Request::Ask(asked)));

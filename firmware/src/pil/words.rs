@@ -5,7 +5,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
-use crate::commander::Request;
+use crate::commander::{Asked, Request};
 use crate::inner::InnerOutput;
 use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, Measurements, PoseSample};
 use crate::signals::{ControlInput, MotorCommand, NavState, Tick};
@@ -200,20 +200,22 @@ macro_rules! as_words {
 pub(super) use as_words;
 
 /// The kind, and up to four values.
-impl Words for Request {
+impl Words for Asked {
     const WORDS: usize = 5;
 
     fn write(&self, to: &mut Writer) {
         let (kind, numbers) = match *self {
-            Self::Arm { force } => (0, [f32::from(u8::from(force)), 0.0, 0.0, 0.0]),
-            Self::Disarm => (1, [0.0; 4]),
-            Self::TakeOff { height_m } => (2, [height_m, 0.0, 0.0, 0.0]),
-            Self::Hold => (3, [0.0; 4]),
-            Self::GoTo { position_m: [x, y, z], yaw_rad } => (4, [x, y, z, yaw_rad]),
-            Self::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s } => (5, [x, y, z, yaw_rate_rad_s]),
-            Self::Land => (6, [0.0; 4]),
-            Self::Return => (7, [0.0; 4]),
-            Self::Follow => (8, [0.0; 4]),
+            Self::Request(Request::Arm { force }) => (0, [f32::from(u8::from(force)), 0.0, 0.0, 0.0]),
+            Self::Request(Request::Disarm) => (1, [0.0; 4]),
+            Self::Request(Request::TakeOff { height_m }) => (2, [height_m, 0.0, 0.0, 0.0]),
+            Self::Request(Request::Hold) => (3, [0.0; 4]),
+            Self::Request(Request::GoTo { position_m: [x, y, z], yaw_rad }) => (4, [x, y, z, yaw_rad]),
+            Self::Request(Request::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s }) => {
+                (5, [x, y, z, yaw_rate_rad_s])
+            }
+            Self::Request(Request::Land) => (6, [0.0; 4]),
+            Self::Request(Request::Return) => (7, [0.0; 4]),
+            Self::Request(Request::Follow) => (8, [0.0; 4]),
             Self::Kill => (9, [0.0; 4]),
         };
         to.word(kind);
@@ -223,19 +225,19 @@ impl Words for Request {
     fn read(from: &mut Reader) -> Option<Self> {
         let kind = from.word()?;
         let [x, y, z, w] = Words::read(from)?;
-        Some(match kind {
-            0 => Self::Arm { force: x != 0.0 },
-            1 => Self::Disarm,
-            2 => Self::TakeOff { height_m: x },
-            3 => Self::Hold,
-            4 => Self::GoTo { position_m: [x, y, z], yaw_rad: w },
-            5 => Self::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s: w },
-            6 => Self::Land,
-            7 => Self::Return,
-            8 => Self::Follow,
-            9 => Self::Kill,
+        Some(Self::Request(match kind {
+            0 => Request::Arm { force: x != 0.0 },
+            1 => Request::Disarm,
+            2 => Request::TakeOff { height_m: x },
+            3 => Request::Hold,
+            4 => Request::GoTo { position_m: [x, y, z], yaw_rad: w },
+            5 => Request::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s: w },
+            6 => Request::Land,
+            7 => Request::Return,
+            8 => Request::Follow,
+            9 => return Some(Self::Kill),
             _ => return None,
-        })
+        }))
     }
 }
 

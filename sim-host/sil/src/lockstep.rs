@@ -5,7 +5,7 @@
 
 use anyhow::{Context as _, Result, ensure};
 use firmware::autopilot::Autopilot;
-use firmware::commander::Request;
+use firmware::commander::Asked;
 use firmware::control::attitude::SlidingAttitude;
 use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
@@ -258,13 +258,13 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     /// What the pilot asks of the vehicle at this tick, handed over. To be called once a tick, after
     /// [`sense`](Self::sense).
     #[cold]
-    pub fn ask_pilot(&mut self) -> Option<Request> {
+    pub fn ask_pilot(&mut self) -> Option<Asked> {
         let vehicle = &mut self.autopilot.inner;
         let armed = vehicle.commander_output().armed;
-        let request = self.pilot.as_mut()?.step(self.tick, vehicle.nav(), armed)?;
+        let asked = self.pilot.as_mut()?.step(self.tick, vehicle.nav(), armed)?;
         // A full queue drops the request, as a busy vehicle would; the pilot looks again.
-        let _ = vehicle.request(request);
-        Some(request)
+        let _ = vehicle.ask(asked);
+        Some(asked)
     }
 
     /// What a tick shows, with what a firmware has made of its sample.

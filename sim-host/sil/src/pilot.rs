@@ -14,7 +14,7 @@
 //!
 //! Commands are given one after the other. The pilot knows what the vehicle reports, and not the truth.
 
-use firmware::commander::Request;
+use firmware::commander::{Asked, Request};
 use firmware::signals::{NavState, Tick};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -74,11 +74,11 @@ pub struct Command {
 
 impl Order {
     /// What the vehicle is asked.
-    pub fn request(&self) -> Request {
-        match *self {
+    pub fn asked(&self) -> Asked {
+        Asked::Request(match *self {
             Self::Arm => Request::Arm { force: false },
             Self::Disarm => Request::Disarm,
-            Self::Kill => Request::Kill,
+            Self::Kill => return Asked::Kill,
             Self::TakeOff { height_m } => Request::TakeOff { height_m },
             Self::Hold => Request::Hold,
             Self::GoTo { position_m, yaw_deg } => Request::GoTo { position_m, yaw_rad: yaw_deg.to_radians() },
@@ -88,7 +88,7 @@ impl Order {
             Self::Land => Request::Land,
             Self::Return => Request::Return,
             Self::Follow => Request::Follow,
-        }
+        })
     }
 
     /// Interval in ticks at which the order is repeated while it is the last one.
@@ -146,8 +146,8 @@ impl Pilot {
         self.done
     }
 
-    /// The request at a tick, if any. Call once per tick, with the vehicle's own estimate.
-    pub fn step(&mut self, tick: Tick, nav: &NavState, armed: bool) -> Option<Request> {
+    /// What it asks at a tick, if anything. Call once per tick, with the vehicle's own estimate.
+    pub fn step(&mut self, tick: Tick, nav: &NavState, armed: bool) -> Option<Asked> {
         if !tick.is_multiple_of(LOOKS_EVERY) {
             return None;
         }
@@ -186,7 +186,7 @@ impl Pilot {
         in_time && there
     }
 
-    fn give(&mut self, tick: Tick, order: Order, nav: &NavState) -> Request {
+    fn give(&mut self, tick: Tick, order: Order, nav: &NavState) -> Asked {
         self.given_at = tick;
         match order {
             Order::TakeOff { height_m } => self.send(Target::Place(nav.position + Vector3::z() * height_m)),
@@ -194,7 +194,7 @@ impl Pilot {
             Order::Hold => self.send(Target::Stop),
             _ => {}
         }
-        order.request()
+        order.asked()
     }
 
     fn send(&mut self, target: Target) {
@@ -228,19 +228,19 @@ mod tests {
             let climbing =
                 NavState { velocity: Vector3::new(0.0, 0.0, if tick < 9_000 { 1.4 } else { 0.0 }), ..at_height(z) };
             let (armed, nav) = (tick > 2_000, if tick < 2_000 { NavState::at_rest() } else { climbing });
-            if let Some(request) = pilot.step(tick, &nav, armed) {
-                asked.push((tick, request));
+            if let Some(one) = pilot.step(tick, &nav, armed) {
+                asked.push((tick, one));
             }
         }
         let arm = Request::Arm { force: false };
         assert_eq!(
             asked,
             [
-                (1_000, arm),
-                (1_500, arm),
-                (2_000, arm),
-                (2_020, Request::TakeOff { height_m: 10.0 }),
-                (10_000, Request::Land),
+                (1_000, arm.into()),
+                (1_500, arm.into()),
+                (2_000, arm.into()),
+                (2_020, Request::TakeOff { height_m: 10.0 }.into()),
+                (10_000, Request::Land.into()),
             ]
         );
     }

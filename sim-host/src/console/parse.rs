@@ -22,6 +22,8 @@ pub enum Command {
     Status,
     /// Send a request to the commander.
     Request(Request),
+    /// Stop the rotors at once.
+    Kill,
     /// Go to a place (m) with a heading (°); `None` keeps the present value.
     GoTo {
         /// x, y, z, m.
@@ -65,7 +67,7 @@ enum Reads {
     /// There are none.
     Nothing(Command),
     /// `force`, or none.
-    Force(fn(bool) -> Request),
+    Force(fn(bool) -> Command),
     /// By a function of the arguments and the present tick.
     With(fn(&[&str], Tick) -> Result<Command>),
 }
@@ -89,7 +91,7 @@ impl Entry {
     fn read(&self, words: &[&str], now: Tick) -> Result<Command> {
         let read = match &self.reads {
             Reads::Nothing(command) => alone(words).map(|()| command.clone()),
-            Reads::Force(request) => forced(words).map(|force| Command::Request(request(force))),
+            Reads::Force(command) => forced(words).map(command),
             Reads::With(read) => read(words, now),
         };
         read.map_err(|error| match error.downcast::<Misuse>() {
@@ -137,13 +139,13 @@ pub const COMMANDS: &[Entry] = &[
         &["arm"],
         "[force]",
         "let the rotors idle; `force` skips the checks",
-        Reads::Force(|force| Request::Arm { force }),
+        Reads::Force(|force| Command::Request(Request::Arm { force })),
     ),
     Entry::new(
         &["disarm"],
         "[force]",
         "stop the rotors on the ground; `force` also in the air",
-        Reads::Force(|force| if force { Request::Kill } else { Request::Disarm }),
+        Reads::Force(|force| if force { Command::Kill } else { Command::Request(Request::Disarm) }),
     ),
     Entry::new(&["takeoff", "take-off"], "[HEIGHT]", "climb by HEIGHT (m; 2.5) and hold", Reads::With(take_off))
         .with_details("It has to be armed and on the ground; HEIGHT is between 0.3 and 100 m"),
@@ -185,7 +187,7 @@ pub const COMMANDS: &[Entry] = &[
         &["kill", "terminate"],
         "",
         "stop the rotors at once, also in the air",
-        Reads::Nothing(Command::Request(Request::Kill)),
+        Reads::Nothing(Command::Kill),
     ),
     Entry::new(
         &["wind"],

@@ -201,16 +201,15 @@ impl Session {
     }
 
     fn ask(&mut self, request: Request) {
-        let asked = Asked { request, sent: false, quiet: false };
-        if request == Request::Kill {
-            // Overtakes the waiting requests and drops them; it needs no decision.
-            self.asked.retain(|asked| asked.sent);
-            let _ = self.flight.autopilot.inner.request(request);
-            self.say(Tone::Good, "kill: accepted".to_owned());
-        } else {
-            self.asked.push_back(asked);
-            self.send();
-        }
+        self.asked.push_back(Asked { request, sent: false, quiet: false });
+        self.send();
+    }
+
+    /// Stops the rotors. Overtakes the waiting requests and drops them.
+    fn kill(&mut self) {
+        self.asked.retain(|asked| asked.sent);
+        self.flight.autopilot.inner.kill();
+        self.say(Tone::Good, "kill: accepted".to_owned());
     }
 
     /// Executes a line, and answers at once or when the commander has decided. An invalid line only gets an answer.
@@ -231,6 +230,7 @@ impl Session {
             Command::Help(Some(entry)) => self.explain(entry.help()),
             Command::Status => self.say(Tone::Plain, self.status()),
             Command::Request(request) => self.ask(*request),
+            Command::Kill => self.kill(),
             Command::GoTo { place, yaw_deg } => self.ask(self.go_to(*place, *yaw_deg)?),
             Command::Wind => self.say_wind("wind"),
             Command::SetWind(mean) => {
@@ -374,7 +374,6 @@ fn describe(request: &Request) -> String {
         Request::Arm { force: false } => "arm".to_owned(),
         Request::Arm { force: true } => "arm without checks".to_owned(),
         Request::Disarm => "disarm".to_owned(),
-        Request::Kill => "kill".to_owned(),
         Request::TakeOff { height_m } => format!("take-off to {height_m} m"),
         Request::Hold => "hold".to_owned(),
         Request::GoTo { position_m, yaw_rad } => {

@@ -3,7 +3,7 @@
 //! Times are the plant's. Distances are between the true position and the reference; the vehicle's belief decides
 //! nothing here but the names of the phases, which are the commander's modes.
 
-use firmware::commander::{CommanderOutput, Mode, Outcome, Reply};
+use firmware::commander::{Asked, CommanderOutput, Mode, Outcome, Reply};
 use serde::Serialize;
 
 use super::measures::Size;
@@ -245,7 +245,7 @@ impl TimelineRecorder {
     /// What the vehicle said to the newest command of its kind.
     fn answer(&mut self, t: f64, reply: &Reply) {
         let (name, refused) = (reply.command.request.name(), refusal(reply));
-        let leg = self.course.legs.iter_mut().rfind(|leg| leg.order.request().name() == name);
+        let leg = self.course.legs.iter_mut().rfind(|leg| asks(&leg.order, name));
         let before = leg.and_then(|leg| std::mem::replace(&mut leg.refused, refused));
         // Orders that are repeated until they are accepted are refused again and again.
         if let Some(reason) = refused.filter(|_| refused != before) {
@@ -307,6 +307,11 @@ impl Recorder for TimelineRecorder {
             self.error.take(distance_m);
         }
     }
+}
+
+/// Whether an order asks for what is called so. A kill has no reply.
+fn asks(order: &Order, name: &str) -> bool {
+    matches!(order.asked(), Asked::Request(request) if request.name() == name)
 }
 
 /// Whether the vehicle is on its trajectory, after the path of `joined_s` that leads onto it.

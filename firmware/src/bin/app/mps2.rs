@@ -148,9 +148,9 @@ mod app {
             top.flight.report_timing(timing);
             cx.shared.timing.lock(|shared| *shared = Some(timing));
         }
-        if let Some(request) = top.imu.asked() {
-            // A full queue drops it, like a ground station's.
-            let _ = top.flight.request(request);
+        if let Some(asked) = top.imu.asked() {
+            // A full queue drops a request, like a ground station's.
+            let _ = top.flight.ask(asked);
         }
         let (released, overruns) =
             cx.shared.mail.lock(|mail| (top.flight.tick(mail, top.ports, sample.as_ref()), mail.overruns()));
