@@ -212,6 +212,39 @@ fn a_shift_of_position_keeps_the_motion() {
     assert_eq!(FlatReference { position: before.position, ..after }, before);
 }
 
+#[test]
+fn slow_motion_goes_on_far_from_the_origin() {
+    // 9 km away an f32 resolves 1 mm, more than the way of a step.
+    let far = Vector3::new(9_000.0, -9_000.0, 9_000.0);
+    let slow = Vector3::new(0.1, -0.07, 0.05);
+    let mut setpoint = standing(far.into());
+    for _ in 0..steps(100.0) {
+        setpoint.advance(&Target::Velocity { velocity: slow, yaw_rate: 0.0 });
+    }
+    let r = setpoint.reference();
+    // Less the lags' delay of 3τ and the time of acceleration.
+    let way = r.position - far;
+    assert!((way - slow * 99.5).norm() < 0.06, "{way}");
+    assert!((r.velocity - slow).norm() < 1e-4, "{}", r.velocity);
+    for _ in 0..steps(60.0) {
+        setpoint.advance(&place(far.into(), 0.0));
+    }
+    assert!((setpoint.reference().position - far).norm() < 2e-3);
+}
+
+#[test]
+fn a_long_way_passes_the_anchors_without_a_jump() {
+    let mut setpoint = standing([100.0, 0.0, 0.0]);
+    let mut before = setpoint.reference();
+    for _ in 0..steps(200.0) {
+        let r = setpoint.advance(&place([-400.0, 300.0, 150.0], 0.0));
+        let way = before.velocity * STEP_S + before.acceleration * (0.5 * STEP_S * STEP_S);
+        assert!((r.position - before.position - way).norm() < 2e-4, "{before:?} {r:?}");
+        before = r;
+    }
+    assert!((before.position - Vector3::new(-400.0, 300.0, 150.0)).norm() < 1e-3, "{before:?}");
+}
+
 fn any_target() -> impl Strategy<Value = Target> {
     let place = (-50.0..50.0_f32, -50.0..50.0_f32, 0.0..50.0_f32, -3.0..3.0_f32)
         .prop_map(|(x, y, z, yaw)| place([x, y, z], yaw));
