@@ -95,7 +95,7 @@ pub(super) fn estimator_status(now: Tick, status: &Status) -> ESTIMATOR_STATUS_D
     let health = &status.health;
     flags.set(Flag::ESTIMATOR_ATTITUDE, health.attitude && health.heading);
     flags.set(Flag::ESTIMATOR_VELOCITY_HORIZ, health.velocity);
-    flags.set(Flag::ESTIMATOR_VELOCITY_VERT, health.height);
+    flags.set(Flag::ESTIMATOR_VELOCITY_VERT, health.climb);
     flags.set(Flag::ESTIMATOR_POS_HORIZ_REL, health.position);
     flags.set(Flag::ESTIMATOR_POS_HORIZ_ABS, health.position && status.gnss.healthy);
     let [vel_ratio, pos_horiz_ratio, pos_vert_ratio, mag_ratio] = status.ratios;

@@ -229,8 +229,9 @@ fn local_position(now: Tick, input: &GroundInput) -> LOCAL_POSITION_NED_DATA {
 
 fn extended_sys_state(input: &GroundInput) -> EXTENDED_SYS_STATE_DATA {
     let landed_state = match input.mode {
+        // Clients wait for "in the air", which it is once it has lifted off.
+        Mode::TakeOff if input.landed && input.armed => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
         _ if input.landed => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
-        Mode::TakeOff => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
         Mode::Land | Mode::Descent | Mode::MotorOut => MavLandedState::MAV_LANDED_STATE_LANDING,
         _ => MavLandedState::MAV_LANDED_STATE_IN_AIR,
     };

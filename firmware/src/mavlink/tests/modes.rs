@@ -15,7 +15,7 @@ fn modes_and_landed_states_are_encoded_as_px4_encodes_them() {
     bench.input.landed = false;
     for (mode, (main, sub), landed_state, state) in [
         (Mode::Hold, (4, 3), 2, 4),
-        (Mode::TakeOff, (4, 2), 3, 4),
+        (Mode::TakeOff, (4, 2), 2, 4),
         (Mode::Follow, (4, 4), 2, 4),
         (Mode::Return, (4, 5), 2, 4),
         (Mode::Land, (4, 6), 4, 4),
@@ -33,6 +33,22 @@ fn modes_and_landed_states_are_encoded_as_px4_encodes_them() {
         let landed =
             messages.iter().rev().find_map(|m| if let MavMessage::EXTENDED_SYS_STATE(m) = m { Some(m) } else { None });
         assert_eq!(landed.expect("sent").landed_state as u8, landed_state, "{mode:?}");
+    }
+}
+
+#[test]
+fn a_take_off_is_told_as_such_until_it_has_lifted() {
+    for (mode, armed, landed, landed_state) in [
+        (Mode::TakeOff, false, true, 1),
+        (Mode::TakeOff, true, true, 3),
+        (Mode::TakeOff, true, false, 2),
+        (Mode::Hold, true, true, 1),
+    ] {
+        let mut bench = Bench::new();
+        (bench.input.mode, bench.input.armed, bench.input.landed) = (mode, armed, landed);
+        let told = bench.jobs(100);
+        let told = told.iter().find_map(|m| if let MavMessage::EXTENDED_SYS_STATE(m) = m { Some(m) } else { None });
+        assert_eq!(told.expect("sent").landed_state as u8, landed_state, "{mode:?} {armed} {landed}");
     }
 }
 

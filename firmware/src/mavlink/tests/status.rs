@@ -70,6 +70,17 @@ fn estimator_status_is_sent_once_per_second() {
 }
 
 #[test]
+fn a_vertical_velocity_is_known_without_a_height() {
+    let flags = |health: NavHealth| {
+        let told = heard(Status { health, ..status() });
+        let told = told.into_iter().find_map(|m| if let MavMessage::ESTIMATOR_STATUS(m) = m { Some(m) } else { None });
+        told.expect("sent").flags.bits()
+    };
+    assert_eq!(flags(NavHealth { height: false, ..NavHealth::ALL }) & 4, 4);
+    assert_eq!(flags(NavHealth { climb: false, ..NavHealth::ALL }) & 4, 0);
+}
+
+#[test]
 fn unknown_states_are_not_flagged() {
     let lost = Status { gnss: SILENT, health: NavHealth { position: false, ..NavHealth::ALL }, ..status() };
     let flags =
