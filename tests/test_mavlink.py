@@ -130,10 +130,40 @@ def test_modes_are_set_as_px4s_are(vehicle, station):
 
 
 def test_disarmed_it_does_not_fly(vehicle, station):
-    for command in (TAKEOFF, LAND, RETURN):
+    station.command_long(RETURN)
+    assert station.ack(RETURN) == mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+    assert "disarmed" in station.wait("STATUSTEXT", within_ms=500).text
+    for command in (TAKEOFF, LAND):
         station.command_long(command, *[0] * 6, 2)
-        assert station.ack(command) == mavlink.MAV_RESULT_TEMPORARILY_REJECTED
-        assert "disarmed" in station.wait("STATUSTEXT", within_ms=500).text
+        assert station.ack(command) == mavlink.MAV_RESULT_ACCEPTED
+    for _, message in station.collect(3_000):
+        if message.get_type() == "HEARTBEAT":
+            assert not is_armed(message)
+        if message.get_type() == "LOCAL_POSITION_NED":
+            assert abs(message.z) < GROUND_M, message
+
+
+def test_a_take_off_before_arming_is_flown_when_armed(vehicle, station):
+    # As QGroundControl does: it arms after the answer, and looks for the mode in the heartbeat.
+    station.command_long(TAKEOFF, *[0] * 6, -HOVER_Z_M)
+    assert station.ack(TAKEOFF) == mavlink.MAV_RESULT_ACCEPTED
+    wait_mode(station, AUTO_TAKEOFF)
+    arm(station)
+    station.wait("LOCAL_POSITION_NED", lambda position: abs(position.z - HOVER_Z_M) < HELD_M)
+
+
+def test_a_later_arming_does_not_launch_it(vehicle, station):
+    station.command_long(TAKEOFF, *[0] * 6, -HOVER_Z_M)
+    assert station.ack(TAKEOFF) == mavlink.MAV_RESULT_ACCEPTED
+    station.collect(6_000)
+    test_armed_it_stays_on_the_ground(vehicle, station)
+
+
+def test_a_mode_may_be_set_before_arming(vehicle, station):
+    station.command_long(SET_MODE, CUSTOM, AUTO, AUTO_LOITER)
+    assert station.ack(SET_MODE) == mavlink.MAV_RESULT_ACCEPTED
+    wait_mode(station, AUTO_LOITER)
+    test_armed_it_stays_on_the_ground(vehicle, station)
 
 
 def test_a_take_off_without_sense_is_denied(vehicle, station):

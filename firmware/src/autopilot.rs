@@ -226,6 +226,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 thrust_n: self.inner.thrust_n(),
                 battery: self.inner.navigator().and_then(Navigator::battery),
                 failed_rotor: self.inner.failed_rotor(),
+                outer_hung: false,
                 kills: self.kills,
                 commands: core::mem::take(&mut self.commands),
             };
@@ -243,7 +244,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         GroundInput {
             nav: *self.inner.nav(),
             armed: self.is_armed(),
-            mode: self.commander.mode,
+            mode: self.commander.shown,
             landed: self.commander.landed,
             armable: self.commander.armable.is_ok(),
             health: Health {

@@ -1,7 +1,7 @@
 //! Checks before arming, take-off and position flight.
 
 use super::watch::Charge;
-use super::{AT_PLACE_M, Commander, CommanderInput, Known, Refusal, Request};
+use super::{AT_PLACE_M, Commander, CommanderInput, Intent, Known, Refusal};
 use crate::math;
 use crate::signals::NavState;
 
@@ -39,26 +39,31 @@ impl Commander {
             Err(Refusal::Battery)
         } else if input.failed_rotor.is_some() {
             Err(Refusal::RotorFailed)
+        } else if input.outer_hung {
+            Err(Refusal::NoGuidance)
         } else {
             Ok(())
         }
     }
 
     /// Whether the vehicle may take off.
-    pub(super) fn check_take_off(&self, request: &Request, input: &CommanderInput) -> Result<(), Refusal> {
+    pub(super) fn check_take_off(&self, intent: &Intent, input: &CommanderInput) -> Result<(), Refusal> {
         self.check_systems(input)?;
         if self.battery.charge() != Charge::Good {
             return Err(Refusal::Battery);
         }
         let away = (input.nav.position - self.start).norm_squared();
-        if *request == Request::Follow && away > AT_PLACE_M * AT_PLACE_M {
+        if *intent == Intent::Follow && away > AT_PLACE_M * AT_PLACE_M {
             return Err(Refusal::NotAtStart);
         }
         Ok(())
     }
 
-    /// Whether the position is known, now and persistently.
+    /// Whether a place can be gone to: the position is known, now and persistently, and guidance runs.
     pub(super) fn check_position(&self, input: &CommanderInput) -> Result<(), Refusal> {
+        if input.outer_hung {
+            return Err(Refusal::NoGuidance);
+        }
         check_position(input)?;
         if self.navigation.known() == Known::Position { Ok(()) } else { Err(Refusal::NoPosition) }
     }

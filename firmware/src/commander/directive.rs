@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::signals::Tick;
+use crate::signals::{NavHealth, Tick};
 
 /// How much of the motion is known, from most to least. Only what is known is controlled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,6 +17,23 @@ pub enum Known {
     Climb,
     /// Attitude at most: holds level with a thrust below the weight.
     Attitude,
+}
+
+impl Known {
+    /// What may be controlled with a health.
+    pub fn of(health: &NavHealth) -> Self {
+        if !health.attitude || !(health.height || health.climb) {
+            Self::Attitude
+        } else if !health.height {
+            Self::Climb
+        } else if !health.velocity {
+            Self::Height
+        } else if !health.position {
+            Self::Velocity
+        } else {
+            Self::Position
+        }
+    }
 }
 
 /// Directive for guidance.
@@ -83,7 +100,7 @@ impl Directive {
     }
 }
 
-/// What the vehicle is doing, for pilots.
+/// A mode, for pilots: what the vehicle does, or is to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Rotors stopped.

@@ -1,15 +1,19 @@
 //! The commander partition, 50 Hz: arming, modes and failsafes.
 //!
-//! `state` holds the states and the transition diagram, `watch` the conditions that are judged over several jobs,
-//! `checks` the conditions for arming and take-off. The input is a list of [`Request`]s, the output a [`Directive`] for
-//! guidance.
+//! Three things are kept apart: what the pilot wants ([`Intent`], also while disarmed), what the vehicle does
+//! ([`State`]), and which failure overrides the pilot ([`Override`]). `intent` holds the first and the last, `state` the
+//! states and the transition diagram, `decide` the decisions on requests, `failsafe` the responses to failures, `watch`
+//! the conditions that are judged over several jobs, `checks` those for arming and take-off. The input is a list of
+//! [`Request`]s, the output a [`Directive`] for guidance.
 //!
-//! A refused request leaves the state unchanged and returns the reason; a request for what is already being done
-//! changes nothing. A kill is no request but a count of kills, which no queue can lose: the inner loop stops the rotors
+//! A refused request changes nothing and returns the reason; a request for what is already being done changes nothing. A kill is no request but a count of kills, which no queue can lose: the inner loop stops the rotors
 //! as soon as it is ahead of the commander's (see `autopilot`).
 
 mod checks;
+mod decide;
 mod directive;
+mod failsafe;
+mod intent;
 mod request;
 mod state;
 mod text;
@@ -18,7 +22,9 @@ mod watch;
 #[cfg(test)]
 mod tests;
 
+pub use decide::LAUNCH_HELD_S;
 pub use directive::{Directive, Known, Mode};
+pub use intent::{Intent, Override};
 pub use request::{
     Answers, Asked, Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies,
     Reply, Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
@@ -51,6 +57,8 @@ pub struct CommanderInput {
     pub battery: Option<BatterySample>,
     /// The rotor that has failed, from 0.
     pub failed_rotor: Option<u8>,
+    /// Whether the outer partition hangs, so that no directive is executed.
+    pub outer_hung: bool,
     /// Kills since boot, wrapping.
     pub kills: u8,
     /// Commands since the last job.
@@ -64,8 +72,14 @@ pub struct CommanderOutput {
     pub armed: bool,
     /// The kills since boot that have disarmed it.
     pub kills: u8,
-    /// What the vehicle is doing, for pilots.
+    /// What the vehicle is doing.
     pub mode: Mode,
+    /// The mode that ground stations show: on the ground what the pilot wants, in the air what the vehicle does.
+    pub shown: Mode,
+    /// What the pilot wants.
+    pub intent: Intent,
+    /// The failure that overrides it.
+    pub overridden: Option<Override>,
     /// The directive for guidance.
     pub directive: Directive,
     /// Whether the vehicle is on the ground.
@@ -97,6 +111,11 @@ pub struct Commander {
     start: Vector3<f32>,
     entry: Vector3<f32>,
     entry_yaw: f32,
+    /// What the pilot wants, until when if it expires, and the failure that overrides it.
+    intent: Intent,
+    until: Option<Tick>,
+    overridden: Option<Override>,
+    /// What the vehicle does.
     state: State,
     /// Kills since boot that it has carried out.
     kills: u8,
@@ -146,6 +165,9 @@ impl Commander {
             start,
             entry,
             entry_yaw,
+            intent: if flies { Intent::Follow } else { Intent::Hold },
+            until: None,
+            overridden: None,
             state: if flies { State::Follow { since: 0 } } else { State::Disarmed },
             kills: 0,
             home: start,
@@ -163,16 +185,7 @@ impl Commander {
 
     /// The output in effect before the first job's.
     pub fn initial_output(&self) -> CommanderOutput {
-        CommanderOutput {
-            armed: self.state != State::Disarmed,
-            kills: self.kills,
-            mode: self.state.mode(),
-            directive: self.directive(self.home.z),
-            landed: !self.ground.is_airborne(),
-            armable: Err(Refusal::NoNavigation),
-            replies: Replies::new(),
-            event: None,
-        }
+        self.output(self.home.z, Err(Refusal::NoNavigation), Replies::new(), None)
     }
 
     /// One job, released at `released`.
@@ -195,15 +208,30 @@ impl Commander {
             // As many replies fit as commands.
             let _ = replies.push(Reply { command: *command, outcome });
         }
-        let event = self.fail_safe(input);
+        let event = self.fail_safe(effective, input);
         self.progress(effective, input);
+        self.output(input.nav.position.z, self.check(input), replies, event)
+    }
+
+    /// The output, at a height (z, m).
+    fn output(
+        &self,
+        height: f32,
+        armable: Result<(), Refusal>,
+        replies: Replies,
+        event: Option<Event>,
+    ) -> CommanderOutput {
+        let mode = self.state.mode();
         CommanderOutput {
             armed: self.state != State::Disarmed,
             kills: self.kills,
-            mode: self.state.mode(),
-            directive: self.directive(input.nav.position.z),
+            mode,
+            shown: if matches!(mode, Mode::Disarmed | Mode::Idle) { self.intent.mode() } else { mode },
+            intent: self.intent,
+            overridden: self.overridden,
+            directive: self.directive(height),
             landed: !self.ground.is_airborne(),
-            armable: self.check(input),
+            armable,
             replies,
             event,
         }
@@ -216,169 +244,35 @@ impl Commander {
 
     fn watch(&mut self, input: &CommanderInput) {
         self.navigation.step(input);
-        self.battery.step(input, &self.settings);
+        self.battery.step(input, &self.settings, self.state != State::Disarmed);
         match self.state {
             State::Disarmed | State::Idle { .. } => self.ground.step_idle(input),
-            State::Land | State::Descent { .. } | State::MotorOut => {
+            State::Land | State::Descent | State::MotorOut => {
                 self.ground.step_flying(input, self.weight_n, Some(self.navigation.known()));
             }
             _ => self.ground.step_flying(input, self.weight_n, None),
         }
     }
 
-    fn decide(&mut self, request: &Request, effective: Tick, input: &CommanderInput) -> Outcome {
-        if !request.is_sane() {
-            return Outcome::Denied;
-        }
-        let done = match *request {
-            Request::Arm { force } => self.arm(force, input),
-            Request::Disarm => self.disarm(),
-            _ => self.fly(request, effective, input),
-        };
-        done.map_or_else(Outcome::TemporarilyRejected, |()| Outcome::Accepted)
-    }
-
-    fn arm(&mut self, force: bool, input: &CommanderInput) -> Result<(), Refusal> {
-        if self.state == State::Disarmed {
-            if !force {
-                self.check(input)?;
-            }
-            self.home = input.nav.position;
-            self.battery_answered = Charge::Good;
-            self.state = State::Idle { disarm_at: None };
-        } else if let State::Idle { disarm_at } = &mut self.state {
-            *disarm_at = None;
-        }
-        Ok(())
-    }
-
-    fn disarm(&mut self) -> Result<(), Refusal> {
-        if self.state == State::Disarmed {
-            return Ok(());
-        }
-        if self.ground.is_airborne() {
-            return Err(Refusal::InAir);
-        }
-        self.stop();
-        Ok(())
-    }
-
     fn stop(&mut self) {
-        self.battery.forget();
         self.state = State::Disarmed;
-    }
-
-    /// A request to take off, move, hold or land.
-    fn fly(&mut self, request: &Request, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
-        use State as S;
-        match (self.state, request) {
-            (S::Disarmed, _) => return Err(Refusal::Disarmed),
-            // On the ground it is landed already, and is disarmed as after a landing.
-            (S::Idle { disarm_at: None }, Request::Land) => {
-                self.state = S::Idle { disarm_at: Some(after_landing(effective)) };
-                return Ok(());
-            }
-            (S::Idle { .. } | S::Land | S::Descent { .. } | S::MotorOut, Request::Land)
-            | (S::TakeOff { .. }, Request::TakeOff { .. })
-            | (S::Join | S::Follow { .. }, Request::Follow)
-            | (S::Return { .. }, Request::Return) => return Ok(()),
-            (S::MotorOut, _) => return Err(Refusal::RotorFailed),
-            (S::Idle { .. }, Request::TakeOff { .. } | Request::Follow) => self.check_take_off(request, input)?,
-            (S::Idle { .. }, _) => return Err(Refusal::OnGround),
-            (_, Request::TakeOff { .. }) => return Err(Refusal::InAir),
-            (_, Request::Land) => {}
-            _ => self.check_position(input)?,
-        }
-        self.state = self.state_for(request, effective, input);
-        Ok(())
-    }
-
-    /// The state that such a request leads to.
-    fn state_for(&self, request: &Request, effective: Tick, input: &CommanderInput) -> State {
-        let height = input.nav.position.z;
-        match *request {
-            Request::TakeOff { height_m } => State::TakeOff { to_m: height + height_m },
-            Request::GoTo { position_m, yaw_rad } => State::GoTo { position: position_m.into(), yaw: yaw_rad },
-            Request::Velocity { velocity_m_s, yaw_rate_rad_s } => State::Velocity {
-                velocity: velocity_m_s.into(),
-                yaw_rate: yaw_rate_rad_s,
-                until: effective.wrapping_add(ticks(VELOCITY_TIMEOUT_S)),
-            },
-            Request::Return => self.homewards(height),
-            Request::Follow if matches!(self.state, State::Idle { .. }) => State::Follow { since: effective },
-            Request::Follow => State::Join,
-            Request::Land => State::Land,
-            Request::Hold => State::Hold,
-            Request::Arm { .. } | Request::Disarm => self.state,
-        }
-    }
-
-    fn homewards(&self, height: f32) -> State {
-        State::Return { at_m: math::max(self.home.z + self.settings.return_height_m, height), climbs: true }
-    }
-
-    /// Failsafes, the most severe first.
-    fn fail_safe(&mut self, input: &CommanderInput) -> Option<Event> {
-        if matches!(self.state, State::Disarmed | State::Idle { .. }) {
-            return None;
-        }
-        if self.navigation.is_gone() {
-            self.stop();
-            return Some(Event::SensorsGone);
-        }
-        if self.state == State::MotorOut {
-            return None;
-        }
-        if let Some(rotor) = input.failed_rotor {
-            self.state = State::MotorOut;
-            return Some(Event::RotorFailed { rotor });
-        }
-        self.answer_loss(input).or_else(|| self.answer_battery(input.nav.position.z))
-    }
-
-    fn answer_loss(&mut self, input: &CommanderInput) -> Option<Event> {
-        let known = self.navigation.known();
-        let before = match self.state {
-            State::Descent { known } => known,
-            _ if known == Known::Position => return None,
-            _ => Known::Position,
-        };
-        self.state = State::Descent { known };
-        (known > before).then_some(match known {
-            Known::Position | Known::Velocity => Event::PositionLost,
-            Known::Height => Event::VelocityLost,
-            Known::Attitude if !input.nav_fresh => Event::SensorsLost,
-            Known::Attitude if !input.health.attitude => Event::AttitudeLost,
-            Known::Climb | Known::Attitude => Event::HeightLost,
-        })
-    }
-
-    fn answer_battery(&mut self, height: f32) -> Option<Event> {
-        let charge = self.battery.charge();
-        if charge <= self.battery_answered {
-            return None;
-        }
-        match (charge, self.state) {
-            // It is already descending. If the pilot takes over, the failsafe still has to act.
-            (Charge::Good, _) | (_, State::Land | State::Descent { .. }) => return None,
-            (Charge::Low, State::Return { .. }) => {}
-            (Charge::Critical, _) => self.state = State::Land,
-            (Charge::Low, _) => self.state = self.homewards(height),
-        }
-        self.battery_answered = charge;
-        Some(if charge == Charge::Critical { Event::BatteryCritical } else { Event::BatteryLow })
+        self.forget_intent();
     }
 
     /// Transitions on arrival, touchdown and timeout.
     fn progress(&mut self, effective: Tick, input: &CommanderInput) {
         let nav = &input.nav;
         let has_come = |at: Tick| effective.wrapping_sub(at) < Tick::MAX / 2;
+        let expires = self.until.is_some_and(has_come);
+        if expires {
+            (self.intent, self.until) = (Intent::Hold, None);
+        }
         let is_at = |place: Vector3<f32>| (nav.position - place).norm_squared() < AT_PLACE_M * AT_PLACE_M;
         let heads = |yaw: f32| math::abs(math::wrap_angle(nav.yaw() - yaw)) < AT_HEADING_RAD;
         self.state = match self.state {
             State::Idle { disarm_at: Some(at) } if has_come(at) => return self.stop(),
-            State::TakeOff { to_m } if nav.position.z > to_m - AT_HEIGHT_M => State::Hold,
-            State::Velocity { until, .. } if has_come(until) => State::Hold,
+            State::TakeOff { to_m, .. } if math::abs(nav.position.z - to_m) < AT_HEIGHT_M => State::Hold,
+            State::Velocity { .. } if expires => State::Hold,
             State::Join if is_at(self.entry) && is_slow(nav) && heads(self.entry_yaw) => {
                 State::Follow { since: effective }
             }
@@ -386,7 +280,8 @@ impl Commander {
                 State::Return { at_m, climbs: false }
             }
             State::Return { at_m, climbs: false } if is_at(self.over_home(at_m)) && is_slow(nav) => State::Land,
-            State::Land | State::Descent { .. } | State::MotorOut if !self.ground.is_airborne() => {
+            State::Land | State::Descent | State::MotorOut if !self.ground.is_airborne() => {
+                self.forget_intent();
                 State::Idle { disarm_at: Some(after_landing(effective)) }
             }
             state => state,
@@ -403,23 +298,25 @@ impl Commander {
         match self.state {
             State::Disarmed => Directive::Stop,
             State::Idle { .. } => Directive::Idle,
-            State::TakeOff { to_m } => Directive::Climb { height_m: to_m, speed_m_s: settings.take_off_m_s },
+            State::TakeOff { to_m, .. } => Directive::Climb { height_m: to_m, speed_m_s: settings.take_off_m_s },
             State::Hold => Directive::HOLD,
             State::GoTo { position, yaw } => Directive::GoTo { position, yaw: Some(yaw) },
-            State::Velocity { velocity, yaw_rate, .. } => Directive::Velocity { velocity, yaw_rate },
+            State::Velocity { velocity, yaw_rate } => Directive::Velocity { velocity, yaw_rate },
             State::Join => Directive::GoTo { position: self.entry, yaw: Some(self.entry_yaw) },
             State::Follow { since } => Directive::Follow { since },
             State::Return { at_m, climbs: true } => Directive::Climb { height_m: at_m, speed_m_s: settings.climb_m_s },
             State::Return { at_m, climbs: false } => Directive::GoTo { position: self.over_home(at_m), yaw: None },
             State::Land => self.descend(settings.landing_m_s, height, false),
-            State::Descent { .. } => self.descend(settings.descent_m_s, height, false),
+            State::Descent => self.descend(settings.descent_m_s, height, false),
             State::MotorOut => self.descend(settings.descent_m_s, height, true),
         }
     }
 
     fn descend(&self, rate_m_s: f32, height: f32, heading_free: bool) -> Directive {
-        let is_near = height - self.home.z < FINAL_HEIGHT_M;
-        let rate_m_s = if is_near { math::min(rate_m_s, self.settings.touchdown_m_s) } else { rate_m_s };
-        Directive::Descend { rate_m_s, known: self.navigation.known(), heading_free }
+        let known = self.navigation.known();
+        // At an unknown height the ground may be anywhere.
+        let may_touch = known >= Known::Climb || height - self.home.z < FINAL_HEIGHT_M;
+        let rate_m_s = if may_touch { math::min(rate_m_s, self.settings.touchdown_m_s) } else { rate_m_s };
+        Directive::Descend { rate_m_s, known, heading_free }
     }
 }

@@ -143,6 +143,8 @@ pub enum Refusal {
     Battery,
     /// A rotor has failed.
     RotorFailed,
+    /// The outer partition hangs.
+    NoGuidance,
     /// In the air.
     InAir,
     /// On the ground: take off first.
@@ -189,6 +191,10 @@ pub enum Event {
         /// Which, from 0.
         rotor: u8,
     },
+    /// The outer partition hangs: the inner one holds level with a thrust below the weight.
+    OuterHung,
+    /// The commander hangs: the outer partition descends by what is known.
+    CommanderHung,
 }
 
 /// Commands between two jobs.

@@ -2,6 +2,8 @@
 //!
 //! ```text
 //! Disarmed                     ─ arm ──────────────► Idle
+//! Disarmed                     ─ arm to take off ──► TakeOff
+//! Disarmed                     ─ arm to follow ────► Follow
 //! Idle                         ─ take off ─────────► TakeOff
 //! Idle                         ─ follow ───────────► Follow
 //! Idle                         ─ disarm, rested ───► Disarmed
@@ -19,11 +21,12 @@
 //! Cruise, TakeOff                ─ land ───────────► Land
 //! Hold, GoTo, Velocity, Return, TakeOff, Land, Descent ─ follow ► Join
 //!
-//! Cruise, TakeOff              ─ battery critical ─► Land
-//! Hold, GoTo, Velocity, Join, Follow, TakeOff ─ battery low ► Return
-//! Cruise, TakeOff, Land        ─ loss ─────────────► Descent
-//! Cruise, TakeOff, Land, Descent ─ rotor failed ───► MotorOut
-//! Cruise, TakeOff, Land, Descent, MotorOut ─ gone ─► Disarmed
+//! Cruise, TakeOff              ─ battery critical ─► Land by BatteryCritical
+//! Hold, GoTo, Velocity, Join, Follow, TakeOff ─ battery low ► Return by BatteryLow
+//! Cruise, TakeOff, Land        ─ loss ─────────────► Descent by Loss
+//! Cruise, TakeOff, Land        ─ hung ─────────────► Descent by OuterHung
+//! Cruise, TakeOff, Land, Descent ─ rotor failed ───► MotorOut by RotorFailed
+//! Cruise, TakeOff, Land, Descent, MotorOut ─ gone ─► Disarmed by SensorsGone
 //! Idle, Cruise, TakeOff, Land, Descent, MotorOut ─ kill ────────► Disarmed
 //!
 //! Cruise = Hold, GoTo, Velocity, Join, Follow, Return
@@ -31,13 +34,21 @@
 //!
 //! A test checks this diagram against the code.
 //!
-//! *Loss* is a persistent loss of position, velocity, height, attitude or samples. If it recovers, the descent goes on
-//! until the pilot ends it. *Gone* means that samples have been missing for so long that control does more harm than
-//! good. In a flying state, a disarm is accepted before lift-off only, and leads to Disarmed.
+//! *By* names the [`Override`](super::Override): the failure acts in place of the pilot, whose [`Intent`](super::Intent)
+//! is kept. It acts until the pilot asks for something else or the vehicle has landed, also if the failure itself has
+//! passed. All other transitions end an override.
+//!
+//! While disarmed, the pilot may intend to hold, to land, to take off or to follow the trajectory. *Arm to take off*
+//! and *arm to follow* are an arming while such an intent is held: for five seconds, because a later arming must not
+//! launch the vehicle.
+//!
+//! *Loss* is a persistent loss of position, velocity, height, attitude or samples. *Gone* means that samples have been
+//! missing for so long that control does more harm than good. *Hung* means that the outer partition's job does not end.
+//! In a flying state, a disarm is accepted before lift-off only, and leads to Disarmed.
 
 use nalgebra::Vector3;
 
-use super::{Known, Mode};
+use super::Mode;
 use crate::signals::Tick;
 
 /// State of the commander (see the diagram above).
@@ -52,6 +63,8 @@ pub enum State {
     },
     /// Climbing from the ground.
     TakeOff {
+        /// z of the ground, m.
+        from_m: f32,
         /// To this z, m.
         to_m: f32,
     },
@@ -70,8 +83,6 @@ pub enum State {
         velocity: Vector3<f32>,
         /// ψ̇, rad/s.
         yaw_rate: f32,
-        /// When the request expires.
-        until: Tick,
     },
     /// Going to the point where the trajectory is joined.
     Join,
@@ -89,17 +100,14 @@ pub enum State {
     },
     /// Landing.
     Land,
-    /// Descending because part of the motion is unknown.
-    Descent {
-        /// What is known.
-        known: Known,
-    },
+    /// Descending because part of the motion is unknown, or guidance hangs.
+    Descent,
     /// Descending with a failed rotor.
     MotorOut,
 }
 
 impl State {
-    /// The mode that pilots see.
+    /// Its mode.
     pub(super) fn mode(&self) -> Mode {
         match self {
             Self::Disarmed => Mode::Disarmed,
@@ -111,7 +119,7 @@ impl State {
             Self::Join | Self::Follow { .. } => Mode::Follow,
             Self::Return { .. } => Mode::Return,
             Self::Land => Mode::Land,
-            Self::Descent { .. } => Mode::Descent,
+            Self::Descent => Mode::Descent,
             Self::MotorOut => Mode::MotorOut,
         }
     }

@@ -52,6 +52,7 @@ impl Refusal {
             Self::Moving => "vehicle moving",
             Self::Battery => "battery too low",
             Self::RotorFailed => "motor failed",
+            Self::NoGuidance => "guidance hung",
             Self::InAir => "vehicle in the air",
             Self::OnGround => "vehicle on the ground",
             Self::Disarmed => "vehicle disarmed",
@@ -79,6 +80,8 @@ impl Event {
             Self::RotorFailed { rotor: 2 } => "Motor 3 failed: descending without yaw control",
             Self::RotorFailed { rotor: 3 } => "Motor 4 failed: descending without yaw control",
             Self::RotorFailed { .. } => "Motor failed: descending without yaw control",
+            Self::OuterHung => "Guidance hung: blind descent",
+            Self::CommanderHung => "Commander hung: descending",
         }
     }
 }
@@ -115,6 +118,7 @@ mod tests {
             Refusal::Moving,
             Refusal::Battery,
             Refusal::RotorFailed,
+            Refusal::NoGuidance,
             Refusal::InAir,
             Refusal::OnGround,
             Refusal::Disarmed,
@@ -136,6 +140,8 @@ mod tests {
             Event::BatteryLow,
             Event::BatteryCritical,
             Event::RotorFailed { rotor: 0 },
+            Event::OuterHung,
+            Event::CommanderHung,
         ] {
             assert!(event.text().len() <= STATUSTEXT, "{}", event.text());
             assert!(DOCUMENT.contains(&format!("| {} |", event.text())), "{}", event.text());

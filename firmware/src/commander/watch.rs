@@ -5,7 +5,7 @@ use super::{CommanderInput, Known};
 use crate::config::ModeSettings;
 use crate::math;
 use crate::schedule::COMMANDER;
-use crate::signals::TICK_S;
+use crate::signals::{NavHealth, TICK_S};
 
 /// Number of commander jobs in a time.
 pub(super) const fn jobs(seconds: f32) -> u16 {
@@ -53,23 +53,16 @@ pub(super) struct NavWatch {
 impl NavWatch {
     pub(super) fn step(&mut self, input: &CommanderInput) {
         let health = &input.health;
-        let attitude = self.attitude.step(!health.attitude, jobs(ATTITUDE_LOST_AFTER_S));
-        let height = self.height.step(!health.height, jobs(HEIGHT_LOST_AFTER_S));
-        let velocity = self.velocity.step(!health.velocity, jobs(LOST_AFTER_S));
-        let position = self.position.step(!health.position, jobs(LOST_AFTER_S));
+        let lasting = NavHealth {
+            attitude: !self.attitude.step(!health.attitude, jobs(ATTITUDE_LOST_AFTER_S)),
+            heading: health.heading,
+            velocity: !self.velocity.step(!health.velocity, jobs(LOST_AFTER_S)),
+            position: !self.position.step(!health.position, jobs(LOST_AFTER_S)),
+            height: !self.height.step(!health.height, jobs(HEIGHT_LOST_AFTER_S)),
+            climb: !self.climb.step(!health.climb, jobs(HEIGHT_LOST_AFTER_S)),
+        };
         self.gone = self.samples.step(!input.nav_fresh, jobs(GONE_AFTER_S));
-        let climb = self.climb.step(!health.climb, jobs(HEIGHT_LOST_AFTER_S));
-        self.known = Some(if !input.nav_fresh || attitude || (height && climb) {
-            Known::Attitude
-        } else if height {
-            Known::Climb
-        } else if velocity {
-            Known::Height
-        } else if position {
-            Known::Velocity
-        } else {
-            Known::Position
-        });
+        self.known = Some(if input.nav_fresh { Known::of(&lasting) } else { Known::Attitude });
     }
 
     /// How much of the motion is known.
@@ -98,20 +91,33 @@ pub(super) enum Charge {
     Critical,
 }
 
-/// Monitors the battery voltage. A battery does not recover in flight: a level that was reached holds until disarming.
+/// A battery counts as replaced above this multiple of the limit that it fell below, for [`VOLTAGE_LASTS_S`]. Without load
+/// an empty cell recovers from 3.3 V to 3.6 V at most, by 9 %.
+const REPLACED: f32 = 1.12;
+
+/// Monitors the battery voltage. A battery does not recover in flight, and without load it only seems to: a level that
+/// was reached while armed holds, also after disarming, until the battery has been replaced. While disarmed a new level
+/// does not hold: a monitor that is not connected yet reads anything.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BatteryWatch {
     low: Persistence,
     critical: Persistence,
+    replaced: Persistence,
+    /// Reached while armed.
+    held: Charge,
+    /// Held, or lower.
     charge: Charge,
 }
 
 impl BatteryWatch {
-    pub(super) fn step(&mut self, input: &CommanderInput, settings: &ModeSettings) {
-        // NaN is not below any limit.
-        let below = |limit: f32| input.battery.is_some_and(|battery| battery.voltage_v < limit);
-        let low = self.low.step(below(settings.battery_low_v), jobs(VOLTAGE_LASTS_S));
-        let critical = self.critical.step(below(settings.battery_critical_v), jobs(VOLTAGE_LASTS_S));
+    pub(super) fn step(&mut self, input: &CommanderInput, settings: &ModeSettings, armed: bool) {
+        // NaN is neither below nor above any limit.
+        let voltage = input.battery.map_or(f32::NAN, |battery| battery.voltage_v);
+        let (low_v, critical_v) = (settings.battery_low_v, settings.battery_critical_v);
+        let low = self.low.step(voltage < low_v, jobs(VOLTAGE_LASTS_S));
+        let critical = self.critical.step(voltage < critical_v, jobs(VOLTAGE_LASTS_S));
+        let fell_below = if self.held == Charge::Critical { critical_v } else { low_v };
+        let replaced = self.replaced.step(!armed && voltage > REPLACED * fell_below, jobs(VOLTAGE_LASTS_S));
         let now = if critical {
             Charge::Critical
         } else if low {
@@ -119,15 +125,16 @@ impl BatteryWatch {
         } else {
             Charge::Good
         };
-        self.charge = self.charge.max(now);
+        if armed {
+            self.held = self.held.max(now);
+        } else if replaced {
+            self.held = Charge::Good;
+        }
+        self.charge = self.held.max(now);
     }
 
     pub(super) fn charge(&self) -> Charge {
         self.charge
-    }
-
-    pub(super) fn forget(&mut self) {
-        *self = Self::default();
     }
 }
 

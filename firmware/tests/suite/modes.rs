@@ -17,13 +17,13 @@ use firmware::signals::{MotorCommand, NavHealth, NavState, SensorFrame, TICK_S, 
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A rigid body whose rotors follow at once, on a ground at z = 0 that takes every speed.
-struct Body {
-    airframe: Airframe,
-    nav: NavState,
+pub(crate) struct Body {
+    pub(crate) airframe: Airframe,
+    pub(crate) nav: NavState,
 }
 
 impl Body {
-    fn step(&mut self, motors: &MotorCommand) {
+    pub(crate) fn step(&mut self, motors: &MotorCommand) {
         let geometry = &self.airframe.geometry;
         let omega = &motors.omega_rad_s;
         let thrust: f32 = geometry.thrust.iter().zip(omega).map(|(lift, w)| lift * w * w).sum();
@@ -48,7 +48,7 @@ impl Body {
 }
 
 /// The default, but for the paper's rotational drag: against it, the rotors could not turn the heading by 1 rad/s.
-fn config() -> FlightConfig {
+pub(crate) fn config() -> FlightConfig {
     let mut config = FlightConfig::default();
     config.airframe.rotational_drag_n_m_s2 = [0.0; 3];
     config
@@ -110,6 +110,7 @@ impl Vehicle {
                 thrust_n: self.inner.thrust_n(),
                 battery: None,
                 failed_rotor: None,
+                outer_hung: false,
                 kills: 0,
                 commands: core::mem::take(&mut self.commands),
             };

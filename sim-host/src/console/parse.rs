@@ -148,7 +148,7 @@ pub const COMMANDS: &[Entry] = &[
         Reads::Force(|force| if force { Command::Kill } else { Command::Request(Request::Disarm) }),
     ),
     Entry::new(&["takeoff", "take-off"], "[HEIGHT]", "climb by HEIGHT (m; 2.5) and hold", Reads::With(take_off))
-        .with_details("It has to be armed and on the ground; HEIGHT is between 0.3 and 100 m"),
+        .with_details("From the ground; before arming, it waits five seconds for that. HEIGHT is between 0.3 and 100 m"),
     Entry::new(
         &["goto", "go-to", "reposition"],
         "NORTH WEST UP [YAW]",

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::net::SocketAddr;
 
 use anyhow::{Result, ensure};
-use firmware::commander::{Mode, Origin, Outcome, Refusal, Reply, Request};
+use firmware::commander::{LAUNCH_HELD_S, Mode, Origin, Outcome, Refusal, Reply, Request};
 use firmware::config::ModeSettings;
 use firmware::failure::Manner;
 use firmware::mavlink::port::{Ports, SENT_CAPACITY};
@@ -171,11 +171,20 @@ impl Session {
             self.velocity = goes_on.then_some((request, self.flight.next_tick()));
         }
         let (tone, outcome) = match reply.outcome {
+            Outcome::Accepted if self.waits_to_be_armed(&request) => {
+                (Tone::Plain, format!("accepted, when armed within {LAUNCH_HELD_S} s"))
+            }
             Outcome::Accepted => (Tone::Plain, accepted(&request, self.flight.autopilot.commander.settings())),
             Outcome::TemporarilyRejected(refusal) => (Tone::Refused, refused(&request, refusal)),
             Outcome::Denied => (Tone::Refused, "denied: a value is out of its range".to_owned()),
         };
         self.say(tone, format!("{who}{}: {outcome}", describe(&request)));
+    }
+
+    /// Whether a request to leave the ground, which was accepted, is held until the vehicle is armed.
+    fn waits_to_be_armed(&self, request: &Request) -> bool {
+        matches!(request, Request::TakeOff { .. } | Request::Follow)
+            && !self.flight.autopilot.inner.commander_output().armed
     }
 
     /// Repeats the velocity until the vehicle leaves the mode.

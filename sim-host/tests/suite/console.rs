@@ -379,17 +379,29 @@ fn what_cannot_be_done_is_refused_with_the_reason() {
     let mut bench = Bench::new("field");
     assert_eq!(text(&bench.enter("arm")), refusal("arm", Refusal::NotAligned, "; wait for sensors"));
     bench.until("] ready to arm", 10.0);
-    assert_eq!(text(&bench.enter("takeoff 5")), refusal("take-off to 5 m", Refusal::Disarmed, "; `arm` first"));
+    assert_eq!(text(&bench.enter("return")), refusal("return", Refusal::Disarmed, "; `arm` first"));
     assert_eq!(
         text(&bench.enter("goto 0 0 -1")),
         "goto: UP = -1 m is not above the ground, which is at 0 m: use `land`"
     );
     bench.enter("arm");
-    assert_eq!(text(&bench.enter("hold")), refusal("hold", Refusal::OnGround, "; `takeoff` first"));
+    assert_eq!(
+        text(&bench.enter("velocity up=1")),
+        refusal("velocity north 0, west 0, up 1 m/s, yaw 0°/s", Refusal::OnGround, "; `takeoff` first")
+    );
     assert_eq!(text(&bench.enter("fault pose off")), "there is no `pose` on board");
     let mut ideal = Bench::new("pad");
     let refused = ideal.enter("fault gnss off");
     assert!(text(&refused).starts_with("nothing fails on ideal state"), "{refused}");
+}
+
+#[test]
+fn a_take_off_waits_a_while_to_be_armed() {
+    let mut bench = Bench::new("pad");
+    bench.until("] ready to arm", 1.0);
+    assert_eq!(text(&bench.enter("takeoff 2")), "take-off to 2 m: accepted, when armed within 5 s");
+    bench.enter("arm");
+    bench.until("mode: take-off → hold", 10.0);
 }
 
 #[test]

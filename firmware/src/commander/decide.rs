@@ -1,0 +1,177 @@
+//! Decisions on requests: refused with a reason, or the new intent and the state that it leads to.
+
+use super::{Commander, CommanderInput, Intent, Outcome, Override, Refusal, Request, State, VELOCITY_TIMEOUT_S};
+use super::{after_landing, ticks};
+use crate::math;
+use crate::signals::Tick;
+
+/// An intent to leave the ground is held for this time while disarmed, s. Ground stations ask for a take-off, wait for
+/// the answer and arm then, which takes about a second on a slow link. A later arming must not launch the vehicle.
+pub const LAUNCH_HELD_S: f32 = 5.0;
+
+impl Commander {
+    pub(super) fn decide(&mut self, request: &Request, effective: Tick, input: &CommanderInput) -> Outcome {
+        if !request.is_sane() {
+            return Outcome::Denied;
+        }
+        let done = match (request, Intent::of(request)) {
+            (_, Some(intent)) => self.intend(intent, effective, input),
+            (Request::Arm { force }, None) => self.arm(*force, effective, input),
+            (_, None) => self.disarm(),
+        };
+        done.map_or_else(Outcome::TemporarilyRejected, |()| Outcome::Accepted)
+    }
+
+    /// Arms, and begins the flight that is intended.
+    fn arm(&mut self, force: bool, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
+        if let State::Idle { disarm_at } = &mut self.state {
+            *disarm_at = None;
+            self.forget_intent();
+        }
+        if self.state != State::Disarmed {
+            return Ok(());
+        }
+        let intent = self.intent;
+        let launch = if intent.leaves_ground() { self.check_take_off(&intent, input) } else { Ok(()) };
+        if !force {
+            self.check(input)?;
+            launch?;
+        }
+        self.home = input.nav.position;
+        self.battery_answered = super::Charge::Good;
+        self.state = State::Idle { disarm_at: None };
+        if intent.leaves_ground() && launch.is_ok() {
+            self.engage(intent, effective, input);
+        } else {
+            self.forget_intent();
+        }
+        Ok(())
+    }
+
+    fn disarm(&mut self) -> Result<(), Refusal> {
+        if self.state != State::Disarmed && self.ground.is_airborne() {
+            return Err(Refusal::InAir);
+        }
+        self.stop();
+        Ok(())
+    }
+
+    /// A request to take off, move, hold or land.
+    fn intend(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
+        match self.state {
+            State::Disarmed => self.intend_disarmed(intent, effective, input),
+            State::Idle { .. } => self.intend_idle(intent, effective, input),
+            _ => self.intend_flying(intent, effective, input),
+        }
+    }
+
+    /// Kept for the flight to come.
+    fn intend_disarmed(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
+        match intent {
+            Intent::Hold | Intent::Land => self.keep(intent, None),
+            Intent::TakeOff { .. } | Intent::Follow => {
+                self.check_take_off(&intent, input)?;
+                self.keep(intent, Some(effective.wrapping_add(ticks(LAUNCH_HELD_S))));
+            }
+            Intent::GoTo { .. } | Intent::Velocity { .. } | Intent::Return => return Err(Refusal::Disarmed),
+        }
+        Ok(())
+    }
+
+    fn intend_idle(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
+        match intent {
+            Intent::Hold => self.keep(intent, None),
+            // On the ground it is landed already, and is disarmed as after a landing.
+            Intent::Land => {
+                self.keep(intent, None);
+                if let State::Idle { disarm_at } = &mut self.state {
+                    disarm_at.get_or_insert(after_landing(effective));
+                }
+            }
+            Intent::TakeOff { .. } | Intent::Follow => {
+                self.check_take_off(&intent, input)?;
+                self.engage(intent, effective, input);
+            }
+            Intent::GoTo { .. } | Intent::Velocity { .. } | Intent::Return => return Err(Refusal::OnGround),
+        }
+        Ok(())
+    }
+
+    fn intend_flying(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
+        if self.pursued() == Some(intent) && !matches!(intent, Intent::Velocity { .. }) {
+            // It does so already: a repetition changes nothing, and what a failure has begun is now the pilot's.
+            self.keep(intent, None);
+            self.overridden = None;
+            return Ok(());
+        }
+        match (self.state, intent) {
+            // It comes down already, by what is known and what works.
+            (State::Descent | State::MotorOut, Intent::Land) => {
+                self.keep(intent, None);
+                return Ok(());
+            }
+            (State::MotorOut, _) => return Err(Refusal::RotorFailed),
+            // A take-off takes another height.
+            (State::TakeOff { .. }, Intent::TakeOff { .. }) | (_, Intent::Land) => {}
+            (_, Intent::TakeOff { .. }) => return Err(Refusal::InAir),
+            _ => self.check_position(input)?,
+        }
+        self.engage(intent, effective, input);
+        Ok(())
+    }
+
+    /// What the vehicle works towards: the pilot's intent, or what a failure has put in its place.
+    fn pursued(&self) -> Option<Intent> {
+        self.overridden.map_or(Some(self.intent), Override::pursues)
+    }
+
+    /// Notes an intent, to be forgotten at `until`.
+    fn keep(&mut self, intent: Intent, until: Option<Tick>) {
+        (self.intent, self.until) = (intent, until);
+    }
+
+    /// As before the first request.
+    pub(super) fn forget_intent(&mut self) {
+        self.keep(Intent::Hold, None);
+        self.overridden = None;
+    }
+
+    /// Begins with what the pilot wants, and ends what has overridden it.
+    fn engage(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) {
+        self.state = self.state_for(&intent, effective, input.nav.position.z);
+        let expires = matches!(intent, Intent::Velocity { .. });
+        self.keep(intent, expires.then(|| effective.wrapping_add(ticks(VELOCITY_TIMEOUT_S))));
+        self.overridden = None;
+    }
+
+    /// A failure takes over; the intent is kept.
+    pub(super) fn override_by(&mut self, failure: Override, effective: Tick, height: f32) {
+        self.state = match failure {
+            Override::Loss { .. } | Override::OuterHung => State::Descent,
+            Override::RotorFailed => State::MotorOut,
+            Override::BatteryLow => self.state_for(&Intent::Return, effective, height),
+            Override::BatteryCritical => State::Land,
+            Override::SensorsGone => State::Disarmed,
+        };
+        self.overridden = Some(failure);
+    }
+
+    /// The state that an intent leads to, at a height (z, m).
+    fn state_for(&self, intent: &Intent, effective: Tick, height: f32) -> State {
+        match *intent {
+            Intent::TakeOff { height_m } => {
+                let from_m = if let State::TakeOff { from_m, .. } = self.state { from_m } else { height };
+                State::TakeOff { from_m, to_m: from_m + height_m }
+            }
+            Intent::GoTo { position, yaw } => State::GoTo { position, yaw },
+            Intent::Velocity { velocity, yaw_rate } => State::Velocity { velocity, yaw_rate },
+            Intent::Return => {
+                State::Return { at_m: math::max(self.home.z + self.settings.return_height_m, height), climbs: true }
+            }
+            Intent::Follow if matches!(self.state, State::Idle { .. }) => State::Follow { since: effective },
+            Intent::Follow => State::Join,
+            Intent::Land => State::Land,
+            Intent::Hold => State::Hold,
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What the pilot wants, and what overrides it.
+
+use nalgebra::Vector3;
+
+use super::{Known, Mode, Request};
+
+/// What the pilot wants: the last request to fly that was accepted. It is kept while a failure overrides it. A landing
+/// and a disarming end it; then it is [`Hold`](Self::Hold), as before the first request.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Intent {
+    /// Stay.
+    Hold,
+    /// Climb from the ground, and hold there.
+    TakeOff {
+        /// Over the ground, m.
+        height_m: f32,
+    },
+    /// Go to a place, and stay.
+    GoTo {
+        /// In the world, m.
+        position: Vector3<f32>,
+        /// ψ, rad.
+        yaw: f32,
+    },
+    /// Fly with a velocity.
+    Velocity {
+        /// In the world, m/s.
+        velocity: Vector3<f32>,
+        /// ψ̇, rad/s.
+        yaw_rate: f32,
+    },
+    /// Fly the configured trajectory.
+    Follow,
+    /// Return home, and land.
+    Return,
+    /// Land.
+    Land,
+}
+
+impl Intent {
+    /// What a request to fly wants; `None` for arming and disarming.
+    pub(super) fn of(request: &Request) -> Option<Self> {
+        Some(match *request {
+            Request::Arm { .. } | Request::Disarm => return None,
+            Request::Hold => Self::Hold,
+            Request::TakeOff { height_m } => Self::TakeOff { height_m },
+            Request::GoTo { position_m, yaw_rad } => Self::GoTo { position: position_m.into(), yaw: yaw_rad },
+            Request::Velocity { velocity_m_s, yaw_rate_rad_s } => {
+                Self::Velocity { velocity: velocity_m_s.into(), yaw_rate: yaw_rate_rad_s }
+            }
+            Request::Follow => Self::Follow,
+            Request::Return => Self::Return,
+            Request::Land => Self::Land,
+        })
+    }
+
+    /// Its mode.
+    pub fn mode(&self) -> Mode {
+        match self {
+            Self::Hold => Mode::Hold,
+            Self::TakeOff { .. } => Mode::TakeOff,
+            Self::GoTo { .. } => Mode::GoTo,
+            Self::Velocity { .. } => Mode::Velocity,
+            Self::Follow => Mode::Follow,
+            Self::Return => Mode::Return,
+            Self::Land => Mode::Land,
+        }
+    }
+
+    /// Whether it makes a vehicle on the ground fly.
+    pub(super) fn leaves_ground(&self) -> bool {
+        matches!(self, Self::TakeOff { .. } | Self::Follow)
+    }
+}
+
+/// The failure that overrides the intent. It ends when the pilot asks for something that the vehicle can do, when the
+/// vehicle has landed, and when it is armed again; never by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Override {
+    /// Part of the motion is unknown.
+    Loss {
+        /// What is known.
+        known: Known,
+    },
+    /// A rotor has failed.
+    RotorFailed,
+    /// The outer partition hangs: the inner one descends blindly.
+    OuterHung,
+    /// The battery is low.
+    BatteryLow,
+    /// The battery is critical.
+    BatteryCritical,
+    /// No sensor samples: the rotors are stopped.
+    SensorsGone,
+}
+
+impl Override {
+    /// The intent that it replaces the pilot's with; `None` if it leads to something that cannot be asked for.
+    pub(super) fn pursues(self) -> Option<Intent> {
+        match self {
+            Self::BatteryLow => Some(Intent::Return),
+            Self::BatteryCritical => Some(Intent::Land),
+            Self::Loss { .. } | Self::RotorFailed | Self::OuterHung | Self::SensorsGone => None,
+        }
+    }
+}
