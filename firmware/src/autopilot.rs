@@ -6,8 +6,8 @@
 //! are released with a snapshot of their inputs, the inner loop runs, then the released partitions.
 
 use crate::commander::{
-    Answers, Asked, Command, Commander, CommanderInput, CommanderOutput, Commands, Events, Origin, Outcome, Refusal,
-    Reply, Request,
+    Answers, Asked, Command, Commander, CommanderInput, CommanderOutput, Commands, Directive, Event, Events, Origin,
+    Outcome, Refusal, Reply, Request,
 };
 use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
@@ -24,6 +24,7 @@ use crate::outer::{Authority, Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
 use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
 use crate::validate::ConfigError;
+use crate::watchdog::Watchdog;
 
 /// The mailboxes between the partitions: all the data that they share.
 #[derive(Clone, Debug)]
@@ -95,6 +96,10 @@ pub struct InnerTask<A = SlidingAttitude> {
     /// Kills since boot, wrapping. The rotors are stopped while the commander has not disarmed for as many: a count
     /// cannot be lost, and an output of before the kill does not undo it.
     kills: u8,
+    /// Acts when the outer partition or the commander hangs.
+    watchdog: Watchdog,
+    /// Rate of a descent in place of the commander's directive, m/s.
+    unguided_m_s: f32,
 }
 
 impl<A: AttitudeLaw> InnerTask<A> {
@@ -122,6 +127,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
             injectable: Injectable::NONE,
             failures: Failures::new(),
             kills: 0,
+            watchdog: Watchdog::default(),
+            unguided_m_s: config.modes.touchdown_m_s,
         }
     }
 
@@ -133,11 +140,15 @@ impl<A: AttitudeLaw> InnerTask<A> {
         self.inner.sense(sample);
         let released = self.release(tick, mail, ports);
         let armed = self.is_armed();
-        match self.outer.authority {
-            Authority::Idle if armed => self.inner.idle(),
-            Authority::Gentle if armed => self.inner.step_gently(tick, &self.outer.attitude),
-            _ => self.inner.step(tick, &self.outer.attitude, armed),
-        };
+        if self.watchdog.is_outer_hung(tick) {
+            self.control_without_outer(tick, armed);
+        } else {
+            match self.outer.authority {
+                Authority::Idle if armed => self.inner.idle(),
+                Authority::Gentle if armed => self.inner.step_gently(tick, &self.outer.attitude),
+                _ => self.inner.step(tick, &self.outer.attitude, armed),
+            };
+        }
         if self.inner.navigator().is_some() {
             self.inner.watch_rotors(armed, !self.commander.landed);
         }
@@ -145,10 +156,55 @@ impl<A: AttitudeLaw> InnerTask<A> {
         released
     }
 
+    /// One tick of control while the outer partition hangs: a blind descent, unless the vehicle is on the ground.
+    #[cold]
+    fn control_without_outer(&mut self, tick: Tick, armed: bool) {
+        if !armed {
+            self.inner.step(tick, &self.outer.attitude, false);
+            return;
+        }
+        if self.outer.authority == Authority::Idle {
+            self.inner.idle();
+            return;
+        }
+        let (level, is_first) = self.watchdog.level(tick, self.inner.nav(), self.outer.blind_thrust_n);
+        if is_first {
+            self.report(Event::OuterHung);
+        }
+        if self.inner.failed_rotor().is_some() {
+            // There is no torque to spare.
+            self.inner.step(tick, &level, true);
+        } else {
+            self.inner.step_gently(tick, &level);
+        }
+    }
+
+    /// The directive for the outer partition: the commander's, or a descent while that hangs.
+    fn directive(&mut self, tick: Tick) -> Directive {
+        let told = self.commander.directive;
+        if !self.watchdog.hung(tick).commander {
+            return told;
+        }
+        let (health, heading_free) = (self.nav_health(), self.inner.failed_rotor().is_some());
+        let Some((descent, is_first)) = self.watchdog.descent(&told, self.unguided_m_s, &health, heading_free) else {
+            return told;
+        };
+        if is_first {
+            self.report(Event::CommanderHung);
+        }
+        descent
+    }
+
+    fn report(&mut self, event: Event) {
+        // A full queue holds worse news.
+        let _ = self.events.push(event);
+    }
+
     #[inline]
     fn publish(&mut self, tick: Tick, mail: &mut Mailboxes, ports: &Ports) {
         if let Some(output) = mail.outer.publish(tick) {
             self.outer = output;
+            self.watchdog.outer_published(tick);
         }
         if let Some(navigator) = self.inner.navigator_mut()
             && let Some(output) = mail.filter.publish(tick)
@@ -163,10 +219,10 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 self.reply(*reply);
             }
             if let Some(event) = output.event {
-                // Never full: a commander job reports one event at most, and the ground partition runs twice as often.
-                let _ = self.events.push(event);
+                self.report(event);
             }
             self.commander = output;
+            self.watchdog.commander_published(tick);
         }
         if let Some(output) = mail.ground.publish(tick) {
             if output.kill {
@@ -211,11 +267,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
             }
         }
         if released.outer {
-            let input = OuterInput {
-                nav: *self.inner.nav(),
-                thrust_n: self.inner.thrust_n(),
-                directive: self.commander.directive,
-            };
+            let input =
+                OuterInput { nav: *self.inner.nav(), thrust_n: self.inner.thrust_n(), directive: self.directive(tick) };
             mail.outer.release(tick, input);
         }
         if released.commander {
@@ -226,7 +279,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 thrust_n: self.inner.thrust_n(),
                 battery: self.inner.navigator().and_then(Navigator::battery),
                 failed_rotor: self.inner.failed_rotor(),
-                outer_hung: false,
+                outer_hung: self.watchdog.is_outer_hung(tick),
                 kills: self.kills,
                 commands: core::mem::take(&mut self.commands),
             };
@@ -251,6 +304,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 nav_fresh: self.inner.is_nav_fresh(),
                 refused_samples: self.inner.refused_samples(),
                 overruns,
+                hung: self.watchdog.hung(self.tick),
                 timing: self.timing,
             },
             estimator: self.estimator_status(),

@@ -78,3 +78,4 @@ pub mod selftest;
 pub mod sensors;
 pub mod signals;
 pub mod validate;
+pub mod watchdog;

@@ -57,6 +57,8 @@ pub struct OuterOutput {
     pub heading_free: bool,
     /// Reference position, m, and heading, rad.
     pub wanted: Vector4<f32>,
+    /// Thrust of a blind descent, N, for the inner partition should this be the last output.
+    pub blind_thrust_n: f32,
 }
 
 /// Source of the last job's reference.
@@ -197,6 +199,7 @@ impl<P: PositionLaw> Outer<P> {
             authority: Authority::Idle,
             heading_free: false,
             wanted,
+            blind_thrust_n: self.blind_thrust_n(),
         }
     }
 
@@ -304,10 +307,21 @@ impl<P: PositionLaw> Outer<P> {
     /// Level, with a thrust below the weight.
     fn sink(&mut self, effective: Tick, now: &Predicted, reference: &FlatReference) -> OuterOutput {
         // The law's thrust effectiveness is still valid: it is kept before the law is reset.
-        let share = *self.blind_share.get_or_insert(1.0 / self.law.thrust_effectiveness());
+        let share = self.blind_share();
+        self.blind_share = Some(share);
         self.reset_law();
         let profile = ForceProfile::hover(self.blind_force * share);
         self.output(effective, now, &profile, reference, Vector3::zeros())
+    }
+
+    /// The factor on the model's thrust that gives a force.
+    fn blind_share(&self) -> f32 {
+        self.blind_share.unwrap_or_else(|| 1.0 / self.law.thrust_effectiveness())
+    }
+
+    /// Thrust of a blind descent that begins now, N.
+    fn blind_thrust_n(&self) -> f32 {
+        self.mass_kg * self.blind_force * self.blind_share()
     }
 
     /// Position control: tracks a reference that is valid, like the output, at the tick `effective`.
@@ -360,6 +374,7 @@ impl<P: PositionLaw> Outer<P> {
             authority: Authority::Full,
             heading_free: false,
             wanted: reference.position.push(reference.yaw),
+            blind_thrust_n: self.blind_thrust_n(),
         }
     }
 

@@ -58,6 +58,7 @@ use crate::commander::{Answers, Commands, Events, Mode, Origin};
 use crate::estimator::status::Status;
 use crate::failure::{Failures, Injectable};
 use crate::signals::{NavState, Tick};
+use crate::watchdog::Hung;
 
 /// MAVLink system of a vehicle that is alone.
 pub const SYSTEM_ID: u8 = 1;
@@ -98,6 +99,8 @@ pub struct Health {
     pub refused_samples: u32,
     /// Jobs of the outer, commander and ground partitions that overran since boot.
     pub overruns: [u32; 3],
+    /// Which partitions hang.
+    pub hung: Hung,
     /// Rates of the loops, if the board measures them.
     pub timing: Option<LoopTiming>,
 }

@@ -15,6 +15,11 @@ const CONTROLLERS: MavSysStatusSensor = MavSysStatusSensor::MAV_SYS_STATUS_SENSO
     .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL)
     .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS);
 
+/// Those of them in the outer partition.
+const GUIDED: MavSysStatusSensor = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_YAW_POSITION
+    .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_Z_ALTITUDE_CONTROL)
+    .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL);
+
 /// Fills in `SYS_STATUS`.
 pub(super) fn sys_status(input: &GroundInput, errors: u32) -> SYS_STATUS_DATA {
     let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
@@ -23,7 +28,8 @@ pub(super) fn sys_status(input: &GroundInput, errors: u32) -> SYS_STATUS_DATA {
     // There is no geofence, but a ground station takes a missing health bit for a breach.
     let mut health = CONTROLLERS | healthy | MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE;
     // Armed it has passed: scripts wait for this bit whatever the vehicle is doing.
-    health.set(prearm, input.armable || input.armed);
+    health.set(prearm, (input.armable || input.armed) && !input.health.hung.commander);
+    health.set(GUIDED, !input.health.hung.outer);
     let sample = input.estimator.filter(|status| status.battery.healthy).and_then(|status| status.battery_sample);
     let [outer, commander, ground] = input.health.overruns.map(saturate);
     SYS_STATUS_DATA {

@@ -227,6 +227,20 @@ fn a_vehicle_that_is_armed_has_passed_its_checks_wherever_it_is() {
 }
 
 #[test]
+fn a_partition_that_hangs_shows_in_sys_status() {
+    let health = |hung: Hung| {
+        let mut bench = Bench::new();
+        bench.input.health.hung = hung;
+        let messages = bench.jobs(10);
+        let status = messages.iter().find_map(|m| if let MavMessage::SYS_STATUS(m) = m { Some(m) } else { None });
+        status.expect("sent").onboard_control_sensors_health.bits() & 0x1000_7000
+    };
+    assert_eq!(health(Hung::default()), 0x1000_7000);
+    assert_eq!(health(Hung { outer: true, commander: false }), 0x1000_0000, "no control of heading, height and place");
+    assert_eq!(health(Hung { outer: false, commander: true }), 0x7000, "nobody would arm it");
+}
+
+#[test]
 fn arming_goes_to_the_commander_and_its_reply_back_to_the_sender() {
     let mut bench = Bench::silent();
     let requests = [

@@ -150,6 +150,8 @@ fn failsafe_events_are_sent_as_text() {
         (Event::BatteryLow, "Battery low: returning home"),
         (Event::BatteryCritical, "Battery critical: landing"),
         (Event::RotorFailed { rotor: 2 }, "Motor 3 failed: descending without yaw control"),
+        (Event::OuterHung, "Guidance hung: blind descent"),
+        (Event::CommanderHung, "Commander hung: descending"),
     ] {
         let _ = bench.input.events.push(event);
         let messages = bench.job(&[]);

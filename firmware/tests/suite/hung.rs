@@ -1,0 +1,208 @@
+//! A partition whose job never ends: the vehicle comes down level and slowly, says so, and a kill still stops it.
+
+use firmware::airframe::ROTORS;
+use firmware::autopilot::Autopilot;
+use firmware::commander::{Mode, Refusal, Request};
+use firmware::config::{FlightConfig, Start};
+use firmware::guidance::Trajectory;
+use firmware::mavlink::port::Profile;
+use firmware::signals::{MotorCommand, NavState, SensorFrame, TICK_S};
+use firmware::watchdog::{COMMANDER_HUNG_AFTER, OUTER_HUNG_AFTER};
+use nalgebra::Vector3;
+
+use crate::modes::{Body, config};
+
+/// The partitions that hang.
+#[derive(Clone, Copy, Default)]
+struct Hangs {
+    outer: bool,
+    commander: bool,
+}
+
+/// The schedule as on a board, where a partition's task takes its snapshot and may never finish.
+struct Vehicle {
+    pilot: Autopilot,
+    body: Body,
+    motors: MotorCommand,
+    hangs: Hangs,
+    sent: Vec<u8>,
+}
+
+impl Vehicle {
+    /// Flying at 5 m along x.
+    fn flying(speed_m_s: f32) -> Self {
+        let start = Vector3::new(0.0, 0.0, 5.0);
+        let config = FlightConfig {
+            trajectory: Trajectory::Hold { position_m: start.into(), yaw_rad: 0.0 },
+            start: Start::InFlight,
+            start_position_m: start.into(),
+            ..config()
+        };
+        let velocity = Vector3::new(speed_m_s, 0.0, 0.0);
+        let nav = NavState { position: start, velocity, ..NavState::at_rest() };
+        let pilot = Autopilot::new(&config).expect("valid");
+        pilot.ports.first().open(Profile::Normal);
+        Self {
+            pilot,
+            body: Body { airframe: config.airframe, nav },
+            motors: MotorCommand::STOPPED,
+            hangs: Hangs::default(),
+            sent: Vec::new(),
+        }
+    }
+
+    fn tick(&mut self) {
+        let Autopilot { inner, outer, commander, ground, mail, ports, .. } = &mut self.pilot;
+        let released = inner.tick(mail, ports, Some(&SensorFrame::Motion(self.body.nav)));
+        if released.outer
+            && let Some((tick, input)) = mail.outer.take()
+            && !self.hangs.outer
+        {
+            mail.outer.finish(outer.step(tick, &input));
+        }
+        if released.commander
+            && let Some((tick, input)) = mail.commander.take()
+            && !self.hangs.commander
+        {
+            mail.commander.finish(commander.step(tick, &input));
+        }
+        if released.ground
+            && let Some((tick, input)) = mail.ground.take()
+        {
+            mail.ground.finish(ground.step(tick, &input, ports));
+        }
+        self.motors = inner.inner_output().motors;
+        self.sent.extend_from_slice(ports.first().take(&mut [0; 2048]));
+        self.body.step(&self.motors);
+    }
+
+    fn run(&mut self, seconds: f32) {
+        for _ in 0..(seconds / TICK_S) as u32 {
+            self.tick();
+        }
+    }
+
+    /// Until it stands on the ground: the greatest speed downwards.
+    fn comes_down(&mut self, within_s: f32) -> f32 {
+        let mut fastest = 0.0;
+        for _ in 0..(within_s / TICK_S) as u32 {
+            self.tick();
+            fastest = firmware::math::max(fastest, -self.body.nav.velocity.z);
+            if self.body.nav.position.z <= 0.0 {
+                return fastest;
+            }
+        }
+        panic!("not on the ground after {within_s} s: {:?}", self.body.nav);
+    }
+
+    fn has_said(&self, text: &str) -> bool {
+        self.sent.windows(text.len()).any(|bytes| bytes == text.as_bytes())
+    }
+
+    fn mode(&self) -> Mode {
+        self.pilot.inner.commander_output().mode
+    }
+
+    fn tilt(&self) -> f32 {
+        (self.body.nav.attitude * Vector3::z()).angle(&Vector3::z())
+    }
+}
+
+#[test]
+fn with_a_hung_outer_partition_it_comes_down_level_and_is_disarmed() {
+    let mut vehicle = Vehicle::flying(3.0);
+    vehicle.run(0.3);
+    assert!(vehicle.tilt() > 0.1, "it brakes when its guidance stops: {}", vehicle.tilt());
+    vehicle.hangs.outer = true;
+    vehicle.run(1.0);
+    assert!(vehicle.tilt() < 0.01, "{}", vehicle.tilt());
+    let nav = vehicle.body.nav;
+    let weight = vehicle.body.airframe.weight_n();
+    let thrust = vehicle.pilot.inner.inner_output().demand.thrust_n;
+    assert!((0.9 * weight..0.95 * weight).contains(&thrust), "{thrust} of {weight} N");
+    let fastest = vehicle.comes_down(10.0);
+    assert!(fastest < 2.5, "{fastest} m/s");
+    assert!((vehicle.body.nav.position - nav.position).xy().norm() < 10.0 && vehicle.tilt() < 0.02);
+    assert_eq!(vehicle.mode(), Mode::Descent);
+    assert!(vehicle.has_said("Guidance hung: blind descent"));
+    vehicle.run(3.5);
+    assert_eq!(vehicle.mode(), Mode::Disarmed);
+    assert_eq!(vehicle.motors, MotorCommand::STOPPED);
+    assert_eq!(vehicle.pilot.inner.commander_output().armable, Err(Refusal::NoGuidance));
+}
+
+#[test]
+fn with_a_hung_commander_it_descends_by_what_is_known_until_it_is_killed() {
+    let mut vehicle = Vehicle::flying(0.0);
+    vehicle.run(0.3);
+    vehicle.hangs.commander = true;
+    let place = vehicle.body.nav.position;
+    let fastest = vehicle.comes_down(20.0);
+    assert!(fastest < 0.6, "{fastest} m/s");
+    assert!((vehicle.body.nav.position - place).xy().norm() < 0.1 && vehicle.tilt() < 0.02);
+    assert!(vehicle.has_said("Commander hung: descending"));
+    vehicle.pilot.inner.kill();
+    vehicle.tick();
+    assert_eq!(vehicle.motors, MotorCommand::STOPPED);
+}
+
+#[test]
+fn with_both_hung_it_comes_down_level_and_a_kill_stops_it_at_once() {
+    let mut vehicle = Vehicle::flying(3.0);
+    vehicle.run(0.3);
+    vehicle.hangs = Hangs { outer: true, commander: true };
+    let fastest = vehicle.comes_down(10.0);
+    assert!(fastest < 2.5 && vehicle.tilt() < 0.02, "{fastest} m/s, {}", vehicle.tilt());
+    assert!(vehicle.motors.omega_rad_s.iter().all(|omega| *omega > 0.0), "nobody knows that it has landed");
+    vehicle.pilot.inner.kill();
+    vehicle.tick();
+    assert_eq!(vehicle.motors.omega_rad_s, [0.0; ROTORS]);
+    vehicle.run(1.0);
+    assert_eq!(vehicle.motors.omega_rad_s, [0.0; ROTORS]);
+}
+
+#[test]
+fn a_partition_that_is_late_is_none_that_hangs() {
+    let mut vehicle = Vehicle::flying(0.0);
+    vehicle.run(0.3);
+    vehicle.hangs = Hangs { outer: true, commander: true };
+    for _ in 0..OUTER_HUNG_AFTER - 4 {
+        vehicle.tick();
+    }
+    vehicle.hangs.outer = false;
+    // The late jobs end at last, and the next ones are released.
+    let late = *vehicle.pilot.inner.outer_output();
+    vehicle.pilot.mail.outer.finish(late);
+    for _ in 0..COMMANDER_HUNG_AFTER - OUTER_HUNG_AFTER - 40 {
+        vehicle.tick();
+    }
+    vehicle.hangs.commander = false;
+    let late = vehicle.pilot.inner.commander_output().clone();
+    vehicle.pilot.mail.commander.finish(late);
+    vehicle.run(3.0);
+    assert!(!vehicle.has_said("hung"));
+    assert_eq!(vehicle.mode(), Mode::Follow);
+    assert!((vehicle.body.nav.position - Vector3::new(0.0, 0.0, 5.0)).norm() < 0.1, "{:?}", vehicle.body.nav);
+}
+
+#[test]
+fn on_the_ground_a_hung_partition_starts_nothing() {
+    let config = config();
+    let body = Body { airframe: config.airframe, nav: NavState::at_rest() };
+    let mut vehicle = Vehicle {
+        pilot: Autopilot::new(&config).expect("valid"),
+        body,
+        motors: MotorCommand::STOPPED,
+        hangs: Hangs::default(),
+        sent: Vec::new(),
+    };
+    vehicle.run(0.1);
+    vehicle.pilot.inner.request(Request::Arm { force: false }).expect("room");
+    vehicle.run(0.1);
+    let idle = vehicle.motors;
+    assert!(idle.omega_rad_s[0] > 0.0);
+    vehicle.hangs = Hangs { outer: true, commander: true };
+    vehicle.run(3.0);
+    assert_eq!(vehicle.motors, idle);
+    assert!(!vehicle.has_said("hung"), "nothing is done about it");
+}
