@@ -98,7 +98,9 @@ pub struct InnerTask<A = SlidingAttitude> {
     kills: u8,
     /// Acts when the outer partition or the commander hangs.
     watchdog: Watchdog,
-    /// Rate of a descent in place of the commander's directive, m/s.
+    /// Thrust of a blind descent in place of the outer partition's, N, and rate of a descent in place of the commander's
+    /// directive, m/s.
+    blind_thrust_n: f32,
     unguided_m_s: f32,
 }
 
@@ -128,6 +130,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             failures: Failures::new(),
             kills: 0,
             watchdog: Watchdog::default(),
+            blind_thrust_n: config.modes.blind_thrust_part * config.airframe.weight_n(),
             unguided_m_s: config.modes.touchdown_m_s,
         }
     }
@@ -167,7 +170,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
             self.inner.idle();
             return;
         }
-        let (level, is_first) = self.watchdog.level(tick, self.inner.nav(), self.outer.blind_thrust_n);
+        let thrust_n = self.blind_thrust_n / self.outer.thrust_effectiveness;
+        let (level, is_first) = self.watchdog.level(tick, self.inner.nav(), thrust_n);
         if is_first {
             self.report(Event::OuterHung);
         }

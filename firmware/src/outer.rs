@@ -57,8 +57,8 @@ pub struct OuterOutput {
     pub heading_free: bool,
     /// Reference position, m, and heading, rad.
     pub wanted: Vector4<f32>,
-    /// Thrust of a blind descent, N, for the inner partition should this be the last output.
-    pub blind_thrust_n: f32,
+    /// Thrust that the rotors give, as a fraction of the model's, for the inner partition should this be the last output.
+    pub thrust_effectiveness: f32,
 }
 
 /// Source of the last job's reference.
@@ -83,10 +83,9 @@ pub struct Outer<P = SlidingPosition> {
     source: Source,
     law: P,
     limited: bool,
-    /// Specific force of a blind descent, m/s², and the factor on the model's thrust that gives it, held since that
-    /// descent began.
+    /// Specific force of a blind descent, m/s², and the thrust effectiveness held since that descent began.
     blind_force: f32,
-    blind_share: Option<f32>,
+    blind_effectiveness: Option<f32>,
 }
 
 /// A descending reference is at most this far below the vehicle, m: on the ground it must not run away.
@@ -139,14 +138,14 @@ impl<P: PositionLaw> Outer<P> {
             law,
             limited: false,
             blind_force: config.modes.blind_thrust_part * config.airframe.gravity_m_s2,
-            blind_share: None,
+            blind_effectiveness: None,
         })
     }
 
     /// Clears the state of earlier jobs.
     pub fn reset(&mut self) {
         self.source = Source::Ground;
-        self.blind_share = None;
+        self.blind_effectiveness = None;
         self.reset_law();
     }
 
@@ -199,7 +198,7 @@ impl<P: PositionLaw> Outer<P> {
             authority: Authority::Idle,
             heading_free: false,
             wanted,
-            blind_thrust_n: self.blind_thrust_n(),
+            thrust_effectiveness: self.thrust_effectiveness(),
         }
     }
 
@@ -307,21 +306,15 @@ impl<P: PositionLaw> Outer<P> {
     /// Level, with a thrust below the weight.
     fn sink(&mut self, effective: Tick, now: &Predicted, reference: &FlatReference) -> OuterOutput {
         // The law's thrust effectiveness is still valid: it is kept before the law is reset.
-        let share = self.blind_share();
-        self.blind_share = Some(share);
+        let share = 1.0 / *self.blind_effectiveness.get_or_insert(self.law.thrust_effectiveness());
         self.reset_law();
         let profile = ForceProfile::hover(self.blind_force * share);
         self.output(effective, now, &profile, reference, Vector3::zeros())
     }
 
-    /// The factor on the model's thrust that gives a force.
-    fn blind_share(&self) -> f32 {
-        self.blind_share.unwrap_or_else(|| 1.0 / self.law.thrust_effectiveness())
-    }
-
-    /// Thrust of a blind descent that begins now, N.
-    fn blind_thrust_n(&self) -> f32 {
-        self.mass_kg * self.blind_force * self.blind_share()
+    /// The thrust effectiveness, or the one held in a blind descent.
+    fn thrust_effectiveness(&self) -> f32 {
+        self.blind_effectiveness.unwrap_or_else(|| self.law.thrust_effectiveness())
     }
 
     /// Position control: tracks a reference that is valid, like the output, at the tick `effective`.
@@ -374,7 +367,7 @@ impl<P: PositionLaw> Outer<P> {
             authority: Authority::Full,
             heading_free: false,
             wanted: reference.position.push(reference.yaw),
-            blind_thrust_n: self.blind_thrust_n(),
+            thrust_effectiveness: self.thrust_effectiveness(),
         }
     }
 
