@@ -20,6 +20,7 @@
 use nalgebra::Vector3;
 
 use crate::math;
+use crate::settings;
 use crate::validate::ConfigError;
 
 /// Number of rotors in this build. The mixer itself supports four to eight.
@@ -172,37 +173,6 @@ impl Airframe {
     /// # Errors
     /// The first field that is not finite, not positive, or negative where it must be ≥ 0.
     pub fn validate(&self) -> Result<(), ConfigError> {
-        let [ix, iy, iz] = self.inertia_kg_m2;
-        for (name, value) in [
-            ("airframe.mass_kg", self.mass_kg),
-            ("airframe.inertia_kg_m2", ix),
-            ("airframe.inertia_kg_m2", iy),
-            ("airframe.inertia_kg_m2", iz),
-            ("airframe.gravity_m_s2", self.gravity_m_s2),
-            ("airframe.omega_max_rad_s", self.omega_max_rad_s),
-        ] {
-            ConfigError::require_positive(name, value)?;
-        }
-        let [k1, k2, k3] = self.drag_n_s_m;
-        let [k4, k5, k6] = self.rotational_drag_n_m_s2;
-        for (name, value) in [
-            ("airframe.rotor_inertia_kg_m2", self.rotor_inertia_kg_m2),
-            ("airframe.drag_n_s_m", k1),
-            ("airframe.drag_n_s_m", k2),
-            ("airframe.drag_n_s_m", k3),
-            ("airframe.rotational_drag_n_m_s2", k4),
-            ("airframe.rotational_drag_n_m_s2", k5),
-            ("airframe.rotational_drag_n_m_s2", k6),
-            ("airframe.rotor_lag_s", self.rotor_lag_s),
-        ] {
-            ConfigError::require_not_negative(name, value)?;
-        }
-        if !self.geometry.rows().iter().flatten().all(|v| v.is_finite()) {
-            return Err(ConfigError::NonFinite("airframe.geometry".into()));
-        }
-        if !self.geometry.thrust.iter().all(|v| *v > 0.0) {
-            return Err(ConfigError::NotPositive("airframe.geometry.thrust".into()));
-        }
-        Ok(())
+        settings::check_airframe(self)
     }
 }

@@ -10,6 +10,7 @@ use crate::control::rotor::YawInversion;
 use crate::control::sliding::AxisGains;
 use crate::estimator::EstimatorSettings;
 use crate::guidance::{JoinPlan, Trajectory};
+use crate::settings;
 use crate::validate::ConfigError;
 
 /// How a flight begins.
@@ -93,46 +94,12 @@ impl Default for ModeSettings {
 }
 
 impl ModeSettings {
-    /// Refuses settings that no vehicle can fly by.
+    /// Refuses settings that no vehicle can fly by; the ranges are those of the settings' table.
     ///
     /// # Errors
     /// The first field that is out of its range.
     pub fn validate(&self) -> Result<(), ConfigError> {
-        for (name, value) in [
-            ("modes.cruise_m_s", self.cruise_m_s),
-            ("modes.climb_m_s", self.climb_m_s),
-            ("modes.sink_m_s", self.sink_m_s),
-            ("modes.take_off_m_s", self.take_off_m_s),
-            ("modes.landing_m_s", self.landing_m_s),
-            ("modes.touchdown_m_s", self.touchdown_m_s),
-            ("modes.descent_m_s", self.descent_m_s),
-            ("modes.acceleration_m_s2", self.acceleration_m_s2),
-            ("modes.vertical_acceleration_m_s2", self.vertical_acceleration_m_s2),
-            ("modes.jerk_m_s3", self.jerk_m_s3),
-            ("modes.yaw_rate_rad_s", self.yaw_rate_rad_s),
-            ("modes.yaw_acceleration_rad_s2", self.yaw_acceleration_rad_s2),
-        ] {
-            // Slower, nothing would ever arrive; faster, a step of the reference would be a leap.
-            ConfigError::require_within(name, value, 0.05, 100.0)?;
-        }
-        for (name, value) in [
-            ("modes.landing_m_s", self.landing_m_s),
-            ("modes.touchdown_m_s", self.touchdown_m_s),
-            ("modes.descent_m_s", self.descent_m_s),
-        ] {
-            // A vehicle that comes down as slowly as one that stands could not be told from it.
-            ConfigError::require_within(name, value, 0.35, 100.0)?;
-        }
-        ConfigError::require_not_negative("modes.return_height_m", self.return_height_m)?;
-        ConfigError::require_not_negative("modes.battery_low_v", self.battery_low_v)?;
-        ConfigError::require_not_negative("modes.battery_critical_v", self.battery_critical_v)?;
-        for (name, fraction) in
-            [("modes.idle_part", self.idle_part), ("modes.blind_thrust_part", self.blind_thrust_part)]
-        {
-            ConfigError::require_not_negative(name, fraction)?;
-            ConfigError::require_below(name, fraction, 1.0)?;
-        }
-        Ok(())
+        settings::check_modes(self)
     }
 }
 
@@ -175,9 +142,7 @@ impl FlightConfig {
         self.airframe.validate()?;
         self.attitude.validate()?;
         self.position.validate()?;
-        ConfigError::require_positive("control.tilt_max_rad", self.tilt_max_rad)?;
-        ConfigError::require_below("control.tilt_max_rad", self.tilt_max_rad, 1.5)?;
-        ConfigError::require_not_negative("control.rotor_time_constant_s", self.rotor_time_constant_s)?;
+        settings::check_flight(self)?;
         if !crate::math::all_finite(&self.start_position_m) {
             return Err(ConfigError::NonFinite("start_position_m".into()));
         }

@@ -76,6 +76,7 @@ pub mod rotors;
 pub mod schedule;
 pub mod selftest;
 pub mod sensors;
+pub mod settings;
 pub mod signals;
 pub mod validate;
 pub mod watchdog;

@@ -108,6 +108,72 @@ impl ConfigError {
     }
 }
 
+/// The values that a number of the configuration may have, and by which its violation is named.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// 1e-9 to 1e9 (see [`ConfigError::require_positive`]).
+    Positive,
+    /// 1e-9 up to below a limit.
+    PositiveBelow(f32),
+    /// 0 to 1e9.
+    NotNegative,
+    /// 0 up to below a limit.
+    NotNegativeBelow(f32),
+    /// A closed interval.
+    Within(f32, f32),
+    /// Any finite number.
+    Finite,
+    /// Any positive finite number.
+    FinitePositive,
+}
+
+impl Range {
+    /// Least value.
+    pub const fn min(self) -> f32 {
+        match self {
+            Self::Positive | Self::PositiveBelow(_) => SMALLEST,
+            Self::NotNegative | Self::NotNegativeBelow(_) => 0.0,
+            Self::Within(low, _) => low,
+            Self::Finite => f32::MIN,
+            Self::FinitePositive => f32::MIN_POSITIVE,
+        }
+    }
+
+    /// Greatest value.
+    pub const fn max(self) -> f32 {
+        match self {
+            Self::Positive | Self::NotNegative => LARGEST,
+            Self::PositiveBelow(limit) | Self::NotNegativeBelow(limit) => limit.next_down(),
+            Self::Within(_, high) => high,
+            Self::Finite | Self::FinitePositive => f32::MAX,
+        }
+    }
+
+    /// Checks a value.
+    ///
+    /// # Errors
+    /// `field` with the bound that the value violates.
+    pub fn check(self, field: impl Into<Field>, value: f32) -> Result<(), ConfigError> {
+        let field = field.into();
+        match self {
+            Self::Positive => ConfigError::require_positive(field, value),
+            Self::PositiveBelow(limit) => {
+                ConfigError::require_positive(field, value)?;
+                ConfigError::require_below(field, value, limit)
+            }
+            Self::NotNegative => ConfigError::require_not_negative(field, value),
+            Self::NotNegativeBelow(limit) => {
+                ConfigError::require_not_negative(field, value)?;
+                ConfigError::require_below(field, value, limit)
+            }
+            Self::Within(low, high) => ConfigError::require_within(field, value, low, high),
+            Self::Finite | Self::FinitePositive if !value.is_finite() => Err(ConfigError::NonFinite(field)),
+            Self::FinitePositive if value <= 0.0 => Err(ConfigError::NotPositive(field)),
+            Self::Finite | Self::FinitePositive => Ok(()),
+        }
+    }
+}
+
 /// Without the bounds: a board would need a formatter of floats for them. The desktop's messages name them.
 impl core::fmt::Display for ConfigError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

@@ -135,7 +135,7 @@ const IDLE_AFTER_LANDING_S: f32 = 1.0;
 /// Acceptance radius of a height, m.
 const AT_HEIGHT_M: f32 = 0.3;
 /// Acceptance radius of a place, m; the vehicle must also be slow.
-const AT_PLACE_M: f32 = 0.5;
+pub(crate) const AT_PLACE_M: f32 = 0.5;
 /// Acceptance range of a heading, rad.
 const AT_HEADING_RAD: f32 = 0.15;
 /// Below this height over home, m, a landing slows down to the touchdown speed.

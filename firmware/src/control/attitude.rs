@@ -18,6 +18,7 @@ use crate::control::observer::{DisturbanceObserver, ObserverGains};
 use crate::control::pointing::PointingError;
 use crate::control::sliding::{AxisGains, SlidingAxis};
 use crate::math;
+use crate::settings::{Change, Place};
 use crate::signals::{AttitudeTarget, TICK_S};
 use crate::validate::ConfigError;
 
@@ -30,6 +31,21 @@ pub enum AttitudeForm {
     Group,
     /// Euler angles, as in the paper.
     Euler,
+}
+
+impl AttitudeForm {
+    /// Number of the form, for a setting.
+    pub const fn code(self) -> i32 {
+        match self {
+            Self::Group => 0,
+            Self::Euler => 1,
+        }
+    }
+
+    /// The form of a code.
+    pub const fn of_code(code: i32) -> Self {
+        if code == 1 { Self::Euler } else { Self::Group }
+    }
 }
 
 /// Gains of the attitude loop.
@@ -66,6 +82,8 @@ pub struct SlidingAttitude {
     axes: [SlidingAxis; 3],
     form: AttitudeForm,
     observer: Option<DisturbanceObserver>,
+    /// What the above was built from, to be changed in flight.
+    gains: AttitudeGains,
 }
 
 impl SlidingAttitude {
@@ -78,6 +96,7 @@ impl SlidingAttitude {
             axes: gains.axes.map(|axis| SlidingAxis::new(&axis, TICK_S)),
             form: gains.form,
             observer: (observer.bandwidth_rad_s > 0.0).then(|| DisturbanceObserver::new(&observer, TICK_S)),
+            gains: *gains,
         }
     }
 
@@ -141,6 +160,18 @@ impl AttitudeLaw for SlidingAttitude {
         if let Some(observer) = &mut self.observer {
             observer.reset();
         }
+    }
+
+    #[inline(never)]
+    fn retune(&mut self, change: &Change) {
+        if !change.apply_to(&mut self.gains, Place::attitude) {
+            return;
+        }
+        for (axis, gains) in self.axes.iter_mut().zip(&self.gains.axes) {
+            axis.retune(gains);
+        }
+        self.form = self.gains.form;
+        DisturbanceObserver::retune(&mut self.observer, &self.gains.observer, TICK_S);
     }
 }
 

@@ -8,6 +8,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
 use crate::control::flatness::ForceProfile;
+use crate::settings::Change;
 use crate::signals::{AttitudeTarget, FlatReference};
 
 /// Torque and spin that the rotors cause, by their speeds and by changing them.
@@ -55,6 +56,10 @@ pub trait AttitudeLaw {
 
     /// Clears every integrator, filter and observer state.
     fn reset(&mut self);
+
+    /// Takes over a setting of the law, between two steps and without a jump of its state. A law without settings
+    /// ignores it, as every law ignores those of others.
+    fn retune(&mut self, _change: &Change) {}
 }
 
 /// Input of a position law, once per job of the outer partition. All values are predicted to the tick at which the
@@ -96,4 +101,8 @@ pub trait PositionLaw {
 
     /// Clears every integrator, filter and observer state.
     fn reset(&mut self);
+
+    /// Takes over a setting of the law, between two steps and without a jump of its state. A law without settings
+    /// ignores it, as every law ignores those of others.
+    fn retune(&mut self, _change: &Change) {}
 }

@@ -3,6 +3,7 @@
 //! | module | owns |
 //! |---|---|
 //! | [`law`] | the traits that a control law implements |
+//! | [`gains`] | surface, gain and reaching law of an axis, as they are configured |
 //! | [`sliding`] | sliding surfaces and reaching laws |
 //! | [`position`] | position control: Eq. 28–31 |
 //! | [`flatness`] | the map from a force and its derivatives to an attitude and its derivatives (Eq. 11) |
@@ -18,6 +19,7 @@ pub mod attitude;
 pub mod design;
 pub mod euler;
 pub mod flatness;
+pub mod gains;
 pub mod gyro;
 pub mod law;
 pub mod mixer;

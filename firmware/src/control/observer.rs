@@ -10,7 +10,7 @@
 use nalgebra::Vector3;
 
 use crate::math;
-use crate::validate::{ConfigError, Field};
+use crate::validate::{ConfigError, Field, Range};
 
 /// Configuration of an observer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,13 +23,16 @@ pub struct ObserverGains {
 }
 
 impl ObserverGains {
+    /// The values of both.
+    pub const RANGE: Range = Range::NotNegative;
+
     /// Checks that both values are finite and not negative.
     ///
     /// # Errors
     /// The field of the observer `group` and what is wrong with it.
     pub fn validate(&self, group: &'static str) -> Result<(), ConfigError> {
-        ConfigError::require_not_negative(Field::of(group, "bandwidth_rad_s"), self.bandwidth_rad_s)?;
-        ConfigError::require_not_negative(Field::of(group, "disturbance_max"), self.disturbance_max)
+        Self::RANGE.check(Field::of(group, "bandwidth_rad_s"), self.bandwidth_rad_s)?;
+        Self::RANGE.check(Field::of(group, "disturbance_max"), self.disturbance_max)
     }
 }
 
@@ -64,6 +67,17 @@ impl DisturbanceObserver {
             rate: Vector3::zeros(),
             disturbance: Vector3::zeros(),
         }
+    }
+
+    /// Goes on with other gains, from the estimate so far; without a bandwidth there is no observer.
+    pub fn retune(observer: &mut Option<Self>, gains: &ObserverGains, step_s: f32) {
+        let tuned = (gains.bandwidth_rad_s > 0.0).then(|| Self::new(gains, step_s));
+        *observer = match (tuned, observer.take()) {
+            (Some(tuned), Some(Self { started, rate, disturbance, .. })) => {
+                Some(Self { started, rate, disturbance, ..tuned })
+            }
+            (tuned, _) => tuned,
+        };
     }
 
     /// Clears the estimate.
@@ -135,6 +149,11 @@ impl ThrustEffectiveness {
     #[inline]
     pub fn value(&self) -> f32 {
         self.value
+    }
+
+    /// Goes on with another rate (1/s), from the value so far; at 0 that value stays.
+    pub fn retune(&mut self, rate: f32, step_s: f32) {
+        self.adapt_gain = rate * step_s;
     }
 
     /// Back to 1.

@@ -13,8 +13,9 @@ use crate::control::observer::{DisturbanceObserver, ObserverGains, ThrustEffecti
 use crate::control::sliding::{AxisGains, Correction, SlidingAxis};
 use crate::math;
 use crate::schedule::{OUTER, OUTER_AHEAD_S};
+use crate::settings::{Change, Place};
 use crate::signals::{FlatReference, TICK_S};
-use crate::validate::ConfigError;
+use crate::validate::{ConfigError, Range};
 
 /// Gains of the position loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +30,9 @@ pub struct PositionGains {
 }
 
 impl PositionGains {
+    /// Accepted rates γ.
+    pub const EFFECTIVENESS_RATES: Range = Range::NotNegative;
+
     /// Checks that the law is defined for these gains.
     ///
     /// # Errors
@@ -39,7 +43,7 @@ impl PositionGains {
         y.validate("control.y")?;
         z.validate("control.z")?;
         self.observer.validate("control.position_observer")?;
-        ConfigError::require_not_negative("control.effectiveness_rate", self.effectiveness_rate)
+        Self::EFFECTIVENESS_RATES.check("control.effectiveness_rate", self.effectiveness_rate)
     }
 }
 
@@ -88,18 +92,23 @@ pub struct SlidingPosition {
     model: Translation,
     observer: Option<DisturbanceObserver>,
     effectiveness: ThrustEffectiveness,
+    /// What the above was built from, to be changed in flight.
+    gains: PositionGains,
 }
+
+/// Time between two steps, s: a period of the outer partition.
+const STEP_S: f32 = OUTER.period as f32 * TICK_S;
 
 impl SlidingPosition {
     /// With valid gains; evaluated once per job of the outer partition.
     pub fn new(airframe: &Airframe, gains: &PositionGains) -> Self {
-        let step_s = OUTER.period as f32 * TICK_S;
         let observer = gains.observer;
         Self {
-            axes: gains.axes.map(|axis| SlidingAxis::new(&axis, step_s)),
+            axes: gains.axes.map(|axis| SlidingAxis::new(&axis, STEP_S)),
             model: Translation::new(airframe),
-            observer: (observer.bandwidth_rad_s > 0.0).then(|| DisturbanceObserver::new(&observer, step_s)),
-            effectiveness: ThrustEffectiveness::new(gains.effectiveness_rate, step_s),
+            observer: (observer.bandwidth_rad_s > 0.0).then(|| DisturbanceObserver::new(&observer, STEP_S)),
+            effectiveness: ThrustEffectiveness::new(gains.effectiveness_rate, STEP_S),
+            gains: *gains,
         }
     }
 
@@ -157,6 +166,17 @@ impl PositionLaw for SlidingPosition {
         }
         self.effectiveness.reset();
     }
+
+    fn retune(&mut self, change: &Change) {
+        if !change.apply_to(&mut self.gains, Place::position) {
+            return;
+        }
+        for (axis, gains) in self.axes.iter_mut().zip(&self.gains.axes) {
+            axis.retune(gains);
+        }
+        DisturbanceObserver::retune(&mut self.observer, &self.gains.observer, STEP_S);
+        self.effectiveness.retune(self.gains.effectiveness_rate, STEP_S);
+    }
 }
 
 /// Sliding variables sx, sy, sz and the demanded specific force.
@@ -201,8 +221,15 @@ pub struct ForceLimits {
 impl ForceLimits {
     /// For an airframe and a greatest tilt (rad).
     pub fn new(airframe: &Airframe, tilt_max_rad: f32) -> Self {
+        let force_max = airframe.thrust_max_n() / airframe.mass_kg;
+        Self { force_max, tan_tilt_max: 0.0 }.with_tilt(tilt_max_rad)
+    }
+
+    /// The same with another greatest tilt (rad).
+    #[must_use]
+    pub fn with_tilt(self, tilt_max_rad: f32) -> Self {
         let (sin_tilt, cos_tilt) = math::sin_cos(tilt_max_rad);
-        Self { force_max: airframe.thrust_max_n() / airframe.mass_kg, tan_tilt_max: sin_tilt / cos_tilt }
+        Self { tan_tilt_max: sin_tilt / cos_tilt, ..self }
     }
 
     /// Limits a specific force: the vertical component from below, the magnitude and the tilt from above. The vertical

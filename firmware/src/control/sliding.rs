@@ -3,8 +3,7 @@
 //! With the error `e = desired − actual` a surface is `s = λ e + ė` (Eq. 18–23). A reaching law makes `ṡ = −u_r(s)`
 //! (Eq. 16), and a disturbance d of the axis' acceleration turns that into `ṡ = −u_r(s) − d`.
 //!
-//! [`ReachingLaw`] is the family of `u_r`, each with its guarantee. [`AxisGains`] is the configuration of an axis,
-//! [`SlidingAxis`] its loop form with the state. `K` is [`AxisGains::gain`], D a bound on |d|, L a bound on |ḋ|, V =
+//! [`AxisGains`] is the configuration of an axis (see `gains`), [`SlidingAxis`] its loop form with the state. `K` is [`AxisGains::gain`], D a bound on |d|, L a bound on |ḋ|, V =
 //! s²/2.
 //!
 //! ```
@@ -28,159 +27,8 @@
 //! assert!(error.abs() < 2.0 * step_s * disturbance / lambda, "{error}");
 //! ```
 
+pub use super::gains::{AxisGains, AxisNumber, ReachingLaw, Surface};
 use crate::math;
-use crate::validate::{ConfigError, Field};
-
-/// A reaching law `u_r(s)`, selectable per axis at run time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(rename_all = "kebab-case", deny_unknown_fields)
-)]
-pub enum ReachingLaw {
-    /// `K sgn(s)`, Eq. 17. For K > D: V̇ ≤ −(K − D)|s|, so s = 0 after |s0|/(K − D) for any such disturbance, with no
-    /// residual error. Sampled every h seconds it chatters by K h.
-    Sgn,
-    /// `K sat(s/ρ)`: sgn outside a boundary layer of half-width ρ, linear inside. For K > D: V̇ < 0 for |s| > ρ D/K,
-    /// which is the residual error. Sampled every h seconds it needs ρ ≥ K h not to overshoot, and ρ > K h/2 not to
-    /// chatter as sgn does.
-    Sat {
-        /// Half-width ρ of the boundary layer, in units of s.
-        rho: f32,
-    },
-    /// `K tanh(s/ρ)`: smooth everywhere. For K > D: V̇ < 0 for |s| > ρ artanh(D/K), which is the residual error.
-    Tanh {
-        /// Scale ρ of the layer, in units of s.
-        rho: f32,
-    },
-    /// `K |s|^α sgn(s)`, 0 < α < 1 (the power-rate law): reaches s = 0 in |s0|^(1−α)/((1−α)K) without a jump; V̇ < 0 for
-    /// |s| > (D/K)^(1/α). The power is computed to 12 %, which changes the reaching time by as much and the residual error
-    /// by 12 %/α.
-    Power {
-        /// Exponent α.
-        alpha: f32,
-    },
-    /// `K sat(s/ρ) + q s` (exponential reaching, Gao and Hung 1993): far out V̇ ≤ −2 q V, so s decays as e^(−qt)
-    /// instead of at the constant rate K; close in it acts as [`Sat`](Self::Sat), with a residual of |s| ≤ ρ D/(K + q
-    /// ρ).
-    Exponential {
-        /// Rate q, 1/s.
-        rate: f32,
-        /// Half-width ρ of the boundary layer, in units of s.
-        rho: f32,
-    },
-    /// Set-valued sgn by backward Euler (Acary and Brogliato 2010): the u of `s⁺ = s − T u, u ∈ K sgn(s⁺)`, which is
-    /// `s/T` limited to ±K. With T the sampling step and K > D: s reaches |s| ≤ T D in a finite number of steps and
-    /// stays, without chattering, however large K is. If the actuator responds later than within a step, T is its
-    /// response time: sampling, delay and lag together.
-    ImplicitSgn {
-        /// T, s.
-        horizon_s: f32,
-    },
-    /// `K √|s| sgn(s) + v, v̇ = k2 sgn(s)` (super-twisting, Levant 1993), explicit Euler. With k2 > L and
-    /// K² ≥ 4 L (k2 + L)/(k2 − L) both s and ṡ reach 0 in finite time (strict Lyapunov function: Moreno and Osorio 2012), whatever
-    /// the size of d. Sampled, its residual is |s| of order h², and it chatters by k2 h.
-    SuperTwisting {
-        /// k2, in units of s per second squared.
-        twist: f32,
-    },
-    /// Super-twisting by backward Euler (after Brogliato, Polyakov and Efimov 2020), v taken as the estimate of the
-    /// disturbance: with `u = v + w`, w solves `s⁺ = s − T w, w ∈ K √|s⁺| sgn(s⁺) + 4T k2 sgn(s⁺)`, and `v̇ ∈ k2
-    /// sgn(s⁺)`. No chattering; where |s| ≤ 4T² k2 it is `s/T + ∫s/(4T²)`, two poles at −1/(2T), so a constant
-    /// disturbance leaves no error (with a weight of T alone, the poles would lie on the unit circle for T = h). T as
-    /// for [`ImplicitSgn`](Self::ImplicitSgn).
-    ImplicitSuperTwisting {
-        /// k2, in units of s per second squared.
-        twist: f32,
-        /// T, s.
-        horizon_s: f32,
-    },
-}
-
-/// The sliding surface of an axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
-pub enum Surface {
-    /// `s = λ e + ė` (Eq. 18–23): on it the error decays as e^(−λt).
-    #[default]
-    Linear,
-    /// `s = ė + 2λ e + λ² ∫e − (ė + 2λ e)(0)` (integral SMC, Utkin and Shi 1996): s = 0 from the first moment, so the
-    /// bound on the disturbance holds without a reaching phase; on it the error decays with a double pole at −λ, and a
-    /// constant disturbance leaves no error.
-    Integral,
-}
-
-/// Gains of one axis: surface, reaching gain K and reaching law.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
-pub struct AxisGains {
-    /// Slope λ of the surface, 1/s.
-    pub lambda: f32,
-    /// Reaching gain K, in units of s per second; for super-twisting in units of √s per second.
-    pub gain: f32,
-    /// Reaching law.
-    pub reaching: ReachingLaw,
-    /// Form of the surface.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub surface: Surface,
-    /// Limit on λ e of a linear surface: the greatest rate at which a large error is reduced, in units of s.
-    #[cfg_attr(feature = "serde", serde(default = "unlimited"))]
-    pub approach_max: f32,
-    /// Greatest deceleration A along a linear surface, in units of s per second: beyond |e| = A/λ², λ|e| is replaced by
-    /// the parabola √(2A|e| − (A/λ)²), on which the error is braked by A until it is small, as on the switching curve
-    /// of the time-optimal double integrator.
-    #[cfg_attr(feature = "serde", serde(default = "unlimited"))]
-    pub braking: f32,
-}
-
-/// A limit that never acts.
-const fn unlimited() -> f32 {
-    1e9
-}
-
-impl AxisGains {
-    /// Gains with any reaching law, on a linear surface without limits.
-    pub const fn new(gain: f32, lambda: f32, reaching: ReachingLaw) -> Self {
-        Self { lambda, gain, reaching, surface: Surface::Linear, approach_max: unlimited(), braking: unlimited() }
-    }
-
-    /// Gains with the boundary layer `sat(s/ρ)`, in the order of the paper's Table 1.
-    pub const fn sat(gain: f32, lambda: f32, rho: f32) -> Self {
-        Self::new(gain, lambda, ReachingLaw::Sat { rho })
-    }
-
-    /// Checks that the law is defined for these gains.
-    ///
-    /// # Errors
-    /// The field of the axis `group` and what is wrong with it: a number that is not finite or not positive, or α not
-    /// below 1.
-    pub fn validate(&self, group: &'static str) -> Result<(), ConfigError> {
-        let positive = |name, value| ConfigError::require_positive(Field::of(group, name), value);
-        positive("lambda", self.lambda)?;
-        positive("approach_max", self.approach_max)?;
-        positive("braking", self.braking)?;
-        ConfigError::require_not_negative(Field::of(group, "gain"), self.gain)?;
-        match self.reaching {
-            ReachingLaw::Sgn => Ok(()),
-            ReachingLaw::Sat { rho } => positive("reaching.sat.rho", rho),
-            ReachingLaw::Tanh { rho } => positive("reaching.tanh.rho", rho),
-            ReachingLaw::Exponential { rate, rho } => {
-                positive("reaching.exponential.rate", rate).and(positive("reaching.exponential.rho", rho))
-            }
-            ReachingLaw::ImplicitSgn { horizon_s } => positive("reaching.implicit-sgn.horizon_s", horizon_s),
-            ReachingLaw::SuperTwisting { twist } => positive("reaching.super-twisting.twist", twist),
-            ReachingLaw::ImplicitSuperTwisting { twist, horizon_s } => {
-                positive("reaching.implicit-super-twisting.twist", twist)?;
-                positive("reaching.implicit-super-twisting.horizon_s", horizon_s)
-            }
-            ReachingLaw::Power { alpha } => {
-                positive("reaching.power.alpha", alpha)?;
-                ConfigError::require_below(Field::of(group, "reaching.power.alpha"), alpha, 1.0)
-            }
-        }
-    }
-}
 
 /// A reaching law in loop form, without divisions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -325,6 +173,23 @@ impl SlidingAxis {
             twist: 0.0,
             integral: None,
         }
+    }
+
+    /// Flies on with other gains. The integrators keep their state where both gains have them: what the law adds for a
+    /// standing disturbance does not jump.
+    pub fn retune(&mut self, gains: &AxisGains) {
+        let before = *self;
+        *self = Self::new(gains, before.step_s);
+        if self.is_twisting() && before.is_twisting() {
+            self.twist = before.twist;
+        }
+        if self.surface == before.surface {
+            self.integral = before.integral;
+        }
+    }
+
+    fn is_twisting(&self) -> bool {
+        matches!(self.reach, Reach::SuperTwisting { .. } | Reach::ImplicitSuperTwisting(_))
     }
 
     /// Clears the integrators.

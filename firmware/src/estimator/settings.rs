@@ -98,40 +98,7 @@ impl EstimatorSettings {
     /// # Errors
     /// The first setting that is out of range.
     pub fn validate(&self) -> Result<(), ConfigError> {
-        let [gnss_horizontal, gnss_vertical] = self.gnss_noise_m;
-        let [speed_horizontal, speed_vertical] = self.gnss_speed_m_s;
-        for (name, value) in [
-            ("estimator.gyro_noise", self.gyro_noise),
-            ("estimator.gyro_bias_walk", self.gyro_bias_walk),
-            ("estimator.gyro_bias", self.gyro_bias),
-            ("estimator.accel_noise", self.accel_noise),
-            ("estimator.accel_bias_walk", self.accel_bias_walk),
-            ("estimator.accel_bias", self.accel_bias),
-            ("estimator.mag_noise_ut", self.mag_noise_ut),
-            ("estimator.heading_offset", self.heading_offset),
-            ("estimator.baro_noise_m", self.baro_noise_m),
-            ("estimator.gnss_noise_m", gnss_horizontal),
-            ("estimator.gnss_noise_m", gnss_vertical),
-            ("estimator.gnss_speed_m_s", speed_horizontal),
-            ("estimator.gnss_speed_m_s", speed_vertical),
-            ("estimator.pose_position_m", self.pose_position_m),
-            ("estimator.pose_attitude_rad", self.pose_attitude_rad),
-        ] {
-            ConfigError::require_positive(name, value)?;
-        }
-        for (name, value) in [
-            ("estimator.gyro_scale", self.gyro_scale),
-            ("estimator.accel_scale", self.accel_scale),
-            ("estimator.baro_walk", self.baro_walk),
-            ("estimator.gnss_walk", self.gnss_walk),
-        ] {
-            ConfigError::require_not_negative(name, value)?;
-        }
-        if crate::math::all_finite(&self.magnetic_field_ut) {
-            Ok(())
-        } else {
-            Err(ConfigError::NonFinite("estimator.magnetic_field_ut".into()))
-        }
+        crate::settings::check_estimator(self)
     }
 
     /// Process noise of a step of `step_s` seconds.

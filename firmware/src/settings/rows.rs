@@ -1,0 +1,288 @@
+//! The rows of the table, in their fixed order.
+//!
+//! A row of the configuration names its field once: access and key both follow from it. New rows are appended as a new
+//! block at the end of [`SETTINGS`].
+
+use super::axes::{AXES, AXES_COUNT};
+use super::table::{Class, Domain, Place, Setting, Slot, Value};
+use crate::control::observer::ObserverGains;
+use crate::control::position::PositionGains;
+use crate::validate::{Field, Range};
+
+/// Degrees per radian.
+const DEGREES: f32 = 57.295_78;
+
+/// Rows of numbers: name, unit, field of a part of the configuration, range, class, text.
+macro_rules! reals {
+    ($place:ident $group:literal: $(
+        $name:literal, $unit:literal $(* $scale:ident)?, $field:ident $([$i:literal])? $(.$sub:ident $([$j:literal])?)?,
+        $range:expr, $class:ident, $text:literal;
+    )*) => {
+        [$(Setting {
+            name: $name,
+            unit: $unit,
+            text: $text,
+            class: Class::$class,
+            domain: Domain::Real($range),
+            scale: 1.0 $(* $scale)?,
+            default: None,
+            key: Field::of("", concat!($group, ".", stringify!($field) $(, ".", stringify!($sub))?)),
+            place: Place::$place(Slot {
+                get: |part| Some(Value::Real(part.$field $([$i])? $(.$sub $([$j])?)?)),
+                set: |part, value| part.$field $([$i])? $(.$sub $([$j])?)? = value.real(),
+            }),
+        }),*]
+    };
+}
+
+/// Rows that stand in the settings alone: name, unit, default, domain, class, text.
+macro_rules! own {
+    ($($name:literal, $unit:literal, $kind:ident($default:expr), $domain:expr, $class:ident, $text:literal;)*) => {
+        [$(Setting {
+            name: $name,
+            unit: $unit,
+            text: $text,
+            class: Class::$class,
+            domain: $domain,
+            scale: 1.0,
+            default: Some(Value::$kind($default)),
+            key: Field::of("", ""),
+            place: Place::Settings,
+        }),*]
+    };
+}
+
+/// Slower, nothing would ever arrive; faster, a step of the reference would be a leap.
+const MOTION: Range = Range::Within(0.05, 100.0);
+/// A vehicle that comes down as slowly as one that stands could not be told from it.
+const DESCENT: Range = Range::Within(0.35, 100.0);
+const FRACTION: Range = Range::NotNegativeBelow(1.0);
+
+const MODES: [Setting; 17] = reals! { Modes "modes":
+    "MPC_XY_CRUISE", "m/s", cruise_m_s, MOTION, InFlight, "Greatest horizontal speed";
+    "MPC_Z_VEL_MAX_UP", "m/s", climb_m_s, MOTION, InFlight, "Greatest speed upwards";
+    "MPC_Z_VEL_MAX_DN", "m/s", sink_m_s, MOTION, InFlight, "Greatest speed downwards";
+    "MPC_TKO_SPEED", "m/s", take_off_m_s, MOTION, InFlight, "Speed of a take-off";
+    "MPC_LAND_SPEED", "m/s", landing_m_s, DESCENT, InFlight, "Speed of a landing";
+    "MPC_LAND_CRWL", "m/s", touchdown_m_s, DESCENT, InFlight, "Speed of a landing near the ground";
+    "GL_DESCENT_SPEED", "m/s", descent_m_s, DESCENT, InFlight, "Speed of a descent after a failure";
+    "MPC_ACC_HOR", "m/s^2", acceleration_m_s2, MOTION, InFlight, "Greatest horizontal acceleration";
+    "GL_ACC_VERT", "m/s^2", vertical_acceleration_m_s2, MOTION, InFlight, "Greatest vertical acceleration";
+    "MPC_JERK_AUTO", "m/s^3", jerk_m_s3, MOTION, InFlight, "Greatest jerk";
+    "MPC_YAWRAUTO_MAX", "deg/s" * DEGREES, yaw_rate_rad_s, MOTION, InFlight, "Greatest rate of the heading";
+    "MPC_YAWRAUTO_ACC", "deg/s^2" * DEGREES, yaw_acceleration_rad_s2, MOTION, InFlight, "Greatest acceleration of the heading";
+    "RTL_RETURN_ALT", "m", return_height_m, Range::NotNegative, InFlight, "Height over home of a return, if it is not higher already";
+    "GL_BAT_LOW_V", "V", battery_low_v, Range::NotNegative, InFlight, "Battery voltage below which it returns; 0 for never";
+    "GL_BAT_CRIT_V", "V", battery_critical_v, Range::NotNegative, InFlight, "Battery voltage below which it lands; 0 for never";
+    "GL_IDLE_SPEED", "", idle_part, FRACTION, Boot, "Rotor speed while armed on the ground, as a fraction of the greatest";
+    "GL_BLIND_THRUST", "", blind_thrust_part, FRACTION, InFlight, "Thrust of a blind descent, as a fraction of the weight";
+};
+
+const FLIGHT: [Setting; 2] = reals! { Flight "control":
+    "MPC_TILTMAX_AIR", "deg" * DEGREES, tilt_max_rad, Range::PositiveBelow(1.5), InFlight, "Greatest tilt that position control demands";
+    "GL_ROTOR_TAU", "s", rotor_time_constant_s, Range::NotNegative, Boot, "Time constant to which the rotor lag is shortened; 0 for none";
+};
+
+/// A row whose key does not follow from its field.
+const fn keyed(setting: Setting, key: &'static str) -> Setting {
+    Setting { key: Field::of("", key), ..setting }
+}
+
+const CONTROL: [Setting; 5] = {
+    let [attitude_bandwidth, attitude_max] = reals! { Attitude "control.attitude":
+        "SMC_ATT_OBS_BW", "rad/s", observer.bandwidth_rad_s, ObserverGains::RANGE, InFlight, "Bandwidth of the attitude's disturbance observer; 0 for none";
+        "SMC_ATT_OBS_MAX", "rad/s^2", observer.disturbance_max, ObserverGains::RANGE, InFlight, "Greatest disturbance that it estimates";
+    };
+    let [bandwidth, max, rate] = reals! { Position "control.position":
+        "SMC_POS_OBS_BW", "rad/s", observer.bandwidth_rad_s, ObserverGains::RANGE, InFlight, "Bandwidth of the position's disturbance observer; 0 for none";
+        "SMC_POS_OBS_MAX", "m/s^2", observer.disturbance_max, ObserverGains::RANGE, InFlight, "Greatest disturbance that it estimates";
+        "SMC_POS_EFF_RATE", "1/s", effectiveness_rate, PositionGains::EFFECTIVENESS_RATES, InFlight, "Rate at which the thrust effectiveness adapts; 0 to disable";
+    };
+    [
+        keyed(attitude_bandwidth, "control.attitude_observer.bandwidth_rad_s"),
+        keyed(attitude_max, "control.attitude_observer.disturbance_max"),
+        keyed(bandwidth, "control.position_observer.bandwidth_rad_s"),
+        keyed(max, "control.position_observer.disturbance_max"),
+        keyed(rate, "control.effectiveness_rate"),
+    ]
+};
+
+const AIRFRAME: [Setting; 30] = reals! { Airframe "airframe":
+    "GL_MASS", "kg", mass_kg, Range::Positive, Boot, "Mass";
+    "GL_INERTIA_X", "kg m^2", inertia_kg_m2[0], Range::Positive, Boot, "Moment of inertia in roll";
+    "GL_INERTIA_Y", "kg m^2", inertia_kg_m2[1], Range::Positive, Boot, "Moment of inertia in pitch";
+    "GL_INERTIA_Z", "kg m^2", inertia_kg_m2[2], Range::Positive, Boot, "Moment of inertia in yaw";
+    "GL_GRAVITY", "m/s^2", gravity_m_s2, Range::Positive, Boot, "Gravitational acceleration";
+    "GL_OMEGA_MAX", "rad/s", omega_max_rad_s, Range::Positive, Boot, "Greatest rotor speed";
+    "GL_ROTOR_J", "kg m^2", rotor_inertia_kg_m2, Range::NotNegative, Boot, "Moment of inertia of a rotor about its axis";
+    "GL_DRAG_X", "N s/m", drag_n_s_m[0], Range::NotNegative, Boot, "Drag along x";
+    "GL_DRAG_Y", "N s/m", drag_n_s_m[1], Range::NotNegative, Boot, "Drag along y";
+    "GL_DRAG_Z", "N s/m", drag_n_s_m[2], Range::NotNegative, Boot, "Drag along z";
+    "GL_ROT_DRAG_X", "N m s^2", rotational_drag_n_m_s2[0], Range::NotNegative, Boot, "Rotational drag in roll";
+    "GL_ROT_DRAG_Y", "N m s^2", rotational_drag_n_m_s2[1], Range::NotNegative, Boot, "Rotational drag in pitch";
+    "GL_ROT_DRAG_Z", "N m s^2", rotational_drag_n_m_s2[2], Range::NotNegative, Boot, "Rotational drag in yaw";
+    "GL_ROTOR_LAG", "s", rotor_lag_s, Range::NotNegative, Boot, "Time constant of a rotor's speed";
+    "GL_THRUST_1", "N s^2", geometry.thrust[0], Range::FinitePositive, Boot, "Thrust of rotor 1 per squared speed";
+    "GL_THRUST_2", "N s^2", geometry.thrust[1], Range::FinitePositive, Boot, "Thrust of rotor 2 per squared speed";
+    "GL_THRUST_3", "N s^2", geometry.thrust[2], Range::FinitePositive, Boot, "Thrust of rotor 3 per squared speed";
+    "GL_THRUST_4", "N s^2", geometry.thrust[3], Range::FinitePositive, Boot, "Thrust of rotor 4 per squared speed";
+    "GL_ROLL_1", "N m s^2", geometry.roll[0], Range::Finite, Boot, "Roll torque of rotor 1 per squared speed";
+    "GL_ROLL_2", "N m s^2", geometry.roll[1], Range::Finite, Boot, "Roll torque of rotor 2 per squared speed";
+    "GL_ROLL_3", "N m s^2", geometry.roll[2], Range::Finite, Boot, "Roll torque of rotor 3 per squared speed";
+    "GL_ROLL_4", "N m s^2", geometry.roll[3], Range::Finite, Boot, "Roll torque of rotor 4 per squared speed";
+    "GL_PITCH_1", "N m s^2", geometry.pitch[0], Range::Finite, Boot, "Pitch torque of rotor 1 per squared speed";
+    "GL_PITCH_2", "N m s^2", geometry.pitch[1], Range::Finite, Boot, "Pitch torque of rotor 2 per squared speed";
+    "GL_PITCH_3", "N m s^2", geometry.pitch[2], Range::Finite, Boot, "Pitch torque of rotor 3 per squared speed";
+    "GL_PITCH_4", "N m s^2", geometry.pitch[3], Range::Finite, Boot, "Pitch torque of rotor 4 per squared speed";
+    "GL_YAW_1", "N m s^2", geometry.yaw[0], Range::Finite, Boot, "Yaw torque of rotor 1 per squared speed";
+    "GL_YAW_2", "N m s^2", geometry.yaw[1], Range::Finite, Boot, "Yaw torque of rotor 2 per squared speed";
+    "GL_YAW_3", "N m s^2", geometry.yaw[2], Range::Finite, Boot, "Yaw torque of rotor 3 per squared speed";
+    "GL_YAW_4", "N m s^2", geometry.yaw[3], Range::Finite, Boot, "Yaw torque of rotor 4 per squared speed";
+};
+
+/// Whole numbers of the configuration.
+const CHOICES: [Setting; 2] = [
+    Setting {
+        name: "GL_SPIN_UP",
+        unit: "",
+        text: "Whether the reaction torque of rotors that spin up is modelled: 0 no, 1 yes",
+        class: Class::Boot,
+        domain: Domain::Whole(0, 1),
+        scale: 1.0,
+        default: None,
+        key: Field::of("", "airframe.spin_up_reaction"),
+        place: Place::Airframe(Slot {
+            get: |airframe| Some(Value::Int(i32::from(airframe.spin_up_reaction))),
+            set: |airframe, value| airframe.spin_up_reaction = value.int() != 0,
+        }),
+    },
+    Setting {
+        name: "SMC_ATT_FORM",
+        unit: "",
+        text: "Coordinates of the attitude's surfaces: 0 rotation group, 1 Euler angles",
+        class: Class::Disarmed,
+        domain: Domain::Whole(0, 1),
+        scale: 1.0,
+        default: None,
+        key: Field::of("", "control.form"),
+        place: Place::Attitude(Slot {
+            get: |gains| Some(Value::Int(gains.form.code())),
+            set: |gains, value| gains.form = crate::control::attitude::AttitudeForm::of_code(value.int()),
+        }),
+    },
+];
+
+const ESTIMATOR: [Setting; 22] = reals! { Estimator "estimator":
+    "GL_E_GYR_N", "rad/s/sqrt(Hz)", gyro_noise, Range::Positive, InFlight, "White noise density of the gyroscope";
+    "GL_E_GYR_WALK", "rad/s/sqrt(s)", gyro_bias_walk, Range::Positive, InFlight, "Random walk of the gyroscope's bias";
+    "GL_E_GYR_BIAS", "rad/s", gyro_bias, Range::Positive, InFlight, "Turn-on bias of the gyroscope; at the next alignment";
+    "GL_E_ACC_N", "m/s^2/sqrt(Hz)", accel_noise, Range::Positive, InFlight, "White noise density of the accelerometer";
+    "GL_E_ACC_WALK", "m/s^2/sqrt(s)", accel_bias_walk, Range::Positive, InFlight, "Random walk of the accelerometer's bias";
+    "GL_E_ACC_BIAS", "m/s^2", accel_bias, Range::Positive, InFlight, "Turn-on bias of the accelerometer; at the next alignment";
+    "GL_E_MAG_N", "uT", mag_noise_ut, Range::Positive, InFlight, "Noise of the magnetometer";
+    "GL_E_MAG_OFF", "rad", heading_offset, Range::Positive, InFlight, "Error of the magnetic heading that calibration leaves; at the next alignment";
+    "GL_E_BAR_N", "m", baro_noise_m, Range::Positive, InFlight, "Noise of the barometer";
+    "GL_E_GNS_N_H", "m", gnss_noise_m[0], Range::Positive, InFlight, "White noise of a GNSS position, horizontal";
+    "GL_E_GNS_N_V", "m", gnss_noise_m[1], Range::Positive, InFlight, "White noise of a GNSS position, vertical";
+    "GL_E_GNS_V_H", "m/s", gnss_speed_m_s[0], Range::Positive, InFlight, "Noise of a GNSS velocity, horizontal";
+    "GL_E_GNS_V_V", "m/s", gnss_speed_m_s[1], Range::Positive, InFlight, "Noise of a GNSS velocity, vertical";
+    "GL_E_POSE_N", "m", pose_position_m, Range::Positive, InFlight, "Noise of a motion-capture position";
+    "GL_E_POSE_ATT_N", "rad", pose_attitude_rad, Range::Positive, InFlight, "Noise of a motion-capture attitude";
+    "GL_E_GYR_SCALE", "", gyro_scale, Range::NotNegative, InFlight, "Scale and misalignment error of the gyroscope";
+    "GL_E_ACC_SCALE", "", accel_scale, Range::NotNegative, InFlight, "Scale and misalignment error of the accelerometer";
+    "GL_E_BAR_WALK", "m/sqrt(s)", baro_walk, Range::NotNegative, InFlight, "Random walk of the barometric height";
+    "GL_E_GNS_WALK", "m/sqrt(s)", gnss_walk, Range::NotNegative, InFlight, "Random walk of the GNSS position's error";
+    "GL_E_FIELD_X", "uT", magnetic_field_ut[0], Range::Finite, Disarmed, "Earth's magnetic field, north";
+    "GL_E_FIELD_Y", "uT", magnetic_field_ut[1], Range::Finite, Disarmed, "Earth's magnetic field, west";
+    "GL_E_FIELD_Z", "uT", magnetic_field_ut[2], Range::Finite, Disarmed, "Earth's magnetic field, up";
+};
+
+const ID: Domain = Domain::Whole(0, 16_777_215);
+
+/// What ground stations look for. They read most of them to show the vehicle's state; it cannot be changed here.
+const STATION: [Setting; 31] = own! {
+    "MAV_SYS_ID", "", Int(1), Domain::Whole(1, 250), Boot, "MAVLink system of this vehicle";
+    "GL_AUTOPILOT", "", Int(12), Domain::OneOf(&[0, 12]), Boot, "Autopilot that ground stations are told: 12 PX4, 0 generic";
+    "SYS_AUTOSTART", "", Int(0), Domain::Whole(0, 9_999_999), Disarmed, "Airframe; 0 for a vehicle that is not configured, and does not arm";
+    "SYS_AUTOCONFIG", "", Int(0), Domain::Whole(0, 2), ReadOnly, "No effect: nothing is reset at start";
+    "CAL_GYRO0_ID", "", Int(1), ID, ReadOnly, "No effect: sensors come calibrated";
+    "CAL_ACC0_ID", "", Int(1), ID, ReadOnly, "No effect: sensors come calibrated";
+    "CAL_MAG0_ID", "", Int(1), ID, ReadOnly, "No effect: sensors come calibrated";
+    "CAL_MAG1_ID", "", Int(0), ID, ReadOnly, "No effect: there is one magnetometer";
+    "CAL_MAG2_ID", "", Int(0), ID, ReadOnly, "No effect: there is one magnetometer";
+    "COM_RC_IN_MODE", "", Int(1), Domain::Whole(0, 4), ReadOnly, "Source of stick inputs: 1, no radio. No effect yet";
+    "RC_MAP_ROLL", "", Int(0), Domain::Whole(0, 18), ReadOnly, "Channel of roll: none. No effect yet";
+    "RC_MAP_PITCH", "", Int(0), Domain::Whole(0, 18), ReadOnly, "Channel of pitch: none. No effect yet";
+    "RC_MAP_YAW", "", Int(0), Domain::Whole(0, 18), ReadOnly, "Channel of yaw: none. No effect yet";
+    "RC_MAP_THROTTLE", "", Int(0), Domain::Whole(0, 18), ReadOnly, "Channel of throttle: none. No effect yet";
+    "COM_FLTMODE1", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 1: none. No effect yet";
+    "COM_FLTMODE2", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 2: none. No effect yet";
+    "COM_FLTMODE3", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 3: none. No effect yet";
+    "COM_FLTMODE4", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 4: none. No effect yet";
+    "COM_FLTMODE5", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 5: none. No effect yet";
+    "COM_FLTMODE6", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 6: none. No effect yet";
+    "BAT1_SOURCE", "", Int(0), Domain::Whole(-1, 2), ReadOnly, "Source of battery data: 0, the power module";
+    "BAT1_N_CELLS", "", Int(0), Domain::Whole(0, 16), ReadOnly, "Cells of the battery: 0, unknown. No effect yet";
+    "RTL_LAND_DELAY", "s", Real(0.0), Domain::Real(Range::Within(-1.0, 300.0)), ReadOnly, "Wait over home before landing: none";
+    "RTL_DESCEND_ALT", "m", Real(0.0), Domain::Real(Range::Within(0.0, 100.0)), ReadOnly, "Height over home to wait at before landing: none";
+    "NAV_DLL_ACT", "", Int(0), Domain::Whole(0, 6), ReadOnly, "What is done without a ground station: 0, nothing. No effect yet";
+    "NAV_RCL_ACT", "", Int(0), Domain::Whole(0, 6), ReadOnly, "What is done without sticks: 0, nothing. No effect yet";
+    "COM_DL_LOSS_T", "s", Int(10), Domain::Whole(5, 300), ReadOnly, "Silence after which a ground station is lost. No effect yet";
+    "COM_RC_LOSS_T", "s", Real(0.5), Domain::Real(Range::Within(0.0, 35.0)), ReadOnly, "Silence after which the sticks are lost. No effect yet";
+    "COM_LOW_BAT_ACT", "", Int(3), Domain::Whole(0, 3), ReadOnly, "What a low battery does: 3, returns, and lands when critical";
+    "NAV_ACC_RAD", "m", Real(crate::commander::AT_PLACE_M), Domain::Real(Range::Within(0.05, 200.0)), ReadOnly, "Acceptance radius of a place";
+    "MIS_TAKEOFF_ALT", "m", Real(crate::commander::TAKE_OFF_HEIGHT_M), Domain::Real(TAKE_OFF), InFlight, "Height of a take-off for which none is given";
+};
+const TAKE_OFF: Range =
+    Range::Within(*crate::commander::TAKE_OFF_HEIGHTS_M.start(), *crate::commander::TAKE_OFF_HEIGHTS_M.end());
+
+/// Number of settings.
+pub const COUNT: usize = MODES.len()
+    + FLIGHT.len()
+    + AXES_COUNT
+    + CONTROL.len()
+    + AIRFRAME.len()
+    + CHOICES.len()
+    + ESTIMATOR.len()
+    + STATION.len();
+
+/// Every setting. The order is fixed, because ground stations ask by index: new ones are added at the end.
+pub static SETTINGS: [Setting; COUNT] =
+    concatenated(&[&MODES, &FLIGHT, &AXES, &CONTROL, &AIRFRAME, &CHOICES, &ESTIMATOR, &STATION]);
+
+/// The blocks one after the other.
+#[expect(clippy::large_stack_arrays, reason = "evaluated by the compiler alone")]
+const fn concatenated(blocks: &[&[Setting]]) -> [Setting; COUNT] {
+    let mut all = [MODES[0]; COUNT];
+    let (mut at, mut block) = (0, 0);
+    while block < blocks.len() {
+        let mut row = 0;
+        while row < blocks[block].len() {
+            all[at] = blocks[block][row];
+            at += 1;
+            row += 1;
+        }
+        block += 1;
+    }
+    all
+}
+
+/// The index of a row that the firmware itself asks for, found when it is compiled.
+pub(super) const fn index_of(name: &str) -> usize {
+    let mut index = 0;
+    while index < COUNT {
+        if equal(SETTINGS[index].name.as_bytes(), name.as_bytes()) {
+            return index;
+        }
+        index += 1;
+    }
+    panic!("no such setting")
+}
+
+const fn equal(one: &[u8], other: &[u8]) -> bool {
+    let mut i = 0;
+    while i < one.len() && i < other.len() && one[i] == other[i] {
+        i += 1;
+    }
+    i == one.len() && i == other.len()
+}
