@@ -22,6 +22,7 @@ use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming};
 use crate::navigator::Navigator;
 use crate::outer::{Authority, Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
+use crate::settings::{Changes, Settings};
 use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
 use crate::validate::ConfigError;
 use crate::watchdog::Watchdog;
@@ -72,6 +73,15 @@ pub struct Released {
     pub ground: bool,
 }
 
+/// The partitions that have not taken over the last changes of settings. The ground partition sends no others until
+/// all have: a slow one loses none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Waiting {
+    filter: bool,
+    outer: bool,
+    commander: bool,
+}
+
 /// The top of the schedule: owns the inner partition and the outputs now in effect.
 #[derive(Clone, Debug)]
 pub struct InnerTask<A = SlidingAttitude> {
@@ -90,6 +100,9 @@ pub struct InnerTask<A = SlidingAttitude> {
     /// Failsafe events for the ground's next job.
     events: Events,
     timing: Option<LoopTiming>,
+    /// Changed settings, and who has not taken them over yet.
+    changes: Changes,
+    waiting: Waiting,
     /// Failures that the board can inject, and those it is to inject now.
     injectable: Injectable,
     failures: Failures,
@@ -109,8 +122,12 @@ impl<A: AttitudeLaw> InnerTask<A> {
     /// 0.
     fn new(config: &FlightConfig, inner: Inner<A>, outer: &mut Outer<impl PositionLaw>, commander: &Commander) -> Self {
         let commander = commander.initial_output();
-        let before =
-            OuterInput { nav: *inner.nav(), thrust_n: config.airframe.weight_n(), directive: commander.directive };
+        let before = OuterInput {
+            nav: *inner.nav(),
+            thrust_n: config.airframe.weight_n(),
+            directive: commander.directive,
+            changes: Changes::new(),
+        };
         let first = outer.step(0_u32.wrapping_sub(OUTER.offset), &before);
         // That job was a dry run: it must leave no state in the law.
         outer.reset();
@@ -126,6 +143,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
             replies: Answers::new(),
             events: Events::new(),
             timing: None,
+            changes: Changes::new(),
+            waiting: Waiting::default(),
             injectable: Injectable::NONE,
             failures: Failures::new(),
             kills: 0,
@@ -241,7 +260,28 @@ impl<A: AttitudeLaw> InnerTask<A> {
             if !output.failures.is_empty() {
                 self.failures = output.failures;
             }
+            if !output.changes.is_empty() {
+                self.hand_on(output.changes);
+            }
         }
+    }
+
+    /// Settings for the other partitions: inner takes them over now, each of the others with its next job.
+    #[cold]
+    #[inline(never)]
+    fn hand_on(&mut self, changes: Changes) {
+        for change in &changes {
+            self.inner.apply(change);
+        }
+        self.changes = changes;
+        let filter = self.inner.navigator().is_some();
+        self.waiting = Waiting { filter, outer: true, commander: true };
+    }
+
+    /// The changes for a partition that has not taken them over yet.
+    fn changes_for(&mut self, partition: fn(&mut Waiting) -> &mut bool) -> Changes {
+        let waits = core::mem::take(partition(&mut self.waiting));
+        if waits { self.changes.clone() } else { Changes::new() }
     }
 
     fn reply(&mut self, reply: Reply) {
@@ -266,13 +306,18 @@ impl<A: AttitudeLaw> InnerTask<A> {
         if released.filter {
             let landed = self.commander.landed;
             let at_rest = landed && !self.is_armed();
+            let changes = self.changes_for(|waiting| &mut waiting.filter);
             if let Some(navigator) = self.inner.navigator_mut() {
-                mail.filter.release(tick, navigator.release(landed, at_rest));
+                mail.filter.release(tick, navigator.release(landed, at_rest, changes));
             }
         }
         if released.outer {
-            let input =
-                OuterInput { nav: *self.inner.nav(), thrust_n: self.inner.thrust_n(), directive: self.directive(tick) };
+            let input = OuterInput {
+                nav: *self.inner.nav(),
+                thrust_n: self.inner.thrust_n(),
+                directive: self.directive(tick),
+                changes: self.changes_for(|waiting| &mut waiting.outer),
+            };
             mail.outer.release(tick, input);
         }
         if released.commander {
@@ -286,6 +331,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 outer_hung: self.watchdog.is_outer_hung(tick),
                 kills: self.kills,
                 commands: core::mem::take(&mut self.commands),
+                changes: self.changes_for(|waiting| &mut waiting.commander),
             };
             mail.commander.release(tick, input);
         }
@@ -313,6 +359,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             },
             estimator: self.estimator_status(),
             injectable: self.injectable,
+            changes_taken: self.waiting == Waiting::default(),
             replies: core::mem::take(&mut self.replies),
             events: core::mem::take(&mut self.events),
         }
@@ -468,10 +515,19 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
             filter: filter(config),
             outer,
             commander,
-            ground: Ground::default(),
+            ground: Ground::new(Settings::of(config)),
             mail: Mailboxes::new(),
             ports: Ports::new(),
         })
+    }
+
+    /// The same vehicle with the settings of which its configuration was made: with what stands in the settings alone,
+    /// and unable to arm if it was never configured.
+    #[must_use]
+    pub fn with_settings(mut self, settings: Settings) -> Self {
+        self.commander.set_configured(settings.is_configured());
+        self.ground = Ground::new(settings);
+        self
     }
 
     /// One tick of all partitions, in the order of the schedule: the desktop's executor.

@@ -16,6 +16,7 @@ use crate::control::rotor_monitor::RotorMonitor;
 use crate::math;
 use crate::navigator::Navigator;
 use crate::sensors::Measurements;
+use crate::settings::Change;
 use crate::signals::{AttitudeReference, ControlInput, MotorCommand, NavState, SensorFrame, TICK_S, Tick};
 use crate::validate::ConfigError;
 
@@ -290,6 +291,11 @@ impl<A: AttitudeLaw> Inner<A> {
     fn follow(&mut self, command: &MotorCommand) {
         self.rotors.follow(&command.omega_rad_s);
         self.effect = self.believed.after(&self.effect, self.rotors.omega_rad_s());
+    }
+
+    /// Takes over a setting.
+    pub fn apply(&mut self, change: &Change) {
+        self.law.retune(change);
     }
 
     /// Navigation on sensors; `None` on ideal state.

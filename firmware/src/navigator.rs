@@ -9,6 +9,7 @@ use crate::control::gyro::GyroFilter;
 use crate::estimator::{EstimatorSettings, FilterInput, Injection, Nominal, Predictor, Readings};
 use crate::math;
 use crate::sensors::{BatterySample, Measurements};
+use crate::settings::Changes;
 use crate::signals::NavState;
 
 /// The inner half of navigation.
@@ -97,8 +98,9 @@ impl Navigator {
         self.battery.map(|battery| (battery, u32::from(self.battery_age)))
     }
 
-    /// The snapshot for a filter job. `landed`: on the ground; `at_rest`: on the ground and disarmed.
-    pub fn release(&mut self, landed: bool, at_rest: bool) -> FilterInput {
+    /// The snapshot for a filter job. `landed`: on the ground; `at_rest`: on the ground and disarmed; `changes`: settings
+    /// to take over.
+    pub fn release(&mut self, landed: bool, at_rest: bool, changes: Changes) -> FilterInput {
         FilterInput {
             state: *self.predictor.state(),
             rates: *self.predictor.rates(),
@@ -108,6 +110,7 @@ impl Navigator {
             landed,
             at_rest,
             readings: core::mem::take(&mut self.readings),
+            changes,
         }
     }
 

@@ -9,7 +9,7 @@
 use nalgebra::{Vector3, Vector4};
 
 use crate::commander::{Directive, Known};
-use crate::config::FlightConfig;
+use crate::config::{FlightConfig, ModeSettings};
 use crate::control::flatness::{self, ForceProfile, Heading};
 use crate::control::law::{PositionDemand, PositionInput, PositionLaw};
 use crate::control::position::{ForceLimits, SlidingPosition, Translation};
@@ -17,11 +17,12 @@ use crate::guidance::Guidance;
 use crate::guidance::setpoint::{Setpoint, Target};
 use crate::math;
 use crate::schedule::{OUTER, OUTER_AHEAD_S};
+use crate::settings::{self, Change, Changes, Place};
 use crate::signals::{AttitudeReference, FlatReference, NavState, Tick};
 use crate::validate::ConfigError;
 
 /// Snapshot for the outer partition.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct OuterInput {
     /// The motion at the release.
     pub nav: NavState,
@@ -29,6 +30,8 @@ pub struct OuterInput {
     pub thrust_n: f32,
     /// The directive of the commander.
     pub directive: Directive,
+    /// Settings to take over before the job.
+    pub changes: Changes,
 }
 
 /// Control authority that the inner partition may use.
@@ -86,6 +89,8 @@ pub struct Outer<P = SlidingPosition> {
     /// Specific force of a blind descent, m/s², and the thrust effectiveness held since that descent began.
     blind_force: f32,
     blind_effectiveness: Option<f32>,
+    /// What limits and blind descents were built from, to be changed in flight.
+    modes: ModeSettings,
 }
 
 /// A descending reference is at most this far below the vehicle, m: on the ground it must not run away.
@@ -139,7 +144,23 @@ impl<P: PositionLaw> Outer<P> {
             limited: false,
             blind_force: config.modes.blind_thrust_part * config.airframe.gravity_m_s2,
             blind_effectiveness: None,
+            modes: config.modes,
         })
+    }
+
+    /// Takes over a setting: limits, or what is of the law.
+    pub fn apply(&mut self, change: &Change) {
+        let is_mode = change.apply_to(&mut self.modes, Place::modes);
+        if is_mode {
+            self.setpoint.limit(&self.modes);
+            self.blind_force = self.modes.blind_thrust_part * self.model.gravity;
+        } else if usize::from(change.index) == settings::TILT_MAX
+            && let Some((_, tilt_max_rad)) = change.place()
+        {
+            self.limits = self.limits.with_tilt(tilt_max_rad.real());
+        } else {
+            self.law.retune(change);
+        }
     }
 
     /// Clears the state of earlier jobs.
@@ -157,6 +178,9 @@ impl<P: PositionLaw> Outer<P> {
     /// One job, released at `released`.
     pub fn step(&mut self, released: Tick, input: &OuterInput) -> OuterOutput {
         let effective = released.wrapping_add(OUTER.offset);
+        for change in &input.changes {
+            self.apply(change);
+        }
         match input.directive {
             Directive::Stop | Directive::Idle => self.rest(&input.nav),
             Directive::Follow { since } => {

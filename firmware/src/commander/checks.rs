@@ -15,6 +15,7 @@ impl Commander {
     pub(super) fn check(&self, input: &CommanderInput) -> Result<(), Refusal> {
         let q = input.nav.attitude.quaternion();
         let cos_tilt = 1.0 - 2.0 * (q.i * q.i + q.j * q.j);
+        self.check_configured()?;
         self.check_systems(input)?;
         if math::max(cos_tilt, -1.0) < COS_TILT_MAX {
             Err(Refusal::NotLevel)
@@ -23,6 +24,11 @@ impl Commander {
         } else {
             Ok(())
         }
+    }
+
+    /// Whether the vehicle was ever configured.
+    pub(super) fn check_configured(&self) -> Result<(), Refusal> {
+        if self.configured { Ok(()) } else { Err(Refusal::NotConfigured) }
     }
 
     /// Whether navigation, battery and rotors are fit for a flight.

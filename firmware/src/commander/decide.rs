@@ -31,6 +31,8 @@ impl Commander {
         if self.state != State::Disarmed {
             return Ok(());
         }
+        // Nobody can know what it would do: not even forced.
+        self.check_configured()?;
         let intent = self.intent;
         let launch = if intent.leaves_ground() { self.check_take_off(&intent, input) } else { Ok(()) };
         if !force {

@@ -40,6 +40,7 @@ use crate::guidance::Guidance;
 use crate::math;
 use crate::schedule::COMMANDER;
 use crate::sensors::BatterySample;
+use crate::settings::{self, Change, Changes, Place};
 use crate::signals::{NavHealth, NavState, TICK_S, Tick};
 
 /// Snapshot for the commander.
@@ -63,6 +64,8 @@ pub struct CommanderInput {
     pub kills: u8,
     /// Commands since the last job.
     pub commands: Commands,
+    /// Settings to take over before the job.
+    pub changes: Changes,
 }
 
 /// Output of the commander.
@@ -106,6 +109,8 @@ impl CommanderOutput {
 #[derive(Clone, Debug)]
 pub struct Commander {
     settings: ModeSettings,
+    /// Whether the vehicle was ever configured: if not, it does not arm.
+    configured: bool,
     weight_n: f32,
     /// Where the trajectory is joined from the ground; then the place and heading to join it from the air.
     start: Vector3<f32>,
@@ -161,6 +166,7 @@ impl Commander {
             .map_or((start, 0.0), |guidance| guidance.entry(config.start));
         Self {
             settings: config.modes,
+            configured: true,
             weight_n: config.airframe.weight_n(),
             start,
             entry,
@@ -178,6 +184,19 @@ impl Commander {
         }
     }
 
+    /// Whether the vehicle was ever configured; one that is built from a configuration was.
+    pub fn set_configured(&mut self, configured: bool) {
+        self.configured = configured;
+    }
+
+    /// Takes over a setting.
+    pub fn apply(&mut self, change: &Change) {
+        change.apply_to(&mut self.settings, Place::modes);
+        if usize::from(change.index) == settings::SYS_AUTOSTART {
+            self.configured = change.value.int() != 0;
+        }
+    }
+
     /// How it flies by itself.
     pub fn settings(&self) -> &ModeSettings {
         &self.settings
@@ -191,6 +210,9 @@ impl Commander {
     /// One job, released at `released`.
     pub fn step(&mut self, released: Tick, input: &CommanderInput) -> CommanderOutput {
         let effective = released.wrapping_add(COMMANDER.offset);
+        for change in &input.changes {
+            self.apply(change);
+        }
         self.watch(input);
         let mut replies = Replies::new();
         let killed = input.kills != self.kills;

@@ -153,6 +153,8 @@ pub enum Refusal {
     Disarmed,
     /// Not at the start point of the trajectory.
     NotAtStart,
+    /// The vehicle was never configured.
+    NotConfigured,
     /// More commands at once than the commander takes.
     Busy,
 }

@@ -29,6 +29,7 @@ fn standing() -> CommanderInput {
         outer_hung: false,
         kills: 0,
         commands: Commands::new(),
+        changes: Changes::new(),
     }
 }
 

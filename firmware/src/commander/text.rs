@@ -57,6 +57,7 @@ impl Refusal {
             Self::OnGround => "vehicle on the ground",
             Self::Disarmed => "vehicle disarmed",
             Self::NotAtStart => "not at the start point",
+            Self::NotConfigured => "vehicle not configured",
             Self::Busy => "too many commands at once",
         }
     }
@@ -123,6 +124,7 @@ mod tests {
             Refusal::OnGround,
             Refusal::Disarmed,
             Refusal::NotAtStart,
+            Refusal::NotConfigured,
             Refusal::Busy,
         ];
         for (request, refusal) in requests.iter().flat_map(|request| refusals.map(|refusal| (request, refusal))) {

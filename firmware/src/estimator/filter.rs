@@ -20,6 +20,7 @@ use super::watch::{Scatter, Watch};
 use crate::frames::LocalFrame;
 use crate::math;
 use crate::sensors::{BaroSample, GnssSample, MagSample, Measurements, PoseSample};
+use crate::settings::{Change, Changes, Place};
 use crate::signals::{NavHealth, TICK_S, Tick};
 
 /// Readings since the last job: the newest of each sensor.
@@ -46,7 +47,7 @@ impl Readings {
 }
 
 /// Snapshot for the filter.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FilterInput {
     /// The predictor's state. It lacks the last job's correction if that was lost.
     pub state: Nominal,
@@ -64,6 +65,8 @@ pub struct FilterInput {
     pub at_rest: bool,
     /// Readings since the last job.
     pub readings: Readings,
+    /// Settings to take over before the job.
+    pub changes: Changes,
 }
 
 /// Kind of a measurement.
@@ -277,9 +280,19 @@ impl Filter {
         }
     }
 
+    /// Takes over a setting of the estimator.
+    pub fn apply(&mut self, change: &Change) {
+        if change.apply_to(&mut self.settings, Place::estimator) {
+            self.north = MagneticNorth::new(self.settings.magnetic_field_ut.into());
+        }
+    }
+
     /// One job, released at `now`.
     pub fn step(&mut self, now: Tick, input: &FilterInput) -> FilterOutput {
         self.jobs = self.jobs.wrapping_add(1);
+        for change in &input.changes {
+            self.apply(change);
+        }
         if let Some(pose) = input.readings.pose.filter(PoseSample::is_valid) {
             self.last_pose = Some(pose);
         }

@@ -115,6 +115,13 @@ fn moved(speed: f32, change: f32) -> (f32, f32) {
     ((speed + 0.5 * change) * STEP_S, change)
 }
 
+/// Fraction of the distance to its input that a lag covers per step, for which the jerk is limited.
+fn step_fraction(limits: &ModeSettings) -> f32 {
+    let fastest = math::max(limits.acceleration_m_s2, limits.vertical_acceleration_m_s2);
+    let time_constant = KERNEL * fastest / limits.jerk_m_s3;
+    1.0 - math::exp(-STEP_S / time_constant)
+}
+
 /// Fraction of the acceleration that braking is planned with; the rest keeps the course on its line.
 const BRAKING: f32 = 0.95;
 
@@ -124,16 +131,25 @@ const GRAIN: f32 = 1e-6;
 impl Setpoint {
     /// A generator at rest at the origin, with valid limits.
     pub fn new(limits: &ModeSettings) -> Self {
-        let fastest = math::max(limits.acceleration_m_s2, limits.vertical_acceleration_m_s2);
-        let time_constant = KERNEL * fastest / limits.jerk_m_s3;
         let zero = Vector4::zeros();
         Self {
             limits: *limits,
-            step_fraction: 1.0 - math::exp(-STEP_S / time_constant),
+            step_fraction: step_fraction(limits),
             anchor: Vector3::zeros(),
             place: zero,
             speed: zero,
             lags: [Lag { behind: zero, velocity: zero, acceleration: zero }; 3],
+        }
+    }
+
+    /// Goes on within other limits, without a jump in position to snap. What is faster than they allow slows down.
+    pub fn limit(&mut self, limits: &ModeSettings) {
+        let reference = self.reference();
+        self.limits = *limits;
+        let fraction = step_fraction(limits);
+        if fraction != self.step_fraction {
+            self.step_fraction = fraction;
+            self.start(&reference);
         }
     }
 

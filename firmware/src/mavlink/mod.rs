@@ -57,6 +57,7 @@ use self::port::{LINKS, Ports};
 use crate::commander::{Answers, Commands, Events, Mode, Origin};
 use crate::estimator::status::Status;
 use crate::failure::{Failures, Injectable};
+use crate::settings::{Changes, Settings};
 use crate::signals::{NavState, Tick};
 use crate::watchdog::Hung;
 
@@ -107,6 +108,7 @@ pub struct Health {
 
 /// Snapshot for the ground partition.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts about the vehicle")]
 pub struct GroundInput {
     /// The motion at the release.
     pub nav: NavState,
@@ -124,6 +126,8 @@ pub struct GroundInput {
     pub estimator: Option<Status>,
     /// Failures that the board can inject.
     pub injectable: Injectable,
+    /// Whether all partitions have taken over the last changes of settings.
+    pub changes_taken: bool,
     /// Replies of the commander since the last job.
     pub replies: Answers,
     /// Failsafe events since the last job.
@@ -139,6 +143,8 @@ pub struct GroundOutput {
     pub kill: bool,
     /// Accepted failure injections, for the board.
     pub failures: Failures,
+    /// Settings that the other partitions are to take over.
+    pub changes: Changes,
 }
 
 /// Commands that one job passes to the commander, which takes four a job and runs half as often.
@@ -151,9 +157,25 @@ pub struct Ground {
     links: [Link; LINKS],
     /// The link whose commands are passed on first, so that none is served before the others for ever.
     first: usize,
+    settings: Settings,
 }
 
 impl Ground {
+    /// The owner of these settings.
+    pub fn new(settings: Settings) -> Self {
+        Self { settings, ..Self::default() }
+    }
+
+    /// The settings, for whoever saves them.
+    pub fn settings_mut(&mut self) -> &mut Settings {
+        &mut self.settings
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// One job, released at `released`: reads from the links that are open, and writes to them.
     pub fn step(&mut self, released: Tick, input: &GroundInput, ports: &Ports) -> GroundOutput {
         let mut output = GroundOutput::default();
@@ -172,6 +194,9 @@ impl Ground {
             {
                 link.reply(reply);
             }
+        }
+        if input.changes_taken {
+            output.changes = self.settings.take_changes();
         }
         for (link, port) in self.links.iter_mut().zip(ports) {
             if port.session().is_some() {

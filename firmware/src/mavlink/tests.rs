@@ -86,6 +86,7 @@ impl Bench {
             health: Health { nav_fresh: true, ..Health::default() },
             estimator: None,
             injectable: Injectable::NONE,
+            changes_taken: true,
             replies: Answers::new(),
             events: Events::new(),
         };

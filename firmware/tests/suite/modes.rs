@@ -13,6 +13,7 @@ use firmware::guidance::Trajectory;
 use firmware::inner::Inner;
 use firmware::outer::{Authority, Outer, OuterInput, OuterOutput};
 use firmware::schedule::{COMMANDER, OUTER};
+use firmware::settings::Changes;
 use firmware::signals::{MotorCommand, NavHealth, NavState, SensorFrame, TICK_S, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -80,7 +81,8 @@ impl Vehicle {
         let commander = Commander::new(config);
         let told = commander.initial_output();
         let mut outer = Outer::new(config, SlidingPosition::new(&airframe, &config.position)).expect("valid");
-        let input = OuterInput { nav, thrust_n: airframe.weight_n(), directive: told.directive };
+        let (directive, changes) = (told.directive, Changes::new());
+        let input = OuterInput { nav, thrust_n: airframe.weight_n(), directive, changes };
         Self {
             body: Body { airframe, nav },
             inner: Inner::new(config, SlidingAttitude::new(&airframe, &config.attitude)).expect("valid"),
@@ -113,12 +115,14 @@ impl Vehicle {
                 outer_hung: false,
                 kills: 0,
                 commands: core::mem::take(&mut self.commands),
+                changes: Changes::new(),
             };
             self.told = self.commander.step(self.tick, &input);
             self.events.extend(self.told.event);
         }
         if self.tick.is_multiple_of(OUTER.period) {
-            let input = OuterInput { nav, thrust_n: self.inner.thrust_n(), directive: self.told.directive };
+            let (directive, changes) = (self.told.directive, Changes::new());
+            let input = OuterInput { nav, thrust_n: self.inner.thrust_n(), directive, changes };
             self.reference = self.outer.step(self.tick, &input);
         }
         let output = if self.told.armed && self.reference.authority == Authority::Idle {

@@ -16,6 +16,7 @@ use firmware::inner::Inner;
 use firmware::math;
 use firmware::outer::{Outer, OuterInput};
 use firmware::schedule::{FILTER, OUTER};
+use firmware::settings::Changes;
 use firmware::signals::{AttitudeReference, NavState, SensorFrame, Tick};
 use firmware::validate::ConfigError;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -199,6 +200,7 @@ impl Flight {
             nav: self.plant.nav,
             thrust_n: self.inner.thrust_n(),
             directive: Directive::Follow { since: 0 },
+            changes: Changes::new(),
         };
         let (instructions, reference) =
             self.counter.count(counter::mark_begin_guidance, || black_box(&self.guidance).at(black_box(effective)));

@@ -13,6 +13,7 @@ use firmware::estimator::update::{Measurement, gate};
 use firmware::estimator::{EstimatorSettings, Filter, FilterInput, FilterOutput, Injection, Predictor, Readings};
 use firmware::math;
 use firmware::sensors::Measurements;
+use firmware::settings::Changes;
 use firmware::signals::{NavState, TICK_S, Tick};
 use nalgebra::Vector3;
 
@@ -94,6 +95,7 @@ impl Navigation {
             landed: at_rest,
             at_rest,
             readings: core::mem::take(&mut self.readings),
+            changes: Changes::new(),
         };
         let output = self.count_job(tick, &input);
         if self.aligned {
