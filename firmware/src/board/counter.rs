@@ -81,7 +81,8 @@ impl Counter {
     pub fn is_exact(&self) -> bool {
         // By one function for both, so that what the compiler makes of the surroundings cancels.
         let more = self.called(known_number).wrapping_sub(self.called(mark_end));
-        more * 5 == KNOWN * COUNTS_IN_FIVE
+        // Within a count: an instruction is no whole number of counts, so that either reading may round.
+        (more * 5).abs_diff(KNOWN * COUNTS_IN_FIVE) <= 5
     }
 
     /// Timer counts over a call.
