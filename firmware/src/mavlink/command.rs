@@ -10,8 +10,9 @@ use glissade_dialect::{MavCmd, MavModeFlag, MavResult};
 use super::incoming::CommandMessage;
 use super::telemetry::{IntervalError, Report, Telemetry, is_available, report_by_id};
 use super::{GroundInput, GroundOutput, mode};
-use crate::commander::{Outcome, Request, TAKE_OFF_HEIGHT_M};
+use crate::commander::{Outcome, Request};
 use crate::failure::{Failure, Failures, Injectable, Manner, Unit};
+use crate::settings::Settings;
 use crate::signals::Tick;
 
 /// Value of `param2` that forces arming and disarming, and the one that forces arming alone.
@@ -48,18 +49,20 @@ pub(super) fn carry_out(
     now: Tick,
     input: &GroundInput,
     telemetry: &mut Telemetry,
+    settings: &Settings,
     output: &mut GroundOutput,
 ) -> Effect {
+    let take_off_m = settings.take_off_height_m();
     match MavCmd::from_u16(message.command) {
         Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) if is_kill(message) => {
             output.kill = true;
             MavResult::MAV_RESULT_ACCEPTED.into()
         }
         Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => arm_request(message).into(),
-        Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => Effect::Ask(take_off(message)),
+        Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => Effect::Ask(take_off(message, take_off_m)),
         Some(MavCmd::MAV_CMD_NAV_LAND) => Effect::Ask(Request::Land),
         Some(MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH) => Effect::Ask(Request::Return),
-        Some(MavCmd::MAV_CMD_DO_SET_MODE) => mode_request(message).into(),
+        Some(MavCmd::MAV_CMD_DO_SET_MODE) => mode_request(message, take_off_m).into(),
         Some(MavCmd::MAV_CMD_INJECT_FAILURE) => {
             inject(message, &input.injectable, &mut output.failures).map_or_else(Into::into, Into::into)
         }
@@ -86,16 +89,16 @@ fn arm_request(message: &CommandMessage) -> Option<Request> {
     }
 }
 
-/// The height is above the ground (above mean sea level is not supported). NaN selects the default height.
-fn take_off(message: &CommandMessage) -> Request {
-    Request::TakeOff { height_m: if message.param7.is_nan() { TAKE_OFF_HEIGHT_M } else { message.param7 } }
+/// The height is above the ground (above mean sea level is not supported). NaN selects the set height.
+fn take_off(message: &CommandMessage, take_off_m: f32) -> Request {
+    Request::TakeOff { height_m: if message.param7.is_nan() { take_off_m } else { message.param7 } }
 }
 
 /// `None` unless it is a PX4 custom mode, flagged as such, that can be set.
-fn mode_request(message: &CommandMessage) -> Option<Request> {
+fn mode_request(message: &CommandMessage, take_off_m: f32) -> Option<Request> {
     let flags = MavModeFlag::from_bits_truncate(whole(message.param1)?.into());
     let custom = flags.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED);
-    custom.then(|| mode::request(message.param2, message.param3)).flatten()
+    custom.then(|| mode::request(message.param2, message.param3, take_off_m)).flatten()
 }
 
 /// Accepts a failure that the board supports, and passes it on. Denied if the board supports none, as PX4 does while

@@ -5,9 +5,11 @@ use glissade_dialect::{
     COMMAND_INT_DATA, COMMAND_LONG_DATA, FILE_TRANSFER_PROTOCOL_DATA, HEARTBEAT_DATA, LOG_REQUEST_DATA_DATA,
     LOG_REQUEST_LIST_DATA, MISSION_CLEAR_ALL_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA,
     MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MISSION_REQUEST_LIST_DATA, MISSION_SET_CURRENT_DATA,
-    MISSION_WRITE_PARTIAL_LIST_DATA, MavType, PING_DATA, SET_MODE_DATA, TIMESYNC_DATA,
+    MISSION_WRITE_PARTIAL_LIST_DATA, MavType, PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA,
+    PING_DATA, SET_MODE_DATA, TIMESYNC_DATA,
 };
 
+use super::params::ParamRequest;
 use super::{COMPONENT_ID, Identity};
 
 /// Who sent a message: MAVLink system and component.
@@ -70,6 +72,8 @@ pub(super) enum Incoming {
     Mission { request: MissionRequest, mission_type: u8 },
     /// A request of `FILE_TRANSFER_PROTOCOL`.
     File(FileRequest),
+    /// A request of the parameter protocol.
+    Param(ParamRequest),
     /// `LOG_REQUEST_LIST` or `LOG_REQUEST_DATA`.
     Logs,
     /// A request of `TIMESYNC`, with the sender's time.
@@ -127,6 +131,9 @@ pub(super) fn known(id: u32) -> Option<Known> {
         HEARTBEAT_DATA::ID => Known::of::<HEARTBEAT_DATA>(heartbeat),
         PING_DATA::ID => Known::of::<PING_DATA>(ping),
         SET_MODE_DATA::ID => Known::of::<SET_MODE_DATA>(set_mode),
+        PARAM_REQUEST_READ_DATA::ID => Known::of::<PARAM_REQUEST_READ_DATA>(param_read),
+        PARAM_REQUEST_LIST_DATA::ID => Known::of::<PARAM_REQUEST_LIST_DATA>(param_list),
+        PARAM_SET_DATA::ID => Known::of::<PARAM_SET_DATA>(param_set),
         MISSION_WRITE_PARTIAL_LIST_DATA::ID => Known::of::<MISSION_WRITE_PARTIAL_LIST_DATA>(partial_upload),
         MISSION_ITEM_DATA::ID => Known::of::<MISSION_ITEM_DATA>(old_item),
         MISSION_REQUEST_DATA::ID => Known::of::<MISSION_REQUEST_DATA>(old_item_request),
@@ -162,6 +169,23 @@ fn set_mode(raw: &Raw) -> Option<Incoming> {
     let m: SET_MODE_DATA = raw.read()?;
     let asked = Incoming::SetMode { base_mode: m.base_mode, custom_mode: m.custom_mode };
     raw.is_for_us(m.target_system, 0).then_some(asked)
+}
+
+fn param_read(raw: &Raw) -> Option<Incoming> {
+    let m: PARAM_REQUEST_READ_DATA = raw.read()?;
+    let request = ParamRequest::Read { index: m.param_index, name: m.param_id.into() };
+    raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::Param(request))
+}
+
+fn param_list(raw: &Raw) -> Option<Incoming> {
+    let m: PARAM_REQUEST_LIST_DATA = raw.read()?;
+    raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::Param(ParamRequest::List))
+}
+
+fn param_set(raw: &Raw) -> Option<Incoming> {
+    let m: PARAM_SET_DATA = raw.read()?;
+    let request = ParamRequest::Set { name: m.param_id.into(), bits: m.param_value.to_bits(), kind: m.param_type };
+    raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::Param(request))
 }
 
 /// A message of the mission protocol, if it is for this vehicle.

@@ -5,13 +5,15 @@ use glissade_dialect::MavResult;
 use heapless::Deque;
 
 use super::incoming::{CommandMessage, Incoming, Sender};
-use super::outbox::{Answer, Outbox};
+use super::outbox::{Answer, Outbox, TELEMETRY_SHARE};
+use super::params::{self, Done, ParamRequest, Params};
 use super::parser::Parser;
 use super::port::{Port, Profile};
 use super::telemetry::Telemetry;
 use super::writer::Writer;
 use super::{GroundInput, GroundOutput, Identity, command, mode};
 use crate::commander::{Command, Event, Origin, Outcome, Refusal, Reply};
+use crate::settings::{Marks, Settings};
 use crate::signals::{TICK_S, TICK_US, Tick};
 
 /// Commands of a link that wait for the commander.
@@ -28,6 +30,9 @@ pub(super) struct Job<'a> {
     pub(super) input: &'a GroundInput,
     /// Who the vehicle is.
     pub(super) us: Identity,
+    /// The vehicle's settings, and those that have been changed.
+    pub(super) settings: &'a mut Settings,
+    pub(super) changed: &'a mut Marks,
     /// Its output.
     pub(super) output: &'a mut GroundOutput,
 }
@@ -41,6 +46,7 @@ pub(super) struct Link {
     pub(super) telemetry: Telemetry,
     outbox: Outbox,
     sequence: u8,
+    params: Params,
     waiting: Deque<Command, WAITING>,
     /// When something for this vehicle, or a heartbeat, was last received.
     heard_at: Option<Tick>,
@@ -79,6 +85,7 @@ impl Link {
             Incoming::Mission { request, mission_type } => {
                 self.outbox.answer(Answer::Mission { request, mission_type, to: sender });
             }
+            Incoming::Param(request) => self.handle_param(sender, &request, job),
             Incoming::File(request) => self.outbox.answer(Answer::File { request, to: sender }),
             Incoming::Logs => self.outbox.answer(Answer::NoLogs),
             Incoming::Timesync { ts1 } => {
@@ -91,25 +98,45 @@ impl Link {
 
     fn handle_command(&mut self, link: u8, sender: Sender, message: &CommandMessage, job: &mut Job) {
         use command::Effect;
-        let result = match command::carry_out(message, job.now, job.input, &mut self.telemetry, job.output) {
-            Effect::Done(result) => result,
-            Effect::Report(report) => {
-                self.outbox.answer(Answer::Report(report));
-                MavResult::MAV_RESULT_ACCEPTED
-            }
-            Effect::Ask(request) => {
-                let origin = Origin::Station { link, sender, command: message.command };
-                match self.waiting.push_back(Command { request, origin }) {
-                    // The commander will answer.
-                    Ok(()) => return,
-                    Err(command) => {
-                        self.outbox.answer(Answer::Refusal(command.request, Refusal::Busy));
-                        MavResult::MAV_RESULT_TEMPORARILY_REJECTED
+        let result =
+            match command::carry_out(message, job.now, job.input, &mut self.telemetry, job.settings, job.output) {
+                Effect::Done(result) => result,
+                Effect::Report(report) => {
+                    self.outbox.answer(Answer::Report(report));
+                    MavResult::MAV_RESULT_ACCEPTED
+                }
+                Effect::Ask(request) => {
+                    let origin = Origin::Station { link, sender, command: message.command };
+                    match self.waiting.push_back(Command { request, origin }) {
+                        // The commander will answer.
+                        Ok(()) => return,
+                        Err(command) => {
+                            self.outbox.answer(Answer::Refusal(command.request, Refusal::Busy));
+                            MavResult::MAV_RESULT_TEMPORARILY_REJECTED
+                        }
                     }
                 }
-            }
-        };
+            };
         self.outbox.acknowledge(message.command, result, sender);
+    }
+
+    fn handle_param(&mut self, sender: Sender, request: &ParamRequest, job: &mut Job) {
+        match request {
+            ParamRequest::List => self.params.request_list(),
+            ParamRequest::Read { index, name } => self.params.request_read(*index, name, sender),
+            ParamRequest::Set { name, bits, kind } => {
+                let done = params::set(job.settings, name, *bits, *kind, job.input.armed);
+                if let Done::Changed(index) = done {
+                    job.changed.set(index);
+                }
+                self.params.answer(name, done, sender);
+            }
+        }
+    }
+
+    /// A setting that was changed, on whatever link.
+    pub(super) fn announce(&mut self, index: usize) {
+        self.params.announce(index);
     }
 
     /// The next command for the commander.
@@ -138,11 +165,13 @@ impl Link {
         self.outbox.report(event);
     }
 
-    /// Writes what is to be said and fits: failures, acknowledgements, answers, telemetry.
-    pub(super) fn write(&mut self, now: Tick, input: &GroundInput, us: Identity, port: &Port) {
+    /// Writes what is to be said and fits: failures, acknowledgements, answers, telemetry, settings.
+    pub(super) fn write(&mut self, now: Tick, input: &GroundInput, settings: &Settings, us: Identity, port: &Port) {
         let errors = self.parser.bad_checksums().saturating_add(port.received().lost());
         let mut out = Writer::new(port.sent(), &mut self.sequence, us);
         self.outbox.send(now, input, errors, &mut out);
         self.telemetry.send(now, input, errors, &mut out);
+        out.set_limit(TELEMETRY_SHARE);
+        self.params.send(settings, &mut out);
     }
 }

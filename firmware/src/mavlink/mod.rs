@@ -2,7 +2,7 @@
 //!
 //! Bytes in, bytes out; the board or the host only carries them, through [`port`]: a pair of rings for each link. A
 //! `link` has its own parser, answers and rates: `parser` finds frames, `incoming` decodes messages, `command` carries
-//! out commands, `services` answers for what there is not, `mode` encodes modes as PX4 does, `text` sends texts to
+//! out commands, `params` serves the settings, `services` answers for what there is not, `mode` encodes modes as PX4 does, `text` sends texts to
 //! pilots, `telemetry` schedules periodic messages, `status` fills in the health messages, `outbox` keeps what is still
 //! to be said, and `writer` encodes messages. NED/FRD is converted in `frames` only.
 //!
@@ -42,6 +42,7 @@ mod incoming;
 mod link;
 mod mode;
 mod outbox;
+mod params;
 mod parser;
 pub mod port;
 mod services;
@@ -57,7 +58,7 @@ use self::port::{LINKS, Ports};
 use crate::commander::{Answers, Commands, Events, Mode, Origin};
 use crate::estimator::status::Status;
 use crate::failure::{Failures, Injectable};
-use crate::settings::{Changes, Settings};
+use crate::settings::{Changes, Marks, Settings};
 use crate::signals::{NavState, Tick};
 use crate::watchdog::Hung;
 
@@ -178,11 +179,17 @@ impl Ground {
 
     /// One job, released at `released`: reads from the links that are open, and writes to them.
     pub fn step(&mut self, released: Tick, input: &GroundInput, ports: &Ports) -> GroundOutput {
-        let mut output = GroundOutput::default();
+        let (mut output, mut changed) = (GroundOutput::default(), Marks::default());
         for ((number, link), port) in (0..).zip(&mut self.links).zip(ports) {
             let Some((session, profile)) = port.session() else { continue };
             link.begin(session, profile);
-            link.read(number, port, &mut Job { now: released, input, us: self.us, output: &mut output });
+            let (settings, changed) = (&mut self.settings, &mut changed);
+            let us = self.us;
+            link.read(number, port, &mut Job { now: released, input, us, settings, changed, output: &mut output });
+        }
+        while let Some(index) = changed.first() {
+            changed.clear(index);
+            self.links.iter_mut().for_each(|link| link.announce(index));
         }
         if output.kill {
             self.links.iter_mut().for_each(Link::refuse_waiting);
@@ -201,7 +208,7 @@ impl Ground {
         for (link, port) in self.links.iter_mut().zip(ports) {
             if port.session().is_some() {
                 input.events.iter().for_each(|event| link.report(*event));
-                link.write(released, input, self.us, port);
+                link.write(released, input, &self.settings, self.us, port);
             }
         }
         output

@@ -3,7 +3,7 @@
 use glissade_dialect::MavCmd;
 
 use super::incoming::CommandMessage;
-use crate::commander::{Mode, Request, TAKE_OFF_HEIGHT_M};
+use crate::commander::{Mode, Request};
 
 const AUTO: u8 = 4;
 const OFFBOARD: u8 = 6;
@@ -34,13 +34,13 @@ pub(super) fn as_command(base_mode: u8, custom_mode: u32) -> CommandMessage {
     CommandMessage { command, param1, param2, param3, param7: f32::NAN }
 }
 
-/// The request that corresponds to setting a mode; `None` if it cannot be set.
-pub(super) fn request(main: f32, sub: f32) -> Option<Request> {
+/// The request that corresponds to setting a mode; `None` if it cannot be set. A take-off goes to `take_off_m`.
+pub(super) fn request(main: f32, sub: f32, take_off_m: f32) -> Option<Request> {
     if main != f32::from(AUTO) {
         return None;
     }
     [
-        (TAKE_OFF, Request::TakeOff { height_m: TAKE_OFF_HEIGHT_M }),
+        (TAKE_OFF, Request::TakeOff { height_m: take_off_m }),
         (LOITER, Request::Hold),
         (MISSION, Request::Follow),
         (RETURN, Request::Return),

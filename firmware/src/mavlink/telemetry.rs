@@ -260,6 +260,7 @@ fn write_timing(now: Tick, timing: LoopTiming, out: &mut Writer) -> bool {
 fn autopilot_version() -> AUTOPILOT_VERSION_DATA {
     AUTOPILOT_VERSION_DATA {
         capabilities: MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_COMMAND_INT
+            | MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
             | MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_MAVLINK2,
         flight_sw_version: SOFTWARE_VERSION,
         ..AUTOPILOT_VERSION_DATA::DEFAULT

@@ -2,6 +2,7 @@
 
 mod failures;
 mod modes;
+mod params;
 mod status;
 
 use glissade_dialect::mavlink_core::{
@@ -343,7 +344,7 @@ fn the_version_lists_only_supported_capabilities() {
     let messages = Bench::silent().job(&command(520, 1.0, 0.0));
     let version = messages.iter().find_map(|m| if let MavMessage::AUTOPILOT_VERSION(m) = m { Some(m) } else { None });
     let version = version.expect("sent");
-    assert_eq!(version.capabilities.bits(), 8 | 8192);
+    assert_eq!(version.capabilities.bits(), 8 | 16 | 8192);
     assert_eq!(version.flight_sw_version & 0xff, 0, "a development version");
 }
 

@@ -24,7 +24,7 @@ pub use rows::{COUNT, SETTINGS};
 pub use table::{Class, Domain, Kind, NAME_MAX, Place, Setting, Slot, Value, find};
 pub(crate) use table::{check_airframe, check_estimator, check_flight, check_modes};
 
-use self::marks::Marks;
+pub(crate) use self::marks::Marks;
 use crate::airframe::Airframe;
 use crate::config::FlightConfig;
 use crate::control::mixer::Mixer;

@@ -5,9 +5,14 @@ use std::collections::BTreeSet;
 use proptest::prelude::*;
 
 use super::*;
+use crate::commander::Commander;
 use crate::config::Start;
+use crate::control::attitude::SlidingAttitude;
 use crate::control::gains::{AxisGains, ReachingLaw, Surface};
-use crate::estimator::EstimatorSettings;
+use crate::control::law::AttitudeLaw as _;
+use crate::control::position::SlidingPosition;
+use crate::estimator::{EstimatorSettings, Filter};
+use crate::outer::Outer;
 
 /// A configuration with every part.
 fn whole() -> FlightConfig {
@@ -267,6 +272,77 @@ fn what_was_set_waits_until_it_is_saved() {
     assert_eq!(settings.next_unsaved(), Some((mass, Value::Real(1.0))), "it was set again meanwhile");
     settings.saved(mass, Value::Real(1.0));
     assert_eq!(settings.next_unsaved(), None);
+}
+
+/// What the owners of settings have made of a configuration.
+struct Owners {
+    attitude: SlidingAttitude,
+    outer: Outer,
+    commander: Commander,
+    filter: Filter,
+}
+
+impl Owners {
+    fn of(config: &FlightConfig) -> Self {
+        let estimator = config.estimator.expect("a whole configuration");
+        Self {
+            attitude: SlidingAttitude::new(&config.airframe, &config.attitude),
+            outer: Outer::new(config, SlidingPosition::new(&config.airframe, &config.position)).expect("valid"),
+            commander: Commander::new(config),
+            filter: Filter::new(&estimator, 9.81, 0.1, config.start_position()),
+        }
+    }
+
+    fn apply(&mut self, change: &Change) {
+        self.attitude.retune(change);
+        self.outer.apply(change);
+        self.commander.apply(change);
+        self.filter.apply(change);
+    }
+
+    /// Every float has its own text.
+    fn texts(&self) -> [String; 4] {
+        let Self { attitude, outer, commander, filter } = self;
+        [format!("{attitude:?}"), format!("{outer:?}"), format!("{commander:?}"), format!("{filter:?}")]
+    }
+}
+
+#[test]
+fn whoever_takes_a_change_over_is_as_if_built_with_it() {
+    for law in 0..=ReachingLaw::CODE_MAX {
+        let mut config = whole();
+        for axis in config.attitude.axes.iter_mut().chain(&mut config.position.axes) {
+            axis.choose_law(law);
+        }
+        config.attitude.observer.bandwidth_rad_s = 20.0;
+        for (index, setting) in SETTINGS.iter().enumerate() {
+            let mut settings = Settings::of(&config);
+            let value = other(&settings, index);
+            if settings.set(index, value, setting.class == Class::InFlight).is_err() {
+                continue;
+            }
+            let mut owners = Owners::of(&config);
+            let before = owners.texts();
+            let changes = settings.take_changes();
+            for change in &changes {
+                owners.apply(change);
+            }
+            let mut changed = config.clone();
+            settings.write_to(&mut changed);
+            let name = setting.name;
+            match setting.place {
+                Place::Settings | Place::Airframe(_) => assert_eq!(owners.texts(), before, "{name}"),
+                _ if changes.is_empty() => {
+                    assert!(setting.class == Class::Boot || !settings.is_in_use(index), "{name}");
+                    assert_eq!(owners.texts(), before, "{name}");
+                }
+                _ => {
+                    assert_ne!(owners.texts(), before, "{name} of law {law} has no effect");
+                    assert_eq!(owners.texts(), Owners::of(&changed).texts(), "{name} of law {law}");
+                }
+            }
+        }
+    }
 }
 
 proptest! {

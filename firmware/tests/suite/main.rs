@@ -7,4 +7,5 @@ mod hung;
 mod mixer;
 mod modes;
 mod moving_start;
+mod settings;
 mod sliding;
