@@ -16,6 +16,7 @@
 mod axes;
 mod marks;
 mod rows;
+pub mod store;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -98,6 +99,18 @@ pub enum SettingError {
     OtherType,
     /// The value fits the setting, but not the others.
     Refused(ConfigError),
+}
+
+/// Whether an airframe's values fit together.
+fn is_flyable(airframe: &Airframe) -> Result<(), ConfigError> {
+    airframe.validate()?;
+    Mixer::new(&airframe.geometry.rows(), airframe.omega_max_rad_s)
+        .map(|_| ())
+        .map_err(|_| ConfigError::SingularGeometry)
+}
+
+fn is_of_airframe(index: usize) -> bool {
+    SETTINGS.get(index).is_some_and(|setting| setting.place.airframe().is_some())
 }
 
 /// The values of all settings.
@@ -194,15 +207,36 @@ impl Settings {
         Ok(())
     }
 
+    /// Puts stored values back all together, each as [`restore`](Self::restore) does: an airframe that is refused as a
+    /// whole stays as it was. Returns how many were refused.
+    pub fn restore_all(&mut self, values: impl Iterator<Item = (usize, Value)>) -> usize {
+        let before = self.clone();
+        let mut refused = 0;
+        for (index, value) in values {
+            let fits = SETTINGS.get(index).is_some_and(|setting| setting.accepts(value));
+            if fits {
+                self.put(index, value);
+            } else {
+                refused += 1;
+            }
+        }
+        if is_flyable(&self.airframe()).is_err() {
+            for index in (0..COUNT).filter(|index| is_of_airframe(*index)) {
+                if let Some(value) = before.get(index).filter(|value| self.get(index) != Some(*value)) {
+                    self.put(index, value);
+                    refused += 1;
+                }
+            }
+        }
+        refused
+    }
+
     /// Refuses an airframe whose rotors cannot be mixed.
     fn check_with_others(&self, setting: &Setting, value: Value) -> Result<(), SettingError> {
         let Place::Airframe(slot) = setting.place else { return Ok(()) };
         let mut airframe = self.airframe();
         (slot.set)(&mut airframe, value);
-        airframe.validate().map_err(SettingError::Refused)?;
-        Mixer::new(&airframe.geometry.rows(), airframe.omega_max_rad_s)
-            .map(|_| ())
-            .map_err(|_| SettingError::Refused(ConfigError::SingularGeometry))
+        is_flyable(&airframe).map_err(SettingError::Refused)
     }
 
     /// The airframe.
