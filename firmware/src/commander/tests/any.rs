@@ -1,4 +1,5 @@
-//! For any requests and failures: directives are finite, and nothing stops the rotors in the air.
+//! For any requests and failures: directives are finite, nothing stops the rotors in the air, and nothing but a recent
+//! request makes the vehicle leave the ground.
 
 use proptest::prelude::*;
 
@@ -46,6 +47,31 @@ fn any_input() -> impl Strategy<Value = (CommanderInput, u16)> {
 }
 
 proptest! {
+    #[test]
+    fn only_a_recent_request_launches_the_vehicle(inputs in prop::collection::vec(any_input(), 1..40)) {
+        let mut bench = Bench::new(State::Disarmed);
+        let (mut rested, mut asked) = (true, None);
+        for (input, jobs) in inputs {
+            // On the ground throughout, so that arming is possible.
+            let nav = standing().nav;
+            let mut input = CommanderInput { nav, nav_fresh: true, health: NavHealth::ALL, thrust_n: 0.0, ..input };
+            for _ in 0..jobs {
+                let launch = |command: &Command| matches!(command.request, Request::TakeOff { .. } | Request::Follow);
+                if input.commands.iter().any(launch) {
+                    asked = Some(bench.tick);
+                }
+                let now = bench.tick;
+                let output = bench.step(&input);
+                input.commands.clear();
+                let rests = matches!(output.directive, Directive::Stop | Directive::Idle);
+                if rested && !rests {
+                    prop_assert!(asked.is_some_and(|at| now - at <= ticks(LAUNCH_HELD_S)), "{:?}", output);
+                }
+                rested = rests;
+            }
+        }
+    }
+
     #[test]
     fn whatever_comes_directives_are_finite_and_nothing_stops_the_rotors_in_the_air(
         inputs in prop::collection::vec(any_input(), 1..40),
