@@ -1632,10 +1632,16 @@ pub struct DEBUG_FLOAT_ARRAY_DATA {
     #[doc = "Name."]
     #[cfg_attr(feature = "ts-rs", ts(type = "string"))]
     pub name: CharArray<10>,
+    #[doc = "Data."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    #[cfg_attr(feature = "serde", serde(with = "serde_arrays"))]
+    #[cfg_attr(feature = "ts-rs", ts(type = "Array<number>"))]
+    pub data: [f32; 58],
 }
 impl DEBUG_FLOAT_ARRAY_DATA {
-    pub const ENCODED_LEN: usize = 20usize;
-    pub const DEFAULT: Self = Self { time_usec: 0_u64, array_id: 0_u16, name: CharArray::new([0_u8; 10usize]) };
+    pub const ENCODED_LEN: usize = 252usize;
+    pub const DEFAULT: Self =
+        Self { time_usec: 0_u64, array_id: 0_u16, name: CharArray::new([0_u8; 10usize]), data: [0.0_f32; 58usize] };
     #[cfg(feature = "arbitrary")]
     pub fn random<R: rand::Rng>(rng: &mut R) -> Self {
         use arbitrary::{Arbitrary, Unstructured};
@@ -1655,7 +1661,7 @@ impl MessageData for DEBUG_FLOAT_ARRAY_DATA {
     const ID: u32 = 350u32;
     const NAME: &'static str = "DEBUG_FLOAT_ARRAY";
     const EXTRA_CRC: u8 = 232u8;
-    const ENCODED_LEN: usize = 20usize;
+    const ENCODED_LEN: usize = 252usize;
     fn deser(_version: MavlinkVersion, __input: &[u8]) -> Result<Self, ::mavlink_core::error::ParserError> {
         let avail_len = __input.len();
         let mut payload_buf;
@@ -1674,6 +1680,10 @@ impl MessageData for DEBUG_FLOAT_ARRAY_DATA {
             *v = buf.get_u8()?;
         }
         __struct.name = CharArray::new(tmp);
+        for v in &mut __struct.data {
+            let val = buf.get_f32_le()?;
+            *v = val;
+        }
         Ok(__struct)
     }
     fn ser(&self, version: MavlinkVersion, bytes: &mut [u8]) -> usize {
@@ -1687,6 +1697,9 @@ impl MessageData for DEBUG_FLOAT_ARRAY_DATA {
             __tmp.put_u8(*val);
         }
         if matches!(version, MavlinkVersion::V2) {
+            for val in &self.data {
+                __tmp.put_f32_le(*val);
+            }
             let len = __tmp.len();
             ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
         } else {
