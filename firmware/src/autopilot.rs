@@ -6,8 +6,8 @@
 //! are released with a snapshot of their inputs, the inner loop runs, then the released partitions.
 
 use crate::commander::{
-    Answers, Asked, Command, Commander, CommanderInput, CommanderOutput, Commands, Directive, Event, Events, Origin,
-    Outcome, Refusal, Reply, Request,
+    Answers, Asked, Command, Commander, CommanderInput, CommanderOutput, Commands, Directive, Event, Events, Known,
+    Origin, Outcome, Refusal, Reply, Request,
 };
 use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
@@ -18,6 +18,7 @@ use crate::estimator::{Filter, FilterInput, FilterOutput};
 use crate::failure::{Failures, Injectable};
 use crate::inner::{Inner, InnerOutput};
 use crate::mavlink::port::Ports;
+use crate::mavlink::report::{Aim, ControlReport, LawReport, SensorReport};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming};
 use crate::navigator::Navigator;
 use crate::outer::{Authority, Outer, OuterInput, OuterOutput};
@@ -358,11 +359,57 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 timing: self.timing,
             },
             estimator: self.estimator_status(),
+            control: self.control_report(),
+            sensors: self.sensor_report(),
+            home: self.commander.home,
             injectable: self.injectable,
             changes_taken: self.waiting == Waiting::default(),
             replies: core::mem::take(&mut self.replies),
             events: core::mem::take(&mut self.events),
         }
+    }
+
+    fn control_report(&self) -> ControlReport {
+        let (inner, outer, airframe) = (self.inner.output(), &self.outer, self.inner.airframe());
+        let holds_position = match self.commander.directive {
+            Directive::Descend { known, .. } => known == Known::Position,
+            _ => true,
+        };
+        let aim = Aim {
+            attitude: outer.attitude.target.attitude,
+            rates: outer.attitude.target.rates,
+            thrust_n: outer.attitude.thrust_n,
+            place: outer.wanted,
+            velocity: outer.wanted_velocity,
+            acceleration: outer.wanted_acceleration,
+            yaw_rate: outer.wanted_yaw_rate,
+            holds_position,
+            holds_heading: !outer.heading_free,
+        };
+        ControlReport {
+            aim: (self.is_armed() && outer.authority != Authority::Idle).then_some(aim),
+            attitude_law: LawReport { s: inner.s, state: self.inner.law_state() },
+            position_law: LawReport { s: outer.s, state: outer.law },
+            motors: inner.motors,
+            rotor_speeds_rad_s: *self.inner.rotor_speeds_rad_s(),
+            thrust_n: inner.demand.thrust_n,
+            thrust_max_n: airframe.thrust_max_n(),
+            omega_max_rad_s: airframe.omega_max_rad_s,
+        }
+    }
+
+    /// The sensors; `None` on ideal state.
+    fn sensor_report(&self) -> Option<SensorReport> {
+        let navigator = self.inner.navigator()?;
+        let latest = navigator.latest();
+        Some(SensorReport {
+            imu: navigator.imu(),
+            mag: latest.mag,
+            baro: latest.baro,
+            gnss: latest.gnss,
+            vibration_m_s2: navigator.vibration().level_m_s2(),
+            clipped: navigator.vibration().clipped(),
+        })
     }
 
     /// The estimator's report; `None` on ideal state.

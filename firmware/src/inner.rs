@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use crate::airframe::{Airframe, ROTORS};
 use crate::config::{FlightConfig, Start};
 use crate::control::attitude::SlidingAttitude;
-use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, RotorEffect};
+use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, LawState, RotorEffect};
 use crate::control::mixer::Mixer;
 use crate::control::motor_out::MotorOut;
 use crate::control::rotor::{RotorModel, RotorTorque, YawInversion};
@@ -316,6 +316,21 @@ impl<A: AttitudeLaw> Inner<A> {
     /// The output of the last tick.
     pub fn output(&self) -> &InnerOutput {
         &self.output
+    }
+
+    /// Estimated speeds of the rotors, rad/s: the commands, passed through the model of the rotor lag.
+    pub fn rotor_speeds_rad_s(&self) -> &[f32; ROTORS] {
+        self.rotors.omega_rad_s()
+    }
+
+    /// The vehicle, as the controller believes it to be.
+    pub fn airframe(&self) -> &Airframe {
+        &self.airframe
+    }
+
+    /// What the attitude law keeps inside.
+    pub fn law_state(&self) -> LawState {
+        self.law.state(&self.output.s)
     }
 
     /// Estimated thrust of the rotors, N.

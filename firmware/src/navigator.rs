@@ -6,9 +6,9 @@ use nalgebra::Vector3;
 use crate::airframe::ROTORS;
 use crate::config::FlightConfig;
 use crate::control::gyro::GyroFilter;
-use crate::estimator::{EstimatorSettings, FilterInput, Injection, Nominal, Predictor, Readings};
+use crate::estimator::{EstimatorSettings, FilterInput, Injection, Nominal, Predictor, Readings, Vibration};
 use crate::math;
-use crate::sensors::{BatterySample, Measurements};
+use crate::sensors::{BatterySample, ImuSample, Measurements};
 use crate::settings::Changes;
 use crate::signals::NavState;
 
@@ -20,6 +20,9 @@ pub struct Navigator {
     /// Filtered Ω including its bias, rad/s.
     filtered: Vector3<f32>,
     readings: Readings,
+    /// The last readings of all that the filter has been given, for telemetry.
+    latest: Readings,
+    vibration: Vibration,
     battery: Option<BatterySample>,
     /// Ticks since that sample, saturating.
     battery_age: u16,
@@ -35,6 +38,8 @@ impl Navigator {
             gyro: GyroFilter::new(),
             filtered: Vector3::zeros(),
             readings: Readings::default(),
+            latest: Readings::default(),
+            vibration: Vibration::default(),
             battery: None,
             battery_age: 0,
             injected: false,
@@ -51,6 +56,9 @@ impl Navigator {
         self.battery_age = self.battery_age.saturating_add(1);
         if let Some(measured) = measured {
             self.keep(measured);
+            if fresh && let Some(imu) = &measured.imu {
+                self.vibration.note(&imu.accel);
+            }
         }
         fresh
     }
@@ -98,9 +106,27 @@ impl Navigator {
         self.battery.map(|battery| (battery, u32::from(self.battery_age)))
     }
 
+    /// The last reading of each sensor that the filter has been given.
+    pub fn latest(&self) -> &Readings {
+        &self.latest
+    }
+
+    /// The last IMU sample that was used, without corrections.
+    pub fn imu(&self) -> Option<ImuSample> {
+        self.predictor.last_sample()
+    }
+
+    /// How strongly the accelerometer is shaken.
+    pub fn vibration(&self) -> &Vibration {
+        &self.vibration
+    }
+
     /// The snapshot for a filter job. `landed`: on the ground; `at_rest`: on the ground and disarmed; `changes`: settings
     /// to take over.
     pub fn release(&mut self, landed: bool, at_rest: bool, changes: Changes) -> FilterInput {
+        let readings = core::mem::take(&mut self.readings);
+        self.latest.update(&readings);
+        self.vibration.average();
         FilterInput {
             state: *self.predictor.state(),
             rates: *self.predictor.rates(),
@@ -109,7 +135,7 @@ impl Navigator {
             injected: core::mem::take(&mut self.injected),
             landed,
             at_rest,
-            readings: core::mem::take(&mut self.readings),
+            readings,
             changes,
         }
     }

@@ -11,7 +11,7 @@ use nalgebra::{Vector3, Vector4};
 use crate::commander::{Directive, Known};
 use crate::config::{FlightConfig, ModeSettings};
 use crate::control::flatness::{self, ForceProfile, Heading};
-use crate::control::law::{PositionDemand, PositionInput, PositionLaw};
+use crate::control::law::{LawState, PositionDemand, PositionInput, PositionLaw};
 use crate::control::position::{ForceLimits, SlidingPosition, Translation};
 use crate::guidance::Guidance;
 use crate::guidance::setpoint::{Setpoint, Target};
@@ -62,6 +62,14 @@ pub struct OuterOutput {
     pub wanted: Vector4<f32>,
     /// Thrust that the rotors give, as a fraction of the model's, for the inner partition should this be the last output.
     pub thrust_effectiveness: f32,
+    /// Its velocity, m/s.
+    pub wanted_velocity: Vector3<f32>,
+    /// Its acceleration, m/s².
+    pub wanted_acceleration: Vector3<f32>,
+    /// ψ̇ of the reference, rad/s.
+    pub wanted_yaw_rate: f32,
+    /// What the position law keeps inside.
+    pub law: LawState,
 }
 
 /// Source of the last job's reference.
@@ -223,6 +231,10 @@ impl<P: PositionLaw> Outer<P> {
             heading_free: false,
             wanted,
             thrust_effectiveness: self.thrust_effectiveness(),
+            wanted_velocity: Vector3::zeros(),
+            wanted_acceleration: Vector3::zeros(),
+            wanted_yaw_rate: 0.0,
+            law: LawState::default(),
         }
     }
 
@@ -392,6 +404,10 @@ impl<P: PositionLaw> Outer<P> {
             heading_free: false,
             wanted: reference.position.push(reference.yaw),
             thrust_effectiveness: self.thrust_effectiveness(),
+            wanted_velocity: reference.velocity,
+            wanted_acceleration: reference.acceleration,
+            wanted_yaw_rate: reference.yaw_rate,
+            law: self.law.state(&s),
         }
     }
 

@@ -65,6 +65,10 @@ pub struct GnssSample {
     pub vertical_accuracy_m: f32,
     /// The same for each component of the velocity, m/s.
     pub speed_accuracy_m_s: f32,
+    /// Height of the geoid (mean sea level) above the ellipsoid at that place, by the receiver's table, mm.
+    pub separation_mm: i32,
+    /// UTC of the measurement, µs since 1970; `None` before the receiver knows the time.
+    pub utc_us: Option<u64>,
 }
 
 /// Position and attitude by motion capture, in the local frame.
@@ -154,6 +158,8 @@ mod tests {
             horizontal_accuracy_m: 1.5,
             vertical_accuracy_m: 2.5,
             speed_accuracy_m_s: 0.05,
+            separation_mm: 0,
+            utc_us: None,
         };
         assert!(good.is_usable());
         for bad in [

@@ -17,6 +17,7 @@ impl Commander {
         let done = match (request, Intent::of(request)) {
             (_, Some(intent)) => self.intend(intent, effective, input),
             (Request::Arm { force }, None) => self.arm(*force, effective, input),
+            (Request::SetHome { position_m }, None) => self.set_home(*position_m, input),
             (_, None) => self.disarm(),
         };
         done.map_or_else(Outcome::TemporarilyRejected, |()| Outcome::Accepted)
@@ -39,7 +40,9 @@ impl Commander {
             self.check(input)?;
             launch?;
         }
-        self.home = input.nav.position;
+        if !self.home_is_set {
+            self.home = input.nav.position;
+        }
         self.battery_answered = super::Charge::Good;
         self.state = State::Idle { disarm_at: None };
         if intent.leaves_ground() && launch.is_ok() {

@@ -38,10 +38,10 @@ pub enum Intent {
 }
 
 impl Intent {
-    /// What a request to fly wants; `None` for arming and disarming.
+    /// What a request to fly wants; `None` for any other.
     pub(super) fn of(request: &Request) -> Option<Self> {
         Some(match *request {
-            Request::Arm { .. } | Request::Disarm => return None,
+            Request::Arm { .. } | Request::Disarm | Request::SetHome { .. } => return None,
             Request::Hold => Self::Hold,
             Request::TakeOff { height_m } => Self::TakeOff { height_m },
             Request::GoTo { position_m, yaw_rad } => Self::GoTo { position: position_m.into(), yaw: yaw_rad },

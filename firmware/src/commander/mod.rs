@@ -13,6 +13,7 @@ mod checks;
 mod decide;
 mod directive;
 mod failsafe;
+mod home;
 mod intent;
 mod request;
 mod state;
@@ -87,6 +88,9 @@ pub struct CommanderOutput {
     pub directive: Directive,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
+    /// Where a return leads, m: where the vehicle was armed or as a pilot has set it; before arming, where it stands.
+    /// `None` while that is unknown.
+    pub home: Option<Vector3<f32>>,
     /// Whether an arm request would be accepted, and why not.
     pub armable: Result<(), Refusal>,
     /// Answers to the commands.
@@ -124,8 +128,10 @@ pub struct Commander {
     state: State,
     /// Kills since boot that it has carried out.
     kills: u8,
-    /// Where the vehicle was armed.
+    /// Where a return leads: where the vehicle was armed, unless a pilot has set another place.
     home: Vector3<f32>,
+    /// Whether a pilot has set it since the vehicle was last disarmed.
+    home_is_set: bool,
     navigation: NavWatch,
     battery: BatteryWatch,
     ground: GroundWatch,
@@ -177,6 +183,7 @@ impl Commander {
             state: if flies { State::Follow { since: 0 } } else { State::Disarmed },
             kills: 0,
             home: start,
+            home_is_set: false,
             navigation: NavWatch::default(),
             battery: BatteryWatch::default(),
             ground: GroundWatch::new(flies, start.z),
@@ -232,10 +239,11 @@ impl Commander {
         }
         let event = self.fail_safe(effective, input);
         self.progress(effective, input);
-        self.output(input.nav.position.z, self.check(input), replies, event)
+        let home = self.known_home(input);
+        CommanderOutput { home, ..self.output(input.nav.position.z, self.check(input), replies, event) }
     }
 
-    /// The output, at a height (z, m).
+    /// The output, at a height (z, m), while home is unknown.
     fn output(
         &self,
         height: f32,
@@ -253,6 +261,7 @@ impl Commander {
             overridden: self.overridden,
             directive: self.directive(height),
             landed: !self.ground.is_airborne(),
+            home: None,
             armable,
             replies,
             event,
@@ -278,6 +287,7 @@ impl Commander {
 
     fn stop(&mut self) {
         self.state = State::Disarmed;
+        self.home_is_set = false;
         self.forget_intent();
     }
 

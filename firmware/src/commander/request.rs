@@ -51,6 +51,11 @@ pub enum Request {
     Return,
     /// Fly the configured trajectory.
     Follow,
+    /// Set where a return leads. Kept until the vehicle is disarmed.
+    SetHome {
+        /// m; `None` for the present position.
+        position_m: Option<[f32; 3]>,
+    },
 }
 
 impl Request {
@@ -66,6 +71,7 @@ impl Request {
             Self::Velocity { velocity_m_s, yaw_rate_rad_s } => {
                 within(velocity_m_s, FASTEST_M_S) && within(&[*yaw_rate_rad_s], ANGLE)
             }
+            Self::SetHome { position_m } => position_m.is_none_or(|position_m| within(&position_m, FARTHEST_M)),
             Self::Arm { .. } | Self::Disarm | Self::Hold | Self::Land | Self::Return | Self::Follow => true,
         }
     }

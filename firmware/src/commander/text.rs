@@ -35,6 +35,7 @@ impl Request {
             Self::Land => "Landing",
             Self::Return => "Return",
             Self::Follow => "Trajectory",
+            Self::SetHome { .. } => "Setting home",
         }
     }
 }

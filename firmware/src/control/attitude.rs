@@ -13,7 +13,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::airframe::Airframe;
 use crate::control::euler::{Euler, EulerReference};
-use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw};
+use crate::control::law::{AttitudeDemand, AttitudeInput, AttitudeLaw, LawState};
 use crate::control::observer::{DisturbanceObserver, ObserverGains};
 use crate::control::pointing::PointingError;
 use crate::control::sliding::{AxisGains, SlidingAxis};
@@ -153,6 +153,14 @@ impl AttitudeLaw for SlidingAttitude {
         }
         let inertia = Vector3::from(self.airframe.inertia_kg_m2);
         AttitudeDemand { s, torque: holding + inertia.component_mul(&acceleration) }
+    }
+
+    fn state(&self, s: &Vector3<f32>) -> LawState {
+        let [x, y, z] = &self.axes;
+        LawState {
+            reaching: Vector3::new(x.reaching(s.x), y.reaching(s.y), z.reaching(s.z)),
+            disturbance: self.observer.as_ref().map_or_else(Vector3::zeros, DisturbanceObserver::disturbance),
+        }
     }
 
     fn reset(&mut self) {

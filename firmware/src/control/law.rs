@@ -48,11 +48,25 @@ pub struct AttitudeDemand {
     pub torque: Vector3<f32>,
 }
 
+/// What a law keeps inside, for pilots and plots; no loop uses it. Zero for a law that has none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LawState {
+    /// Reaching terms `u_r(s)` of the three axes, in units of s per second.
+    pub reaching: Vector3<f32>,
+    /// Estimated disturbance d̂, in the same units.
+    pub disturbance: Vector3<f32>,
+}
+
 /// An attitude law. The inner partition calls [`step`](Self::step) once per tick while the vehicle is armed and
 /// controlled, and [`reset`](Self::reset) once per tick while it is disarmed or idling.
 pub trait AttitudeLaw {
     /// Torque for this tick.
     fn step(&mut self, input: &AttitudeInput) -> AttitudeDemand;
+
+    /// The state behind the sliding variables `s` of the last step.
+    fn state(&self, _s: &Vector3<f32>) -> LawState {
+        LawState::default()
+    }
 
     /// Clears every integrator, filter and observer state.
     fn reset(&mut self);
@@ -93,6 +107,11 @@ pub struct PositionDemand {
 pub trait PositionLaw {
     /// Force for this job.
     fn step(&mut self, input: &PositionInput) -> PositionDemand;
+
+    /// The state behind the sliding variables `s` of the last step.
+    fn state(&self, _s: &Vector3<f32>) -> LawState {
+        LawState::default()
+    }
 
     /// Estimated ratio of the real thrust to the model's; 1 for a law that does not estimate it.
     fn thrust_effectiveness(&self) -> f32 {

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use crate::airframe::Airframe;
 use crate::control::flatness::ForceProfile;
-use crate::control::law::{PositionDemand, PositionInput, PositionLaw};
+use crate::control::law::{LawState, PositionDemand, PositionInput, PositionLaw};
 use crate::control::observer::{DisturbanceObserver, ObserverGains, ThrustEffectiveness};
 use crate::control::sliding::{AxisGains, Correction, SlidingAxis};
 use crate::math;
@@ -157,6 +157,14 @@ impl PositionLaw for SlidingPosition {
 
     fn thrust_effectiveness(&self) -> f32 {
         self.effectiveness.value()
+    }
+
+    fn state(&self, s: &Vector3<f32>) -> LawState {
+        let [x, y, z] = &self.axes;
+        LawState {
+            reaching: Vector3::new(x.reaching(s.x), y.reaching(s.y), z.reaching(s.z)),
+            disturbance: self.observer.as_ref().map_or_else(Vector3::zeros, DisturbanceObserver::disturbance),
+        }
     }
 
     fn reset(&mut self) {

@@ -286,6 +286,12 @@ impl SlidingAxis {
         u
     }
 
+    /// `u_r(s)` with the integrators as they are, which it leaves alone.
+    pub fn reaching(&self, s: f32) -> f32 {
+        let mut axis = *self;
+        axis.reach(s, true)
+    }
+
     /// Slope `du_r/ds` for feedforward: the gain inside the boundary layer, 0 where the law is constant or jumps.
     #[inline]
     fn reach_slope(&self, s: f32) -> f32 {

@@ -17,7 +17,7 @@ use super::predictor::{Correction, Nominal, Span};
 use super::settings::EstimatorSettings;
 use super::update::Verdict;
 use super::watch::{Scatter, Watch};
-use crate::frames::LocalFrame;
+use crate::frames::{LocalFrame, Origin};
 use crate::math;
 use crate::sensors::{BaroSample, GnssSample, MagSample, Measurements, PoseSample};
 use crate::settings::{Change, Changes, Place};
@@ -43,6 +43,19 @@ impl Readings {
         self.baro = measured.baro.or(self.baro);
         self.gnss = measured.gnss.or(self.gnss);
         self.pose = measured.pose.or(self.pose);
+    }
+
+    /// Replaces what newer readings have.
+    pub fn update(&mut self, newer: &Self) {
+        fn replace<T: Copy>(old: &mut Option<T>, new: Option<T>) {
+            if new.is_some() {
+                *old = new;
+            }
+        }
+        replace(&mut self.mag, newer.mag);
+        replace(&mut self.baro, newer.baro);
+        replace(&mut self.gnss, newer.gnss);
+        replace(&mut self.pose, newer.pose);
     }
 }
 
@@ -121,6 +134,10 @@ pub struct FilterOutput {
     pub health: NavHealth,
     /// Estimated wind, x and y, m/s.
     pub wind: [f32; 2],
+    /// Its standard deviations, m/s.
+    pub wind_sigma: [f32; 2],
+    /// Where the local frame's origin is on Earth; `None` before the first GNSS fix.
+    pub origin: Option<Origin>,
     /// Standard deviations of attitude (rad), velocity (m/s) and position (m), three components each.
     pub sigma: [f32; 9],
     /// One entry per measurement of this job.
@@ -134,6 +151,8 @@ impl FilterOutput {
             injection: Injection::None,
             health: NavHealth::NONE,
             wind: [0.0; 2],
+            wind_sigma: [f32::INFINITY; 2],
+            origin: None,
             sigma: [0.0; 9],
             consistency: heapless::Vec::new(),
         }
@@ -218,6 +237,8 @@ pub struct Filter {
     pub(super) offsets: Offsets,
     pub(super) watches: Watches,
     pub(super) frame: Option<LocalFrame>,
+    /// Where the local frame's origin was found to be by the first fix.
+    pub(super) origin: Option<Origin>,
     pub(super) height_by: HeightSource,
     pub(super) baro_scatter: Scatter,
     pub(super) mag_scatter: Scatter,
@@ -267,6 +288,7 @@ impl Filter {
             offsets: Offsets::default(),
             watches: Watches::default(),
             frame: None,
+            origin: None,
             height_by: HeightSource::None,
             baro_scatter: Scatter::default(),
             mag_scatter: Scatter::default(),
@@ -353,6 +375,7 @@ impl Filter {
         FilterOutput {
             injection: Injection::Start(state),
             health: self.health(now),
+            origin: self.origin,
             sigma: self.sigma(),
             ..FilterOutput::initial()
         }
@@ -433,6 +456,8 @@ impl Filter {
             injection,
             health: self.health(job.now.at),
             wind: self.offsets.wind,
+            wind_sigma: [0, 1].map(|axis| self.deviation(index::WIND + axis)),
+            origin: self.origin,
             sigma: self.sigma(),
             consistency: job.consistency,
         }
@@ -450,9 +475,14 @@ impl Filter {
     // ------------------------------------------------------------------------------------------------- health
 
     fn sigma(&self) -> [f32; 9] {
+        core::array::from_fn(|state| self.deviation(state))
+    }
+
+    /// Standard deviation of a state.
+    fn deviation(&self, state: usize) -> f32 {
+        let variance = self.covariance.variance(state);
         // A variance of NaN means unknown.
-        let root = |variance: f32| if variance >= 0.0 { math::sqrt(variance) } else { f32::INFINITY };
-        core::array::from_fn(|state| root(self.covariance.variance(state)))
+        if variance >= 0.0 { math::sqrt(variance) } else { f32::INFINITY }
     }
 
     fn health(&self, now: Tick) -> NavHealth {

@@ -7,7 +7,7 @@ use super::filter::{Filter, FilterInput, HeightSource, JUMPED_AFTER, Job, LOST_A
 use super::history::Snapshot;
 use super::models::{Age, NONE, attitude_row, pressure_height, turn_between};
 use super::update::{Measurement, Verdict, gate};
-use crate::frames::LocalFrame;
+use crate::frames::{LocalFrame, Origin};
 use crate::math;
 use crate::sensors::{BaroSample, GnssSample, MagSample, PoseSample};
 use crate::signals::Tick;
@@ -153,6 +153,7 @@ impl Filter {
         if !self.watches.gnss.is_live(job.now.at, Tick::MAX / 4) {
             // The first fix: the receiver's frame is placed where the vehicle is.
             self.offsets.gnss = [local.x - here.x, local.y - here.y];
+            self.origin = Some(Origin { place: frame.to_geodetic(&(local - here)), separation_mm: gnss.separation_mm });
         }
         let [noise, noise_up] = self.settings.gnss_noise_m;
         let rows = [age.position(0, (index::OFFSET, 1.0)), age.position(1, (index::OFFSET + 1, 1.0))];

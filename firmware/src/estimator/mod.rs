@@ -22,6 +22,7 @@
 //! | [`align`] | initial alignment |
 //! | [`settings`] | noise parameters |
 //! | [`status`] | the estimator's report to pilots |
+//! | [`vibration`] | how strongly the accelerometer is shaken, for pilots |
 //!
 //! The filter's correction goes back to the predictor as an [`Injection`]. The local frame has the world's axes and its
 //! origin at the place where the vehicle was aligned.
@@ -36,8 +37,10 @@ pub mod predictor;
 pub mod settings;
 pub mod status;
 pub mod update;
+pub mod vibration;
 pub mod watch;
 
 pub use filter::{Filter, FilterInput, FilterOutput, Injection, Readings, Source};
 pub use predictor::{Correction, Nominal, Predictor};
 pub use settings::EstimatorSettings;
+pub use vibration::Vibration;

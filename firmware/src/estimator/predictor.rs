@@ -204,6 +204,12 @@ impl Predictor {
         &self.force
     }
 
+    /// The last sample that was used, as it was measured.
+    pub fn last_sample(&self) -> Option<ImuSample> {
+        let (gyro, accel, _) = self.repeated;
+        self.last.map(|at| ImuSample { at, gyro, accel })
+    }
+
     /// The motion now, for the filter's history.
     pub fn snapshot(&self, at: Tick) -> Snapshot {
         let Nominal { attitude, velocity, position, .. } = self.state;

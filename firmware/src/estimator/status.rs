@@ -2,6 +2,7 @@
 
 use super::filter::{Consistency, FilterOutput, Source};
 use super::update::gate;
+use crate::frames::Origin;
 use crate::sensors::BatterySample;
 use crate::signals::{NavHealth, Tick};
 
@@ -56,6 +57,14 @@ pub struct Status {
     pub ratios: [f32; 4],
     /// Standard deviations of horizontal position and height, m.
     pub accuracy_m: [f32; 2],
+    /// Standard deviations of attitude (rad), velocity (m/s) and position (m), three components each.
+    pub sigma: [f32; 9],
+    /// Estimated wind, x and y, m/s.
+    pub wind: [f32; 2],
+    /// Its standard deviations, m/s.
+    pub wind_sigma: [f32; 2],
+    /// Where the local frame's origin is on Earth; `None` before the first GNSS fix.
+    pub origin: Option<Origin>,
 }
 
 impl Fusion {
@@ -115,6 +124,10 @@ impl Fusion {
                 self.kind(Source::Heading).ratio,
             ],
             accuracy_m: [crate::math::sqrt(x * x + y * y), z],
+            sigma: filter.sigma,
+            wind: filter.wind,
+            wind_sigma: filter.wind_sigma,
+            origin: filter.origin,
         }
     }
 }

@@ -7,13 +7,11 @@
 use glissade_dialect::num_traits::FromPrimitive;
 use glissade_dialect::{MavCmd, MavModeFlag, MavResult};
 
-use super::incoming::CommandMessage;
-use super::telemetry::{IntervalError, Report, Telemetry, is_available, report_by_id};
-use super::{GroundInput, GroundOutput, mode};
+use super::incoming::{CommandMessage, Form};
+use super::telemetry::{IntervalError, MODES, Report, Telemetry, View, is_available, report_by_id};
+use super::{GroundOutput, mode, place};
 use crate::commander::{Outcome, Request};
 use crate::failure::{Failure, Failures, Injectable, Manner, Unit};
-use crate::settings::Settings;
-use crate::signals::Tick;
 
 /// Value of `param2` that forces arming and disarming, and the one that forces arming alone.
 const FORCE: f32 = 21_196.0;
@@ -36,6 +34,12 @@ impl From<MavResult> for Effect {
     }
 }
 
+impl From<Result<Request, MavResult>> for Effect {
+    fn from(request: Result<Request, MavResult>) -> Self {
+        request.map_or_else(Self::Done, Self::Ask)
+    }
+}
+
 impl From<Option<Request>> for Effect {
     /// Denied without a request.
     fn from(request: Option<Request>) -> Self {
@@ -46,29 +50,38 @@ impl From<Option<Request>> for Effect {
 /// Carries out a command, or finds out what the commander is to be asked.
 pub(super) fn carry_out(
     message: &CommandMessage,
-    now: Tick,
-    input: &GroundInput,
+    view: &View,
     telemetry: &mut Telemetry,
-    settings: &Settings,
     output: &mut GroundOutput,
 ) -> Effect {
-    let take_off_m = settings.take_off_height_m();
-    match MavCmd::from_u16(message.command) {
+    let command = MavCmd::from_u16(message.command);
+    if command.is_some() && !place::is_frame(message) {
+        return MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME.into();
+    }
+    match command {
         Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) if is_kill(message) => {
             output.kill = true;
             MavResult::MAV_RESULT_ACCEPTED.into()
         }
         Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => arm_request(message).into(),
-        Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => Effect::Ask(take_off(message, take_off_m)),
+        Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => place::take_off(message, view).into(),
+        Some(MavCmd::MAV_CMD_DO_SET_HOME) => place::set_home(message, view).into(),
         Some(MavCmd::MAV_CMD_NAV_LAND) => Effect::Ask(Request::Land),
         Some(MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH) => Effect::Ask(Request::Return),
-        Some(MavCmd::MAV_CMD_DO_SET_MODE) => mode_request(message, take_off_m).into(),
+        Some(MavCmd::MAV_CMD_DO_SET_MODE) => mode_request(message, view.take_off_m).into(),
         Some(MavCmd::MAV_CMD_INJECT_FAILURE) => {
-            inject(message, &input.injectable, &mut output.failures).map_or_else(Into::into, Into::into)
+            inject(message, &view.input.injectable, &mut output.failures).map_or_else(Into::into, Into::into)
         }
-        Some(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL) => set_message_interval(message, now, telemetry).into(),
-        Some(MavCmd::MAV_CMD_REQUEST_MESSAGE) => request_message(message, input),
-        Some(MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES) => request_capabilities(message),
+        Some(MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL) => set_message_interval(message, view, telemetry).into(),
+        Some(MavCmd::MAV_CMD_REQUEST_MESSAGE) => request_message(message, view, telemetry),
+        Some(MavCmd::MAV_CMD_GET_MESSAGE_INTERVAL) => interval_of(message.param1, telemetry),
+        Some(MavCmd::MAV_CMD_GET_HOME_POSITION) => request(Report::HomePosition, view),
+        Some(MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES) => {
+            request_if(message.param1 == 1.0, Report::AutopilotVersion, view)
+        }
+        Some(MavCmd::MAV_CMD_REQUEST_PROTOCOL_VERSION) => {
+            request_if(message.param1 == 1.0, Report::ProtocolVersion, view)
+        }
         _ => MavResult::MAV_RESULT_UNSUPPORTED.into(),
     }
 }
@@ -87,11 +100,6 @@ fn arm_request(message: &CommandMessage) -> Option<Request> {
     } else {
         None
     }
-}
-
-/// The height is above the ground (above mean sea level is not supported). NaN selects the set height.
-fn take_off(message: &CommandMessage, take_off_m: f32) -> Request {
-    Request::TakeOff { height_m: if message.param7.is_nan() { take_off_m } else { message.param7 } }
 }
 
 /// `None` unless it is a PX4 custom mode, flagged as such, that can be set.
@@ -142,24 +150,65 @@ fn unit_of(number: u8) -> Option<Unit> {
     })
 }
 
-fn set_message_interval(message: &CommandMessage, now: Tick, telemetry: &mut Telemetry) -> MavResult {
-    match telemetry.set_interval(now, message.param1, message.param2) {
+fn set_message_interval(message: &CommandMessage, view: &View, telemetry: &mut Telemetry) -> MavResult {
+    let [param5, param6] = match message.form {
+        Form::Long(parameters) => parameters,
+        Form::Int { xy, .. } => xy.map(|integer| integer as f32),
+    };
+    let reserved = [message.param3, message.param4, param5, param6];
+    // Parameter 7: to whom it is sent; 0 is the default, 1 the sender, 2 everyone on the link.
+    if !reserved.into_iter().all(is_unset) || !(is_unset(message.param7) || [1.0, 2.0].contains(&message.param7)) {
+        return MavResult::MAV_RESULT_DENIED;
+    }
+    match telemetry.set_interval(view.now, message.param1, message.param2) {
         Ok(()) => MavResult::MAV_RESULT_ACCEPTED,
         Err(IntervalError::UnknownMessage) => MavResult::MAV_RESULT_UNSUPPORTED,
         Err(IntervalError::Refused) => MavResult::MAV_RESULT_DENIED,
     }
 }
 
-fn request_message(message: &CommandMessage, input: &GroundInput) -> Effect {
+/// A parameter that is not set: NaN, or 0 from senders that know no NaN.
+fn is_unset(parameter: f32) -> bool {
+    parameter.is_nan() || parameter == 0.0
+}
+
+fn request_message(message: &CommandMessage, view: &View, telemetry: &mut Telemetry) -> Effect {
     match report_by_id(message.param1) {
-        Some(report) if is_available(report, input) => Effect::Report(report),
-        Some(_) => MavResult::MAV_RESULT_TEMPORARILY_REJECTED.into(),
+        Some(Report::AvailableModes(_)) => request_modes(message.param2, telemetry),
+        Some(Report::MessageInterval { .. }) => interval_of(message.param2, telemetry),
+        Some(report) => request(report, view),
         None => MavResult::MAV_RESULT_UNSUPPORTED.into(),
     }
 }
 
-fn request_capabilities(message: &CommandMessage) -> Effect {
-    if message.param1 == 1.0 { Effect::Report(Report::AutopilotVersion) } else { MavResult::MAV_RESULT_DENIED.into() }
+/// Answers with a report, if its data is available.
+fn request(report: Report, view: &View) -> Effect {
+    if is_available(report, view) { Effect::Report(report) } else { MavResult::MAV_RESULT_TEMPORARILY_REJECTED.into() }
+}
+
+fn request_if(valid: bool, report: Report, view: &View) -> Effect {
+    if valid { request(report, view) } else { MavResult::MAV_RESULT_DENIED.into() }
+}
+
+/// The mode with a number, from 1; all for 0 and NaN.
+fn request_modes(number: f32, telemetry: &mut Telemetry) -> Effect {
+    if is_unset(number) {
+        telemetry.send_all_modes();
+        return MavResult::MAV_RESULT_ACCEPTED.into();
+    }
+    match whole(number) {
+        Some(number) if number <= MODES => Effect::Report(Report::AvailableModes(number)),
+        _ => MavResult::MAV_RESULT_DENIED.into(),
+    }
+}
+
+/// Answers with the interval of a message; one that does not exist has none.
+fn interval_of(id: f32, telemetry: &Telemetry) -> Effect {
+    let number = id as u16;
+    if f32::from(number) != id {
+        return MavResult::MAV_RESULT_DENIED.into();
+    }
+    Effect::Report(Report::MessageInterval { id: number, interval_us: telemetry.interval(id) })
 }
 
 /// The `MAV_RESULT` of the commander's outcome.

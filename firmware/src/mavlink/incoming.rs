@@ -6,10 +6,11 @@ use glissade_dialect::{
     LOG_REQUEST_LIST_DATA, MISSION_CLEAR_ALL_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA,
     MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MISSION_REQUEST_LIST_DATA, MISSION_SET_CURRENT_DATA,
     MISSION_WRITE_PARTIAL_LIST_DATA, MavType, PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA,
-    PING_DATA, SET_MODE_DATA, TIMESYNC_DATA,
+    PING_DATA, SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA, TIMESYNC_DATA,
 };
 
 use super::params::ParamRequest;
+use super::telemetry::Place;
 use super::{COMPONENT_ID, Identity};
 
 /// Who sent a message: MAVLink system and component.
@@ -18,7 +19,16 @@ pub(super) type Sender = (u8, u8);
 /// Bytes that a payload may be longer than its message as known here: fields that are still to come.
 const FUTURE: usize = 29;
 
-/// A command from `COMMAND_LONG` or `COMMAND_INT`, with the parameters that the supported commands use.
+/// Parameters 5 and 6 of a command, by its form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Form {
+    /// `COMMAND_LONG`; may be NaN.
+    Long([f32; 2]),
+    /// `COMMAND_INT`: `MAV_FRAME`, any value, and two integers.
+    Int { frame: u8, xy: [i32; 2] },
+}
+
+/// A command from `COMMAND_LONG` or `COMMAND_INT`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CommandMessage {
     /// Number in `MAV_CMD`; any value.
@@ -29,6 +39,10 @@ pub(super) struct CommandMessage {
     pub(super) param2: f32,
     /// Parameter 3; may be NaN.
     pub(super) param3: f32,
+    /// Parameter 4; may be NaN.
+    pub(super) param4: f32,
+    /// Its form, with parameters 5 and 6.
+    pub(super) form: Form,
     /// Parameter 7; may be NaN.
     pub(super) param7: f32,
 }
@@ -78,6 +92,8 @@ pub(super) enum Incoming {
     Logs,
     /// A request of `TIMESYNC`, with the sender's time.
     Timesync { ts1: i64 },
+    /// `SET_GPS_GLOBAL_ORIGIN`.
+    SetOrigin(Place),
     /// A request of `PING`.
     Ping { time_usec: u64, seq: u32 },
 }
@@ -143,6 +159,7 @@ pub(super) fn known(id: u32) -> Option<Known> {
         MISSION_CLEAR_ALL_DATA::ID => Known::of::<MISSION_CLEAR_ALL_DATA>(mission_clear),
         MISSION_REQUEST_INT_DATA::ID => Known::of::<MISSION_REQUEST_INT_DATA>(item_request),
         MISSION_ITEM_INT_DATA::ID => Known::of::<MISSION_ITEM_INT_DATA>(item),
+        SET_GPS_GLOBAL_ORIGIN_DATA::ID => Known::of::<SET_GPS_GLOBAL_ORIGIN_DATA>(set_origin),
         COMMAND_INT_DATA::ID => Known::of::<COMMAND_INT_DATA>(command_int),
         COMMAND_LONG_DATA::ID => Known::of::<COMMAND_LONG_DATA>(command_long),
         FILE_TRANSFER_PROTOCOL_DATA::ID => Known::of::<FILE_TRANSFER_PROTOCOL_DATA>(file),
@@ -240,16 +257,36 @@ fn set_current(raw: &Raw) -> Option<Incoming> {
 
 fn command_long(raw: &Raw) -> Option<Incoming> {
     let m: COMMAND_LONG_DATA = raw.read()?;
-    let command =
-        CommandMessage { command: m.command, param1: m.param1, param2: m.param2, param3: m.param3, param7: m.param7 };
+    let command = CommandMessage {
+        command: m.command,
+        param1: m.param1,
+        param2: m.param2,
+        param3: m.param3,
+        param4: m.param4,
+        form: Form::Long([m.param5, m.param6]),
+        param7: m.param7,
+    };
     raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::Command(command))
 }
 
 fn command_int(raw: &Raw) -> Option<Incoming> {
     let m: COMMAND_INT_DATA = raw.read()?;
-    let command =
-        CommandMessage { command: m.command, param1: m.param1, param2: m.param2, param3: m.param3, param7: m.z };
+    let command = CommandMessage {
+        command: m.command,
+        param1: m.param1,
+        param2: m.param2,
+        param3: m.param3,
+        param4: m.param4,
+        form: Form::Int { frame: m.frame, xy: [m.x, m.y] },
+        param7: m.z,
+    };
     raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::Command(command))
+}
+
+fn set_origin(raw: &Raw) -> Option<Incoming> {
+    let m: SET_GPS_GLOBAL_ORIGIN_DATA = raw.read()?;
+    let place = Place { latitude_e7: m.latitude, longitude_e7: m.longitude, height_msl_mm: m.altitude };
+    raw.is_for_us(m.target_system, 0).then_some(Incoming::SetOrigin(place))
 }
 
 fn file(raw: &Raw) -> Option<Incoming> {

@@ -9,10 +9,11 @@ use super::outbox::{Answer, Outbox, TELEMETRY_SHARE};
 use super::params::{self, Done, ParamRequest, Params};
 use super::parser::Parser;
 use super::port::{Port, Profile};
-use super::telemetry::Telemetry;
+use super::telemetry::{Telemetry, View};
 use super::writer::Writer;
-use super::{GroundInput, GroundOutput, Identity, command, mode};
-use crate::commander::{Command, Event, Origin, Outcome, Refusal, Reply};
+use super::{GroundOutput, command, mode, place};
+use crate::commander::{self, Command, Event, Outcome, Refusal, Reply};
+use crate::frames::Origin;
 use crate::settings::{Marks, Settings};
 use crate::signals::{TICK_S, TICK_US, Tick};
 
@@ -24,15 +25,13 @@ const SILENT_AFTER_S: f32 = 10.0;
 
 /// What a job of the ground partition knows and passes on.
 pub(super) struct Job<'a> {
-    /// When it was released.
-    pub(super) now: Tick,
     /// Its snapshot.
-    pub(super) input: &'a GroundInput,
-    /// Who the vehicle is.
-    pub(super) us: Identity,
+    pub(super) view: View<'a>,
     /// The vehicle's settings, and those that have been changed.
     pub(super) settings: &'a mut Settings,
     pub(super) changed: &'a mut Marks,
+    /// An origin of the local frame that a ground station has set.
+    pub(super) set_origin: &'a mut Option<Origin>,
     /// Its output.
     pub(super) output: &'a mut GroundOutput,
 }
@@ -54,23 +53,24 @@ pub(super) struct Link {
 
 impl Link {
     /// Forgets the last peer if there is a new one. The sequence goes on: the new one cannot know where it began.
-    pub(super) fn begin(&mut self, session: u32, _profile: Profile) {
+    pub(super) fn begin(&mut self, session: u32, profile: Profile) {
         if session != self.session {
-            *self = Self { session, sequence: self.sequence, ..Self::default() };
+            let telemetry = Telemetry::new(profile);
+            *self = Self { session, telemetry, sequence: self.sequence, ..Self::default() };
         }
     }
 
     /// Reads and carries out what has been received. `number` is the link's own.
     pub(super) fn read(&mut self, number: u8, port: &Port, job: &mut Job) {
         self.parser.begin(port.received());
-        while let Some((sender, message)) = self.parser.next(port.received(), job.us) {
-            self.heard_at = Some(job.now);
+        while let Some((sender, message)) = self.parser.next(port.received(), job.view.us) {
+            self.heard_at = Some(job.view.now);
             self.handle(number, sender, message, job);
         }
         let silent_after = (SILENT_AFTER_S / TICK_S) as Tick;
-        if self.heard_at.is_some_and(|at| job.now.wrapping_sub(at) > silent_after) {
+        if self.heard_at.is_some_and(|at| job.view.now.wrapping_sub(at) > silent_after) {
             self.heard_at = None;
-            self.telemetry = Telemetry::default();
+            self.telemetry.forget_rates(job.view.now);
         }
     }
 
@@ -87,9 +87,10 @@ impl Link {
             }
             Incoming::Param(request) => self.handle_param(sender, &request, job),
             Incoming::File(request) => self.outbox.answer(Answer::File { request, to: sender }),
+            Incoming::SetOrigin(place) => place::set_origin(&place, job.view.input, job.set_origin),
             Incoming::Logs => self.outbox.answer(Answer::NoLogs),
             Incoming::Timesync { ts1 } => {
-                let tc1 = i64::from(job.now) * i64::from(TICK_US) * 1000;
+                let tc1 = i64::from(job.view.now) * i64::from(TICK_US) * 1000;
                 self.outbox.answer(Answer::Timesync { tc1, ts1, to: sender });
             }
             Incoming::Ping { time_usec, seq } => self.outbox.answer(Answer::Ping { time_usec, seq, to: sender }),
@@ -98,25 +99,24 @@ impl Link {
 
     fn handle_command(&mut self, link: u8, sender: Sender, message: &CommandMessage, job: &mut Job) {
         use command::Effect;
-        let result =
-            match command::carry_out(message, job.now, job.input, &mut self.telemetry, job.settings, job.output) {
-                Effect::Done(result) => result,
-                Effect::Report(report) => {
-                    self.outbox.answer(Answer::Report(report));
-                    MavResult::MAV_RESULT_ACCEPTED
-                }
-                Effect::Ask(request) => {
-                    let origin = Origin::Station { link, sender, command: message.command };
-                    match self.waiting.push_back(Command { request, origin }) {
-                        // The commander will answer.
-                        Ok(()) => return,
-                        Err(command) => {
-                            self.outbox.answer(Answer::Refusal(command.request, Refusal::Busy));
-                            MavResult::MAV_RESULT_TEMPORARILY_REJECTED
-                        }
+        let result = match command::carry_out(message, &job.view, &mut self.telemetry, job.output) {
+            Effect::Done(result) => result,
+            Effect::Report(report) => {
+                self.outbox.answer(Answer::Report(report));
+                MavResult::MAV_RESULT_ACCEPTED
+            }
+            Effect::Ask(request) => {
+                let origin = commander::Origin::Station { link, sender, command: message.command };
+                match self.waiting.push_back(Command { request, origin }) {
+                    // The commander will answer.
+                    Ok(()) => return,
+                    Err(command) => {
+                        self.outbox.answer(Answer::Refusal(command.request, Refusal::Busy));
+                        MavResult::MAV_RESULT_TEMPORARILY_REJECTED
                     }
                 }
-            };
+            }
+        };
         self.outbox.acknowledge(message.command, result, sender);
     }
 
@@ -125,7 +125,7 @@ impl Link {
             ParamRequest::List => self.params.request_list(),
             ParamRequest::Read { index, name } => self.params.request_read(*index, name, sender),
             ParamRequest::Set { name, bits, kind } => {
-                let done = params::set(job.settings, name, *bits, *kind, job.input.armed);
+                let done = params::set(job.settings, name, *bits, *kind, job.view.input.armed);
                 if let Done::Changed(index) = done {
                     job.changed.set(index);
                 }
@@ -153,7 +153,7 @@ impl Link {
 
     /// Passes on a reply of the commander.
     pub(super) fn reply(&mut self, reply: &Reply) {
-        let Origin::Station { sender, command, .. } = reply.command.origin else { return };
+        let commander::Origin::Station { sender, command, .. } = reply.command.origin else { return };
         self.outbox.acknowledge(command, command::result_of(reply.outcome), sender);
         if let Outcome::TemporarilyRejected(refusal) = reply.outcome {
             self.outbox.answer(Answer::Refusal(reply.command.request, refusal));
@@ -166,11 +166,12 @@ impl Link {
     }
 
     /// Writes what is to be said and fits: failures, acknowledgements, answers, telemetry, settings.
-    pub(super) fn write(&mut self, now: Tick, input: &GroundInput, settings: &Settings, us: Identity, port: &Port) {
+    pub(super) fn write(&mut self, view: &View, settings: &Settings, port: &Port) {
         let errors = self.parser.bad_checksums().saturating_add(port.received().lost());
-        let mut out = Writer::new(port.sent(), &mut self.sequence, us);
-        self.outbox.send(now, input, errors, &mut out);
-        self.telemetry.send(now, input, errors, &mut out);
+        let view = View { errors, ..*view };
+        let mut out = Writer::new(port.sent(), &mut self.sequence, view.us);
+        self.outbox.send(&view, &mut out);
+        self.telemetry.send(&view, &mut out);
         out.set_limit(TELEMETRY_SHARE);
         self.params.send(settings, &mut out);
     }

@@ -2,9 +2,10 @@
 //!
 //! Bytes in, bytes out; the board or the host only carries them, through [`port`]: a pair of rings for each link. A
 //! `link` has its own parser, answers and rates: `parser` finds frames, `incoming` decodes messages, `command` carries
-//! out commands, `params` serves the settings, `services` answers for what there is not, `mode` encodes modes as PX4 does, `text` sends texts to
-//! pilots, `telemetry` schedules periodic messages, `status` fills in the health messages, `outbox` keeps what is still
-//! to be said, and `writer` encodes messages. NED/FRD is converted in `frames` only.
+//! out commands, `place` those that carry places on Earth, `params` serves the settings, `services` answers for what
+//! there is not, `mode` encodes modes as PX4 does, `text` sends texts to pilots, `telemetry` schedules and fills in the
+//! messages about the vehicle, of which [`report`] tells the part that is gathered for it, `outbox` keeps what is still to
+//! be said, and `writer` encodes messages. NED/FRD is converted in `frames` only.
 //!
 //! ```
 //! use firmware::autopilot::Autopilot;
@@ -44,20 +45,26 @@ mod mode;
 mod outbox;
 mod params;
 mod parser;
+mod place;
 pub mod port;
+pub mod report;
 mod services;
-mod status;
 mod telemetry;
 #[cfg(test)]
 mod tests;
 mod text;
 mod writer;
 
+use nalgebra::Vector3;
+
 use self::link::{Job, Link};
 use self::port::{LINKS, Ports};
+use self::report::{ControlReport, SensorReport};
+use self::telemetry::View;
 use crate::commander::{Answers, Commands, Events, Mode, Origin};
 use crate::estimator::status::Status;
 use crate::failure::{Failures, Injectable};
+use crate::frames::Origin as MapOrigin;
 use crate::settings::{Changes, Marks, Settings};
 use crate::signals::{NavState, Tick};
 use crate::watchdog::Hung;
@@ -125,6 +132,12 @@ pub struct GroundInput {
     pub health: Health,
     /// The estimator's report; `None` on ideal state.
     pub estimator: Option<Status>,
+    /// The control loops.
+    pub control: ControlReport,
+    /// The sensors; `None` on ideal state.
+    pub sensors: Option<SensorReport>,
+    /// Where a return leads, m; `None` while that is unknown.
+    pub home: Option<Vector3<f32>>,
     /// Failures that the board can inject.
     pub injectable: Injectable,
     /// Whether all partitions have taken over the last changes of settings.
@@ -133,6 +146,13 @@ pub struct GroundInput {
     pub replies: Answers,
     /// Failsafe events since the last job.
     pub events: Events,
+}
+
+impl GroundInput {
+    /// Where GNSS has found the local frame's origin to be.
+    fn origin(&self) -> Option<MapOrigin> {
+        self.estimator.as_ref()?.origin
+    }
 }
 
 /// Output of the ground partition.
@@ -159,6 +179,8 @@ pub struct Ground {
     /// The link whose commands are passed on first, so that none is served before the others for ever.
     first: usize,
     settings: Settings,
+    /// An origin of the local frame that a ground station has set; GNSS overrules it.
+    set_origin: Option<MapOrigin>,
 }
 
 impl Ground {
@@ -180,12 +202,13 @@ impl Ground {
     /// One job, released at `released`: reads from the links that are open, and writes to them.
     pub fn step(&mut self, released: Tick, input: &GroundInput, ports: &Ports) -> GroundOutput {
         let (mut output, mut changed) = (GroundOutput::default(), Marks::default());
+        let view = View::new(released, input, self.us, &self.settings, self.set_origin.as_ref());
         for ((number, link), port) in (0..).zip(&mut self.links).zip(ports) {
             let Some((session, profile)) = port.session() else { continue };
             link.begin(session, profile);
             let (settings, changed) = (&mut self.settings, &mut changed);
-            let us = self.us;
-            link.read(number, port, &mut Job { now: released, input, us, settings, changed, output: &mut output });
+            let set_origin = &mut self.set_origin;
+            link.read(number, port, &mut Job { view, settings, changed, set_origin, output: &mut output });
         }
         while let Some(index) = changed.first() {
             changed.clear(index);
@@ -208,7 +231,7 @@ impl Ground {
         for (link, port) in self.links.iter_mut().zip(ports) {
             if port.session().is_some() {
                 input.events.iter().for_each(|event| link.report(*event));
-                link.write(released, input, &self.settings, self.us, port);
+                link.write(&view, &self.settings, port);
             }
         }
         output

@@ -2,7 +2,7 @@
 
 use glissade_dialect::MavCmd;
 
-use super::incoming::CommandMessage;
+use super::incoming::{CommandMessage, Form};
 use crate::commander::{Mode, Request};
 
 const AUTO: u8 = 4;
@@ -31,7 +31,8 @@ pub(super) fn as_command(base_mode: u8, custom_mode: u32) -> CommandMessage {
     let [_, _, main, sub] = custom_mode.to_le_bytes();
     let command = MavCmd::MAV_CMD_DO_SET_MODE as u16;
     let [param1, param2, param3] = [base_mode, main, sub].map(f32::from);
-    CommandMessage { command, param1, param2, param3, param7: f32::NAN }
+    let form = Form::Long([f32::NAN; 2]);
+    CommandMessage { command, param1, param2, param3, param4: f32::NAN, form, param7: f32::NAN }
 }
 
 /// The request that corresponds to setting a mode; `None` if it cannot be set. A take-off goes to `take_off_m`.

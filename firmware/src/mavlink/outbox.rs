@@ -9,11 +9,10 @@ use heapless::Deque;
 
 use super::incoming::{FileRequest, MissionRequest, Sender};
 use super::port::SENT_CAPACITY;
-use super::telemetry::{self, Report};
+use super::telemetry::{self, Report, View};
 use super::writer::Writer;
-use super::{GroundInput, services, text};
+use super::{services, text};
 use crate::commander::{Event, Refusal, Request};
-use crate::signals::Tick;
 
 /// Greatest number of bytes that may be waiting to be sent when an answer is added.
 pub(super) const ANSWERS_SHARE: usize = SENT_CAPACITY / 2;
@@ -79,12 +78,12 @@ impl Outbox {
     }
 
     /// Writes what fits.
-    pub(super) fn send(&mut self, now: Tick, input: &GroundInput, errors: u32, out: &mut Writer) {
+    pub(super) fn send(&mut self, view: &View, out: &mut Writer) {
         out.set_limit(SENT_CAPACITY);
         send(&mut self.events, |event| text::write_event(*event, out));
         send(&mut self.acks, |ack| write_ack(*ack, out));
         out.set_limit(ANSWERS_SHARE);
-        send(&mut self.answers, |answer| write_answer(answer, now, input, errors, out));
+        send(&mut self.answers, |answer| write_answer(answer, view, out));
     }
 }
 
@@ -100,10 +99,10 @@ fn write_ack(ack: Ack, out: &mut Writer) -> bool {
     out.write(&COMMAND_ACK_DATA { command, result, target_system, target_component, ..COMMAND_ACK_DATA::DEFAULT })
 }
 
-fn write_answer(answer: &Answer, now: Tick, input: &GroundInput, errors: u32, out: &mut Writer) -> bool {
+fn write_answer(answer: &Answer, view: &View, out: &mut Writer) -> bool {
     match *answer {
         Answer::Refusal(request, refusal) => text::write_refusal(&request, refusal, out),
-        Answer::Report(report) => telemetry::write(report, now, input, errors, out),
+        Answer::Report(report) => telemetry::write(report, view, out),
         Answer::Mission { request, mission_type, to } => services::write_mission(request, mission_type, to, out),
         Answer::File { request, to } => services::write_file(request, to, out),
         Answer::NoLogs => services::write_no_logs(out),

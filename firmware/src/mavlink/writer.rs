@@ -38,16 +38,17 @@ impl<'a> Writer<'a> {
         self.ring.held() + count <= self.limit
     }
 
-    /// Appends a frame; false, with nothing written, if its longest form does not fit.
+    /// Appends a frame; false, with nothing written, if it does not fit. A frame is often shorter than its longest form,
+    /// because zeros at its end are cut.
     pub(super) fn write<D: MessageData>(&mut self, message: &D) -> bool {
-        if !self.has_room(frame_len::<D>()) {
-            return false;
-        }
         let header =
             MavHeader { system_id: self.us.system.into(), component_id: COMPONENT_ID, sequence: *self.sequence };
         let mut raw = MAVLinkV2MessageRaw::new();
         raw.serialize_message_data(header, message);
-        // Only whole frames: there is room for the longest form.
+        if !self.has_room(raw.raw_bytes().len()) {
+            return false;
+        }
+        // Whole, because there is room.
         self.ring.write(raw.raw_bytes());
         *self.sequence = self.sequence.wrapping_add(1);
         true

@@ -35,6 +35,8 @@ fn measurements(mut word: impl FnMut() -> u32) -> Measurements {
         horizontal_accuracy_m: f32::from_bits(word()),
         vertical_accuracy_m: f32::from_bits(word()),
         speed_accuracy_m_s: f32::from_bits(word()),
+        separation_mm: word().cast_signed(),
+        utc_us: Some(u64::from(word()) << 32 | u64::from(word())),
     };
     let pose = PoseSample { at: word(), position: vector(&mut word), attitude: attitude(|| f32::from_bits(word())) };
     let battery = BatterySample { voltage_v: f32::from_bits(word()), current_a: f32::from_bits(word()) };
@@ -89,12 +91,12 @@ fn every_value_of_a_measurement_keeps_its_bit_pattern() {
     // Except the word that encodes `has_fix`.
     let missing: Vec<u32> = (first + 1..=next).filter(|word| !words.contains(word)).collect();
     assert_eq!(missing.len(), 1, "{missing:x?}");
-    assert_eq!(REQUEST_BYTES, 164);
+    assert_eq!(REQUEST_BYTES, 180);
 }
 
 proptest! {
     #[test]
-    fn any_measurements_survive_their_bytes(words in proptest::collection::vec(any::<u32>(), 34), present: [bool; 6]) {
+    fn any_measurements_survive_their_bytes(words in proptest::collection::vec(any::<u32>(), 37), present: [bool; 6]) {
         let mut words = words.into_iter();
         let all = measurements(|| words.next().expect("enough"));
         let [imu, mag, baro, gnss, pose, battery] = present;

@@ -80,6 +80,21 @@ impl Words for u32 {
     }
 }
 
+/// Low word first.
+impl Words for u64 {
+    const WORDS: usize = 2;
+
+    fn write(&self, to: &mut Writer) {
+        to.word(*self as u32);
+        to.word((*self >> 32) as u32);
+    }
+
+    fn read(from: &mut Reader) -> Option<Self> {
+        let low = from.word()?;
+        Some(Self::from(low) | Self::from(from.word()?) << 32)
+    }
+}
+
 impl Words for i32 {
     const WORDS: usize = 1;
 
@@ -217,6 +232,8 @@ impl Words for Asked {
             Self::Request(Request::Return) => (7, [0.0; 4]),
             Self::Request(Request::Follow) => (8, [0.0; 4]),
             Self::Kill => (9, [0.0; 4]),
+            Self::Request(Request::SetHome { position_m: None }) => (10, [0.0; 4]),
+            Self::Request(Request::SetHome { position_m: Some([x, y, z]) }) => (11, [x, y, z, 0.0]),
         };
         to.word(kind);
         numbers.write(to);
@@ -236,6 +253,8 @@ impl Words for Asked {
             7 => Request::Return,
             8 => Request::Follow,
             9 => return Some(Self::Kill),
+            10 => Request::SetHome { position_m: None },
+            11 => Request::SetHome { position_m: Some([x, y, z]) },
             _ => return None,
         }))
     }
@@ -267,7 +286,9 @@ as_words!(GnssSample {
     velocity: Vector,
     horizontal_accuracy_m: f32,
     vertical_accuracy_m: f32,
-    speed_accuracy_m_s: f32
+    speed_accuracy_m_s: f32,
+    separation_mm: i32,
+    utc_us: Option<u64>
 });
 as_words!(Geodetic { latitude_e7: i32, longitude_e7: i32, height_mm: i32 });
 as_words!(PoseSample { at: Tick, position: Vector, attitude: Attitude });

@@ -120,6 +120,8 @@ fn fix(carried: &Carried, at: Tick, noise: &mut Noise) -> GnssSample {
         horizontal_accuracy_m: 1.2,
         vertical_accuracy_m: 2.0,
         speed_accuracy_m_s: 0.05,
+        separation_mm: 0,
+        utc_us: None,
     }
 }
 

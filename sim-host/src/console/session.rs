@@ -395,6 +395,11 @@ fn describe(request: &Request) -> String {
         Request::Land => "land".to_owned(),
         Request::Return => "return".to_owned(),
         Request::Follow => "trajectory".to_owned(),
+        Request::SetHome { position_m: None } => "home here".to_owned(),
+        Request::SetHome { position_m: Some(position_m) } => {
+            let [north, west, up] = shown(Vector3::from(position_m).cast());
+            format!("home at north {north}, west {west}, up {up} m")
+        }
     }
 }
 

@@ -83,6 +83,8 @@ impl Sensors {
             horizontal_accuracy_m: 1.0,
             vertical_accuracy_m: 1.5,
             speed_accuracy_m_s: 0.1,
+            separation_mm: 0,
+            utc_us: None,
         }
     }
 }

@@ -85,6 +85,7 @@ fn commands_to_fly_become_requests() {
             param1,
             param2,
             param3,
+            frame: 3,
             z: param7,
             ..COMMAND_INT_DATA::DEFAULT
         };

@@ -9,7 +9,7 @@ const WELL: Sensor = Sensor { present: true, healthy: true };
 const SILENT: Sensor = Sensor { present: true, healthy: false };
 const ABSENT: Sensor = Sensor { present: false, healthy: false };
 
-fn status() -> Status {
+pub(super) fn status() -> Status {
     Status {
         health: NavHealth::ALL,
         mag: WELL,
@@ -20,6 +20,10 @@ fn status() -> Status {
         battery_sample: Some(BatterySample { voltage_v: 15.25, current_a: 12.5 }),
         ratios: [0.1, 0.2, 0.3, 0.4],
         accuracy_m: [0.5, 0.25],
+        sigma: [0.01; 9],
+        wind: [0.0; 2],
+        wind_sigma: [5.0; 2],
+        origin: None,
     }
 }
 
@@ -82,7 +86,8 @@ fn a_vertical_velocity_is_known_without_a_height() {
 
 #[test]
 fn unknown_states_are_not_flagged() {
-    let lost = Status { gnss: SILENT, health: NavHealth { position: false, ..NavHealth::ALL }, ..status() };
+    let lost =
+        Status { gnss: SILENT, health: NavHealth { position: false, height: false, ..NavHealth::ALL }, ..status() };
     let flags =
         heard(lost).into_iter().find_map(|m| if let MavMessage::ESTIMATOR_STATUS(m) = m { Some(m) } else { None });
     assert_eq!(flags.expect("sent").flags.bits(), 1 | 2 | 4);

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use firmware::sensors::GnssSample;
+use firmware::signals::TICK_US;
 use glissade_files::refusal::within;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -12,6 +13,10 @@ use super::process::{GaussMarkov, Period, ticks};
 use super::{Model, Truth};
 use crate::geodesy::LocalFrame;
 use crate::noise::gaussian::{Source, Stream};
+
+/// UTC at the start of every flight, µs since 1970: noon of 2026-01-01. A constant, so that a flight is the same
+/// whenever it is simulated.
+pub const START_UTC_US: u64 = 1_767_268_800_000_000;
 
 /// Data sheet of a receiver. Deviations are per component.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -130,6 +135,8 @@ impl Model for Receiver {
             horizontal_accuracy_m: libm::hypot(spec.horizontal_m, spec.horizontal_noise_m) as f32,
             vertical_accuracy_m: libm::hypot(spec.vertical_m, spec.vertical_noise_m) as f32,
             speed_accuracy_m_s: spec.speed_m_s.max(spec.climb_m_s) as f32,
+            separation_mm: 0,
+            utc_us: Some(START_UTC_US + u64::from(truth.tick) * u64::from(TICK_US)),
         }
     }
 }

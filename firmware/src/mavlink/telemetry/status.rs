@@ -1,12 +1,19 @@
-//! Health messages: `SYS_STATUS` and `ESTIMATOR_STATUS`.
+//! State and health: heartbeat, `SYS_STATUS`, estimator, battery, landed state, rates of the loops.
 
-use glissade_dialect::{ESTIMATOR_STATUS_DATA, EstimatorStatusFlags, MavSysStatusSensor, SYS_STATUS_DATA};
+use glissade_dialect::mavlink_core::types::CharArray;
+use glissade_dialect::{
+    BATTERY_STATUS_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags, HEARTBEAT_DATA,
+    MavAutopilot, MavLandedState, MavModeFlag, MavState, MavSysStatusSensor, MavType, NAMED_VALUE_INT_DATA,
+    SYS_STATUS_DATA,
+};
 
-use super::GroundInput;
-use crate::estimator::status::{Sensor, Status};
+use super::view::View;
+use crate::commander::Mode;
+use crate::estimator::status::Sensor;
 use crate::math;
+use crate::mavlink::writer::{Writer, frame_len};
+use crate::mavlink::{GroundInput, LoopTiming, mode};
 use crate::sensors::BatterySample;
-use crate::signals::{TICK_US, Tick};
 
 const CONTROLLERS: MavSysStatusSensor = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ANGULAR_RATE_CONTROL
     .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION)
@@ -21,7 +28,8 @@ const GUIDED: MavSysStatusSensor = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_YAW
     .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL);
 
 /// Fills in `SYS_STATUS`.
-pub(super) fn sys_status(input: &GroundInput, errors: u32) -> SYS_STATUS_DATA {
+pub(super) fn sys_status(view: &View) -> SYS_STATUS_DATA {
+    let input = view.input;
     let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
     let (sensors, healthy) = sensors(input);
     let present = CONTROLLERS | prearm | sensors;
@@ -30,7 +38,7 @@ pub(super) fn sys_status(input: &GroundInput, errors: u32) -> SYS_STATUS_DATA {
     // Armed it has passed: scripts wait for this bit whatever the vehicle is doing.
     health.set(prearm, (input.armable || input.armed) && !input.health.hung.commander);
     health.set(GUIDED, !input.health.hung.outer);
-    let sample = input.estimator.filter(|status| status.battery.healthy).and_then(|status| status.battery_sample);
+    let sample = battery(input);
     let [outer, commander, ground] = input.health.overruns.map(saturate);
     SYS_STATUS_DATA {
         onboard_control_sensors_present: present,
@@ -39,13 +47,19 @@ pub(super) fn sys_status(input: &GroundInput, errors: u32) -> SYS_STATUS_DATA {
         voltage_battery: sample.map_or(u16::MAX, millivolts),
         current_battery: sample.map_or(-1, centiamperes),
         battery_remaining: -1,
-        errors_comm: saturate(errors),
+        errors_comm: saturate(view.errors),
         errors_count1: saturate(input.health.refused_samples),
         errors_count2: outer,
         errors_count3: commander,
         errors_count4: ground,
         ..SYS_STATUS_DATA::DEFAULT
     }
+}
+
+/// The last sample of the battery monitor, unless it is old.
+fn battery(input: &GroundInput) -> Option<BatterySample> {
+    let status = input.estimator.as_ref().filter(|status| status.battery.healthy)?;
+    status.battery_sample
 }
 
 /// Bits of the sensors that are present, and of those that are healthy. On ideal state only the ground truth is
@@ -94,9 +108,11 @@ fn saturate(count: u32) -> u16 {
     u16::try_from(count).unwrap_or(u16::MAX)
 }
 
-/// Fills in `ESTIMATOR_STATUS`. Heights are relative to the start, neither above mean sea level nor above ground.
-pub(super) fn estimator_status(now: Tick, status: &Status) -> ESTIMATOR_STATUS_DATA {
+/// The estimator's; `None` on ideal state. Heights are relative to the start, neither above mean sea level nor above
+/// ground.
+pub(super) fn estimator_status(view: &View) -> Option<ESTIMATOR_STATUS_DATA> {
     use EstimatorStatusFlags as Flag;
+    let status = view.input.estimator.as_ref()?;
     let mut flags = Flag::empty();
     let health = &status.health;
     flags.set(Flag::ESTIMATOR_ATTITUDE, health.attitude && health.heading);
@@ -106,8 +122,8 @@ pub(super) fn estimator_status(now: Tick, status: &Status) -> ESTIMATOR_STATUS_D
     flags.set(Flag::ESTIMATOR_POS_HORIZ_ABS, health.position && status.gnss.healthy);
     let [vel_ratio, pos_horiz_ratio, pos_vert_ratio, mag_ratio] = status.ratios;
     let [pos_horiz_accuracy, pos_vert_accuracy] = status.accuracy_m;
-    ESTIMATOR_STATUS_DATA {
-        time_usec: u64::from(now) * u64::from(TICK_US),
+    Some(ESTIMATOR_STATUS_DATA {
+        time_usec: view.boot_us(),
         vel_ratio,
         pos_horiz_ratio,
         pos_vert_ratio,
@@ -116,5 +132,83 @@ pub(super) fn estimator_status(now: Tick, status: &Status) -> ESTIMATOR_STATUS_D
         pos_vert_accuracy,
         flags,
         ..ESTIMATOR_STATUS_DATA::DEFAULT
+    })
+}
+
+/// The battery's voltage and current. Cells, charge and temperature are unknown.
+pub(super) fn battery_status(view: &View) -> Option<BATTERY_STATUS_DATA> {
+    /// `MAV_BATTERY_FUNCTION_ALL`.
+    const ALL: u8 = 1;
+    let sample = battery(view.input)?;
+    // The voltages of the cells are not known: the whole stands in the first.
+    let mut voltages = [u16::MAX; 10];
+    if let Some(whole) = voltages.first_mut() {
+        *whole = millivolts(sample);
     }
+    Some(BATTERY_STATUS_DATA {
+        battery_function: ALL,
+        temperature: i16::MAX,
+        voltages,
+        current_battery: centiamperes(sample),
+        current_consumed: -1,
+        energy_consumed: -1,
+        battery_remaining: -1,
+        ..BATTERY_STATUS_DATA::DEFAULT
+    })
+}
+
+/// Type and mode.
+pub(super) fn heartbeat(view: &View) -> HEARTBEAT_DATA {
+    let input = view.input;
+    let flags = MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+        | MavModeFlag::MAV_MODE_FLAG_STABILIZE_ENABLED
+        | MavModeFlag::MAV_MODE_FLAG_GUIDED_ENABLED
+        | MavModeFlag::MAV_MODE_FLAG_AUTO_ENABLED;
+    let (armed, state) = if input.armed {
+        let fails = matches!(input.mode, Mode::Descent | Mode::MotorOut);
+        let state = if fails { MavState::MAV_STATE_CRITICAL } else { MavState::MAV_STATE_ACTIVE };
+        (MavModeFlag::MAV_MODE_FLAG_SAFETY_ARMED, state)
+    } else {
+        (MavModeFlag::empty(), MavState::MAV_STATE_STANDBY)
+    };
+    HEARTBEAT_DATA {
+        custom_mode: mode::custom_mode(input.mode),
+        mavtype: MavType::MAV_TYPE_QUADROTOR as u8,
+        autopilot: MavAutopilot::MAV_AUTOPILOT_PX4 as u8,
+        base_mode: (flags | armed).bits() as u8,
+        system_status: state as u8,
+        mavlink_version: glissade_dialect::MINOR_MAVLINK_VERSION,
+    }
+}
+
+/// Whether it is on the ground.
+pub(super) fn extended_sys_state(view: &View) -> EXTENDED_SYS_STATE_DATA {
+    let input = view.input;
+    let landed_state = match input.mode {
+        // Clients wait for "in the air", which it is once it has lifted off.
+        Mode::TakeOff if input.landed && input.armed => MavLandedState::MAV_LANDED_STATE_TAKEOFF,
+        _ if input.landed => MavLandedState::MAV_LANDED_STATE_ON_GROUND,
+        Mode::Land | Mode::Descent | Mode::MotorOut => MavLandedState::MAV_LANDED_STATE_LANDING,
+        _ => MavLandedState::MAV_LANDED_STATE_IN_AIR,
+    };
+    EXTENDED_SYS_STATE_DATA { landed_state, ..EXTENDED_SYS_STATE_DATA::DEFAULT }
+}
+
+/// Rates of the loops: all four values or none.
+pub(super) fn write_timing(view: &View, timing: LoopTiming, out: &mut Writer) -> bool {
+    let (shortest, longest) = timing.inner_period_us;
+    let values: [(&[u8; 10], u16); 4] = [
+        (b"inner_hz\0\0", timing.inner_hz),
+        (b"outer_hz\0\0", timing.outer_hz),
+        (b"min_us\0\0\0\0", shortest),
+        (b"max_us\0\0\0\0", longest),
+    ];
+    out.has_room(values.len() * frame_len::<NAMED_VALUE_INT_DATA>())
+        && values.into_iter().all(|(name, value)| {
+            out.write(&NAMED_VALUE_INT_DATA {
+                time_boot_ms: view.boot_ms(),
+                value: value.into(),
+                name: CharArray::new(*name),
+            })
+        })
 }
