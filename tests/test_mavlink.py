@@ -344,7 +344,9 @@ def test_without_satellites_it_lands(vehicle, station):
     station.wait("SYS_STATUS", lambda status: not gps_is_healthy(status), within_ms=3_000)
     station.wait("STATUSTEXT", lambda text: "osition estimate lost" in text.text, within_ms=10_000)
     station.wait("HEARTBEAT", lambda heartbeat: not is_armed(heartbeat), within_ms=60_000)
-    assert abs(station.wait("LOCAL_POSITION_NED").z) < 1
+    # Where it is across the ground is unknown and not told; its height is.
+    assert abs(station.wait("ALTITUDE").altitude_local) < 1
+    assert all(message.get_type() != "LOCAL_POSITION_NED" for _, message in station.collect(2_000))
     assert inject(station, mavlink.FAILURE_UNIT_SENSOR_GPS, mavlink.FAILURE_TYPE_OK) == mavlink.MAV_RESULT_ACCEPTED
     station.wait("SYS_STATUS", gps_is_healthy, within_ms=10_000)
 
@@ -435,3 +437,25 @@ def test_a_busy_port_is_one_line_and_exit_code_2(simulator_path):
     assert done.returncode == 2
     assert address in done.stderr and "--listen" in done.stderr
     assert len(done.stderr.strip().splitlines()) == 1, done.stderr
+
+
+def test_what_it_knows_of_its_place_is_told(vehicle, station):
+    """On the map: home and place before arming, in the units and frames of the protocol, well above the sea."""
+    home = station.wait("HOME_POSITION")
+    place = station.wait("GLOBAL_POSITION_INT")
+    # A centimetre is 1e-7 degrees; the receiver's first fix is some metres off.
+    for told, true in [(home.latitude, 473_977_000), (home.longitude, 85_456_000)]:
+        assert abs(told - true) < 1_000, home
+    assert abs(home.altitude - 488_000) < 8_000, home
+    assert abs(place.lat - home.latitude) < 100 and abs(place.alt - home.altitude) < 1_000, (place, home)
+    assert abs(place.relative_alt) < 1_000, place
+    gps = station.wait("GPS_RAW_INT")
+    assert (gps.fix_type, gps.alt) == (mavlink.GPS_FIX_TYPE_3D_FIX, gps.alt_ellipsoid), gps
+    # 2026-01-01, noon.
+    assert station.wait("SYSTEM_TIME").time_unix_usec // 1_000_000 - 1_767_268_800 in range(0, 600)
+
+
+def test_a_ping_is_answered(vehicle, station):
+    station.mav.ping_send(123_456, 7, 0, 0)
+    answer = station.wait("PING", within_ms=500)
+    assert (answer.seq, answer.time_usec, answer.target_system) == (7, 123_456, station.SYSTEM)

@@ -72,6 +72,7 @@ pub mod spline;
 pub mod stations;
 pub mod statistics;
 pub mod sweep;
+pub mod truth;
 pub mod tune;
 
 use glissade_files::{files, refusal, words};

@@ -28,6 +28,7 @@ mod physics;
 mod pil;
 mod sensor_flights;
 mod sensor_streams;
+mod telemetry;
 mod trajectories;
 #[cfg(feature = "search")]
 mod tune;

@@ -127,7 +127,7 @@ const STREAM_COUNT: usize = 32;
 const STREAMS: [Stream; STREAM_COUNT] = [
     stream::<HEARTBEAT_DATA>(Report::Heartbeat, [1000, 1000], 0),
     stream::<ATTITUDE_DATA>(Report::Attitude, [50, 10], 0),
-    stream::<LOCAL_POSITION_NED_DATA>(Report::LocalPosition, [100, 20], 10),
+    stream::<LOCAL_POSITION_NED_DATA>(Report::LocalPosition, [50, 20], 10),
     stream::<GLOBAL_POSITION_INT_DATA>(Report::GlobalPosition, [200, 20], 30),
     stream::<ATTITUDE_QUATERNION_DATA>(Report::AttitudeQuaternion, [500, 20], 0),
     stream::<VFR_HUD_DATA>(Report::VfrHud, [250, 100], 40),
