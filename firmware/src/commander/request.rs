@@ -47,7 +47,7 @@ pub enum Request {
     },
     /// Land here.
     Land,
-    /// Return to where it was armed, and land.
+    /// Return home, and land: to where it was armed, or to where home was set.
     Return,
     /// Fly the configured trajectory.
     Follow,

@@ -468,6 +468,9 @@ impl Filter {
     fn give_up(&mut self) -> FilterOutput {
         self.aligner = Some(Aligner::default());
         self.offsets = Offsets::default();
+        // Without offsets the local frame is the receiver's.
+        let origin = |frame: LocalFrame| frame.to_geodetic(&Vector3::zeros());
+        self.origin = self.origin.zip(self.frame).map(|(was, frame)| Origin { place: origin(frame), ..was });
         self.history.clear();
         FilterOutput::initial()
     }

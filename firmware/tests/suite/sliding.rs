@@ -252,3 +252,26 @@ fn gains_with_which_a_law_is_not_defined_are_refused() {
         assert!(bad.validate("k").is_err(), "{bad:?}");
     }
 }
+
+#[test]
+fn the_reaching_term_is_told_without_a_step() {
+    let laws = [
+        ReachingLaw::Sgn,
+        ReachingLaw::Sat { rho: 0.1 },
+        ReachingLaw::Tanh { rho: 0.1 },
+        ReachingLaw::ImplicitSgn { horizon_s: 2e-3 },
+        ReachingLaw::Power { alpha: 0.5 },
+        ReachingLaw::Exponential { rate: 2.0, rho: 0.1 },
+        ReachingLaw::SuperTwisting { twist: 3.0 },
+        ReachingLaw::ImplicitSuperTwisting { twist: 3.0, horizon_s: 2e-3 },
+    ];
+    for law in laws {
+        let mut axis = SlidingAxis::new(&axis(4.0, law), H);
+        for s in [0.5_f32, 0.03, -0.2] {
+            let (told, again) = (axis.reaching(s), axis.reaching(s));
+            // With the error at zero the correction is the reaching term.
+            let step = axis.correction_along(0.0, 0.0, s, false);
+            assert_eq!((told, again), (step.acceleration, step.acceleration), "{law:?} at {s}");
+        }
+    }
+}

@@ -78,6 +78,9 @@ fn answer(ack: &COMMAND_ACK_DATA) -> Option<String> {
     if let Some(
         MavCmd::MAV_CMD_REQUEST_MESSAGE
         | MavCmd::MAV_CMD_SET_MESSAGE_INTERVAL
+        | MavCmd::MAV_CMD_GET_MESSAGE_INTERVAL
+        | MavCmd::MAV_CMD_GET_HOME_POSITION
+        | MavCmd::MAV_CMD_REQUEST_PROTOCOL_VERSION
         | MavCmd::MAV_CMD_REQUEST_AUTOPILOT_CAPABILITIES,
     ) = known
     {
@@ -90,6 +93,11 @@ fn answer(ack: &COMMAND_ACK_DATA) -> Option<String> {
         | MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME => "unsupported in this form",
         MavResult::MAV_RESULT_FAILED => "failed",
         MavResult::MAV_RESULT_DENIED => "denied",
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED
+            if matches!(known, Some(MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_DO_SET_HOME)) =>
+        {
+            "refused, no place on Earth known or too many at once"
+        }
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => "refused, too many at once",
         // Of arming and disarming only a kill is accepted without the commander.
         MavResult::MAV_RESULT_ACCEPTED if known == Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => {

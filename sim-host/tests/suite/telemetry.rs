@@ -57,7 +57,9 @@ fn fly(scenario: &str, ticks: u32, mut look: impl FnMut(&Flight<RigidBody>, MavM
         }
         assert!(flight.step(&mut ()));
         let sent = flight.autopilot.inner.take_transmit();
-        decode(&sent).into_iter().for_each(|message| look(&flight, message));
+        for message in decode(&sent) {
+            look(&flight, message);
+        }
     }
 }
 
