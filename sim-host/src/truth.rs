@@ -1,7 +1,7 @@
 //! The truth of a simulated flight as MAVLink messages: `HIL_STATE_QUATERNION` and `SIM_STATE`, of a component of its own
 //! beside the autopilot, so that a ground station can show what is estimated and what is true.
 //!
-//! The firmware knows nothing of it. NED and FRD; heights are above mean sea level, which is the ellipsoid here.
+//! The firmware knows nothing of it. NED and FRD; heights are above mean sea level.
 
 use firmware::frames::flip_vector;
 use firmware::mavlink::SYSTEM_ID;
@@ -11,7 +11,7 @@ use glissade_dialect::{HIL_STATE_QUATERNION_DATA, SIM_STATE_DATA};
 use nalgebra::Vector3;
 
 use crate::angles::roll_pitch_yaw;
-use crate::geodesy::LocalFrame;
+use crate::geodesy::{LocalFrame, Place};
 use crate::plant::Motion;
 use crate::sensors::Home;
 
@@ -25,13 +25,15 @@ const STANDARD_GRAVITY: f64 = 9.806_65;
 #[derive(Clone, Debug)]
 pub struct TruthStream {
     frame: LocalFrame,
+    /// Height of the geoid above the ellipsoid, m.
+    geoid_m: f64,
     sequence: u8,
 }
 
 impl TruthStream {
     /// For a vehicle that flies about a home.
     pub fn new(home: &Home) -> Self {
-        Self { frame: LocalFrame::at(&home.place()), sequence: 0 }
+        Self { frame: LocalFrame::at(&home.place()), geoid_m: home.geoid_m, sequence: 0 }
     }
 
     /// Both messages, as whole frames. `specific_force` is what an ideal accelerometer reads, FLU, m/s².
@@ -49,9 +51,15 @@ impl TruthStream {
         raw.raw_bytes().to_vec()
     }
 
+    /// Where the vehicle is, with its height above mean sea level.
+    fn place(&self, motion: &Motion) -> Place {
+        let place = self.frame.place(&motion.position);
+        Place { height_m: place.height_m - self.geoid_m, ..place }
+    }
+
     /// Airspeeds are not known here: gusts are the weather's.
     fn hil_state(&self, at: Tick, motion: &Motion, specific_force: &Vector3<f64>) -> HIL_STATE_QUATERNION_DATA {
-        let place = self.frame.place(&motion.position).rounded();
+        let place = self.place(motion).rounded();
         let rates = flip_vector(&motion.rates.cast());
         let [vx, vy, vz] = ned(&motion.velocity).map(|v| (v * 100.0).round() as i16);
         let [xacc, yacc, zacc] = ned(specific_force).map(|f| (f * 1e3 / STANDARD_GRAVITY).round() as i16);
@@ -77,7 +85,7 @@ impl TruthStream {
 
     /// Without deviations: it is the truth.
     fn sim_state(&self, motion: &Motion, specific_force: &Vector3<f64>) -> SIM_STATE_DATA {
-        let place = self.frame.place(&motion.position);
+        let place = self.place(motion);
         let q = &motion.attitude;
         let [roll, pitch, yaw] = roll_pitch_yaw([q.w, q.i, q.j, q.k]);
         let [q1, q2, q3, q4] = quaternion(motion);
@@ -138,7 +146,8 @@ mod tests {
             attitude: UnitQuaternion::from_euler_angles(0.1, -0.2, 0.3).into_inner(),
             rates: Vector3::new(0.1, 0.2, 0.3),
         };
-        let mut stream = TruthStream::new(&Home::default());
+        let home = Home { height_m: 535.0, geoid_m: 47.0, ..Home::default() };
+        let mut stream = TruthStream::new(&home);
         let bytes = stream.frames(1_500, &motion, &Vector3::new(1.0, 2.0, 9.806_65));
         let messages: Vec<MavMessage> = frames(&bytes);
         let [MavMessage::HIL_STATE_QUATERNION(hil), MavMessage::SIM_STATE(sim)] = messages.as_slice() else {

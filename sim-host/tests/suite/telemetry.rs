@@ -46,7 +46,8 @@ fn decode(mut bytes: &[u8]) -> Vec<MavMessage> {
 /// A flight that a ground station has taken off 10 m, with a look at every message. A message is published a job after its
 /// time: 10 ms.
 fn fly(scenario: &str, ticks: u32, mut look: impl FnMut(&Flight<RigidBody>, MavMessage)) {
-    let scenario = load(scenario, &[]);
+    // The ellipsoid is 47 m below the sea, as in Zurich.
+    let scenario = load(scenario, &["home.height_m=535.0", "home.geoid_m=47.0"]);
     let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("valid");
     for tick in 0..ticks {
         match tick {
@@ -65,6 +66,7 @@ fn fly(scenario: &str, ticks: u32, mut look: impl FnMut(&Flight<RigidBody>, MavM
 
 #[test]
 fn the_place_on_earth_is_the_true_one_within_the_estimators_error() {
+    // As a place whose heights are those above the sea.
     let home = load("field", &[]).file.home;
     let frame = LocalFrame::at(&home.place());
     let (mut told, mut worst, mut highest) = (0, Vector3::<f64>::zeros(), f64::MIN);

@@ -81,6 +81,8 @@ pub(super) struct Receiver {
     period: Period,
     spec: Gnss,
     frame: LocalFrame,
+    /// Of the geoid from the ellipsoid, mm.
+    separation_mm: i32,
     place: (Stream, GaussMarkov),
     velocity: (Stream, GaussMarkov),
     noise: Stream,
@@ -100,6 +102,7 @@ impl Receiver {
             period,
             spec: spec.clone(),
             frame: LocalFrame::at(&home.place()),
+            separation_mm: (home.geoid_m * 1e3).round() as i32,
             place: process(Source::GnssPlace, spec.horizontal_m, spec.vertical_m, spec.wander_time_s),
             velocity: process(Source::GnssVelocity, spec.speed_m_s, spec.climb_m_s, spec.speed_time_s),
             noise: Stream::new(seed, Source::GnssNoise),
@@ -135,7 +138,7 @@ impl Model for Receiver {
             horizontal_accuracy_m: libm::hypot(spec.horizontal_m, spec.horizontal_noise_m) as f32,
             vertical_accuracy_m: libm::hypot(spec.vertical_m, spec.vertical_noise_m) as f32,
             speed_accuracy_m_s: spec.speed_m_s.max(spec.climb_m_s) as f32,
-            separation_mm: 0,
+            separation_mm: self.separation_mm,
             utc_us: Some(START_UTC_US + u64::from(truth.tick) * u64::from(TICK_US)),
         }
     }

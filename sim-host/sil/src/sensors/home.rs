@@ -26,9 +26,11 @@ pub struct Home {
     pub latitude_deg: f64,
     /// Longitude, ° east.
     pub longitude_deg: f64,
-    /// Height above the ellipsoid, m. The atmosphere uses it as the height above mean sea level: the geoid is not
-    /// modelled.
+    /// Height above the ellipsoid, m.
     pub height_m: f64,
+    /// Height of the geoid (mean sea level) above the ellipsoid, m, which the receiver tells: 0, and not Zurich's 47 m, so
+    /// that heights above either are the same unless a scenario says otherwise.
+    pub geoid_m: f64,
     /// Magnetic declination, ° east of north.
     pub declination_deg: f64,
     /// Magnetic inclination, ° below the horizon.
@@ -48,6 +50,7 @@ impl Default for Home {
             latitude_deg: 47.3977,
             longitude_deg: 8.5456,
             height_m: 488.0,
+            geoid_m: 0.0,
             declination_deg: 3.5,
             inclination_deg: 63.5,
             strength_ut: 48.3,
@@ -72,7 +75,7 @@ impl Home {
 
     /// Static pressure at a height above home, Pa.
     pub fn pressure(&self, up_m: f64) -> f64 {
-        pressure(self.height_m + up_m, self.sea_level_pa, self.sea_level_k)
+        pressure(self.height_m - self.geoid_m + up_m, self.sea_level_pa, self.sea_level_k)
     }
 
     /// Checks that home is on Earth.
@@ -83,6 +86,7 @@ impl Home {
         within("home.latitude_deg", self.latitude_deg, -90.0, 90.0)?;
         within("home.longitude_deg", self.longitude_deg, -180.0, 180.0)?;
         within("home.height_m", self.height_m, -500.0, 9000.0)?;
+        within("home.geoid_m", self.geoid_m, -110.0, 90.0)?;
         within("home.declination_deg", self.declination_deg, -180.0, 180.0)?;
         within("home.inclination_deg", self.inclination_deg, -90.0, 90.0)?;
         within("home.strength_ut", self.strength_ut, 1.0, 100.0)?;
@@ -107,6 +111,12 @@ mod tests {
         let home = Home::default();
         let slope = home.pressure(-0.5) - home.pressure(0.5);
         assert!((slope - 11.46).abs() < 0.01, "{slope}");
+    }
+
+    #[test]
+    fn the_air_is_that_above_the_sea() {
+        let home = Home { height_m: 535.0, geoid_m: 47.0, ..Home::default() };
+        assert_eq!(home.pressure(12.0), pressure(500.0, 101_325.0, 288.15));
     }
 
     #[test]
