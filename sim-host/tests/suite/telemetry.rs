@@ -1,5 +1,6 @@
 //! Telemetry of whole flights, decoded and judged by the truth.
 
+use firmware::mavlink::port::{Profile, SENT_CAPACITY};
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message as _};
 use glissade_dialect::{COMMAND_LONG_DATA, MavMessage};
 use nalgebra::Vector3;
@@ -49,15 +50,18 @@ fn fly(scenario: &str, ticks: u32, mut look: impl FnMut(&Flight<RigidBody>, MavM
     // The ellipsoid is 47 m below the sea, as in Zurich.
     let scenario = load(scenario, &["home.height_m=535.0", "home.geoid_m=47.0"]);
     let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("valid");
+    flight.autopilot.ports.first().open(Profile::Normal);
     for tick in 0..ticks {
-        match tick {
-            100 => flight.autopilot.inner.receive(&command(SET_INTERVAL, 331.0, 50_000.0, 0.0)),
-            5_000 => flight.autopilot.inner.receive(&command(ARM, 1.0, 0.0, 0.0)),
-            5_500 => flight.autopilot.inner.receive(&command(TAKEOFF, 0.0, 0.0, 10.0)),
-            _ => {}
-        }
+        let bytes = match tick {
+            100 => command(SET_INTERVAL, 331.0, 50_000.0, 0.0),
+            5_000 => command(ARM, 1.0, 0.0, 0.0),
+            5_500 => command(TAKEOFF, 0.0, 0.0, 10.0),
+            _ => Vec::new(),
+        };
+        flight.autopilot.ports.first().receive(&bytes);
         assert!(flight.step(&mut ()));
-        let sent = flight.autopilot.inner.take_transmit();
+        let mut sent = [0; SENT_CAPACITY];
+        let sent = flight.autopilot.ports.first().take(&mut sent).to_vec();
         for message in decode(&sent) {
             look(&flight, message);
         }
