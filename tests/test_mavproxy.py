@@ -14,9 +14,8 @@ from conftest import HANG_S, PREARM_CHECK, Simulator, Station
 from test_mavsdk import HEIGHT_M, LATITUDE_DEG, LONGITUDE_DEG, free_port
 
 # Its modules that need neither a display nor large packages: of its default ones all but adsb and terrain.
-MODULES = (
-    "log,signing,wp,rally,fence,ftp,param,relay,tuneopt,arm,mode,calibration,rc,auxopt,misc,cmdlong,battery,output,layout"
-)
+MODULES = """log signing wp rally fence ftp param relay tuneopt arm mode calibration rc auxopt misc cmdlong battery output
+layout""".split()
 # PX4's modes by MAVProxy's names, as they go into DO_SET_MODE. `mode LAND` itself fails before anything is sent: with
 # MAVProxy 1.8.75 and pymavlink 2.4.50 by an error of theirs, for every PX4.
 SUB_MODE = {"LOITER": 3, "RTL": 5, "LAND": 6}
@@ -29,7 +28,13 @@ class Mavproxy:
 
     def __init__(self, port, folder):
         program = os.path.join(os.path.dirname(sys.executable), "mavproxy.py")
-        command = [sys.executable, "-u", program, f"--master=udpin:127.0.0.1:{port}", f"--default-modules={MODULES}"]
+        command = [
+            sys.executable,
+            "-u",
+            program,
+            f"--master=udpin:127.0.0.1:{port}",
+            f"--default-modules={','.join(MODULES)}",
+        ]
         command += [f"--state-basedir={folder}", "--logfile=flight.tlog"]
         pipe = subprocess.PIPE
         self.process = subprocess.Popen(
@@ -54,9 +59,10 @@ class Mavproxy:
         with self.grown:
             return re.search(pattern, self.output)
 
-    def says(self, pattern, within_s=HANG_S):
-        """The next place in its output that a pattern matches."""
+    def says(self, pattern, within_s=HANG_S, since=None):
+        """The next place in its output that a pattern matches, or the next one after a place."""
         end = time.monotonic() + within_s
+        self.read = self.read if since is None else since
         with self.grown:
             while True:
                 match = re.compile(pattern).search(self.output, self.read)
@@ -65,7 +71,7 @@ class Mavproxy:
                     return match
                 rest = end - time.monotonic()
                 if rest <= 0:
-                    pytest.fail(f"`{pattern}` is not among\n{self.output[self.read:][-3000:]}")
+                    pytest.fail(f"`{pattern}` is not among\n{self.output[self.read :][-3000:]}")
                 self.grown.wait(rest)
 
     def status(self, kind, condition=lambda fields: True):
@@ -187,12 +193,13 @@ def test_it_flies(connected):
     mavproxy.type("takeoff 5")
     mavproxy.says("Got COMMAND_ACK: NAV_TAKEOFF: ACCEPTED")
     mavproxy.status("GLOBAL_POSITION_INT", lambda fields: abs(int(fields["relative_alt"]) - 5_000) < 500)
+    airborne = mavproxy.read
     for name in ("LOITER", "RTL", "LAND"):
         mavproxy.type(f"long MAV_CMD_DO_SET_MODE 1 4 {SUB_MODE[name]} 0 0 0 0")
         mavproxy.says("Got COMMAND_ACK: DO_SET_MODE: ACCEPTED")
         if name != "LOITER":
             mavproxy.says(f"Mode {name}")
-    mavproxy.says(r"\bDISARMED")
+    mavproxy.says(r"\bDISARMED", since=airborne)
 
 
 def test_disarming_is_obeyed_on_the_ground(mavproxy):
