@@ -184,6 +184,7 @@ def mode_of(heartbeat):
 def test_old_mode_messages_are_obeyed_and_seen_at_once(own):
     """QGroundControl changes modes by SET_MODE, and tries three times within 1.3 s to see the new one."""
     assert own.command(ARM_DISARM, 1) == ACCEPTED
+    own.wait("HEARTBEAT", lambda heartbeat: heartbeat.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED)
     assert own.command(TAKEOFF, *[0] * 6, 3) == ACCEPTED
     own.wait("EXTENDED_SYS_STATE", lambda state: state.landed_state == mavlink.MAV_LANDED_STATE_IN_AIR)
     own.wait("HEARTBEAT", lambda heartbeat: mode_of(heartbeat) == (4, 3))
