@@ -218,7 +218,7 @@ class Pilot:
         self.sdk = sdk
         self.raw = Station()
         port = free_port(socket.SOCK_DGRAM)
-        self.simulator = Simulator(self.raw, "--peer", f"127.0.0.1:{port}", "--speed", "3")
+        self.simulator = Simulator(self.raw, "--onboard", f"127.0.0.1:{port}", "--speed", "3")
         self.do(sdk.connect(f"udpin://127.0.0.1:{port}"), HANG_S)
         self.do(sdk.wait_connected(), CONNECT_S)
         self.raw.wait("SYS_STATUS", lambda status: status.onboard_control_sensors_health & PREARM_CHECK)
@@ -335,12 +335,13 @@ def test_it_says_how_fast_its_time_passes(pilot):
 
 
 def test_all_parameters_are_read(pilot):
+    pilot.raw.catch_up()
     pilot.raw.mav.param_request_list_send(1, 1)
     count = pilot.raw.wait("PARAM_VALUE").param_count
     everything = pilot.do(pilot.sdk.param.get_all_params(), HANG_S)
     names = [p.name for p in [*everything.int_params, *everything.float_params, *everything.custom_params]]
     assert len(names) == len(set(names)) == count and count >= 50
-    assert {"MAV_SYS_ID", "COM_LOW_BAT_ACT"} <= {p.name for p in everything.int_params}
+    assert {"MAV_SYS_ID", "BAT1_N_CELLS"} <= {p.name for p in everything.int_params}
     assert {"MIS_TAKEOFF_ALT", "RTL_RETURN_ALT"} <= {p.name for p in everything.float_params}
 
 
@@ -355,10 +356,10 @@ def test_a_number_is_read_and_written(pilot):
 def test_a_whole_number_is_read_and_written(pilot):
     param = pilot.sdk.param
     assert pilot.do(param.get_param_int("MAV_SYS_ID")) == 1
-    before = pilot.do(param.get_param_int("COM_LOW_BAT_ACT"))
-    for action in (2 if before != 2 else 3, before):
-        pilot.do(param.set_param_int("COM_LOW_BAT_ACT", action))
-        assert pilot.do(param.get_param_int("COM_LOW_BAT_ACT")) == action
+    before = pilot.do(param.get_param_int("BAT1_N_CELLS"))
+    for cells in (before + 1, before):
+        pilot.do(param.set_param_int("BAT1_N_CELLS", cells))
+        assert pilot.do(param.get_param_int("BAT1_N_CELLS")) == cells
 
 
 def test_a_parameter_that_there_is_not_is_an_error(pilot):
@@ -396,13 +397,13 @@ def test_heights_of_flight_are_parameters(pilot):
 
 
 def test_a_refusal_is_told_in_words(pilot):
-    """A landing of what is disarmed."""
+    """A return of what is disarmed."""
 
     async def land_and_read():
         text = asyncio.ensure_future(pilot.first("status_text", lambda text: "disarmed" in text.text))
         await asyncio.sleep(0.3)
         with pytest.raises(Exception) as caught:
-            await pilot.sdk.action.land()
+            await pilot.sdk.action.return_to_launch()
         return await text, caught.value
 
     text, error = pilot.do(land_and_read(), 2 * CALL_S)

@@ -29,6 +29,9 @@ pub trait Vehicle {
     /// Its links: what has arrived is put into them before a tick, and what is to be sent taken from them after it.
     fn ports(&self) -> &Ports;
 
+    /// MAVLink frames that the simulator itself tells all peers, when there are any.
+    fn truth(&mut self) -> Option<Vec<u8>>;
+
     /// Executes a typed line. The loop handles the returned control.
     fn enter(&mut self, line: &str) -> Option<Control>;
 
@@ -46,6 +49,10 @@ impl Vehicle for Session {
 
     fn ports(&self) -> &Ports {
         Self::ports(self)
+    }
+
+    fn truth(&mut self) -> Option<Vec<u8>> {
+        Self::truth(self)
     }
 
     fn enter(&mut self, line: &str) -> Option<Control> {
@@ -118,6 +125,9 @@ pub fn serve(
             links.deliver(vehicle.ports());
             vehicle.tick();
             links.send(vehicle.ports());
+            if let Some(frames) = vehicle.truth() {
+                links.tell(&frames);
+            }
         }
         pacer.done += due;
         ticks += due;
@@ -184,6 +194,10 @@ mod tests {
 
         fn ports(&self) -> &Ports {
             &self.ports
+        }
+
+        fn truth(&mut self) -> Option<Vec<u8>> {
+            None
         }
 
         fn enter(&mut self, line: &str) -> Option<Control> {

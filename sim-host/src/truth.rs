@@ -4,7 +4,6 @@
 //! The firmware knows nothing of it. NED and FRD; heights are above mean sea level.
 
 use firmware::frames::flip_vector;
-use firmware::mavlink::SYSTEM_ID;
 use firmware::signals::{TICK_US, Tick};
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MessageData};
 use glissade_dialect::{HIL_STATE_QUATERNION_DATA, SIM_STATE_DATA};
@@ -27,13 +26,15 @@ pub struct TruthStream {
     frame: LocalFrame,
     /// Height of the geoid above the ellipsoid, m.
     geoid_m: f64,
+    /// MAVLink system of the vehicle.
+    system: u8,
     sequence: u8,
 }
 
 impl TruthStream {
-    /// For a vehicle that flies about a home.
-    pub fn new(home: &Home) -> Self {
-        Self { frame: LocalFrame::at(&home.place()), geoid_m: home.geoid_m, sequence: 0 }
+    /// For a vehicle, a MAVLink system, that flies about a home.
+    pub fn new(home: &Home, system: u8) -> Self {
+        Self { frame: LocalFrame::at(&home.place()), geoid_m: home.geoid_m, system, sequence: 0 }
     }
 
     /// Both messages, as whole frames. `specific_force` is what an ideal accelerometer reads, FLU, m/s².
@@ -44,7 +45,7 @@ impl TruthStream {
     }
 
     fn frame_of(&mut self, message: &impl MessageData) -> Vec<u8> {
-        let header = MavHeader { system_id: SYSTEM_ID.into(), component_id: COMPONENT_ID, sequence: self.sequence };
+        let header = MavHeader { system_id: self.system.into(), component_id: COMPONENT_ID, sequence: self.sequence };
         self.sequence = self.sequence.wrapping_add(1);
         let mut raw = MAVLinkV2MessageRaw::new();
         raw.serialize_message_data(header, message);
@@ -147,7 +148,7 @@ mod tests {
             rates: Vector3::new(0.1, 0.2, 0.3),
         };
         let home = Home { height_m: 535.0, geoid_m: 47.0, ..Home::default() };
-        let mut stream = TruthStream::new(&home);
+        let mut stream = TruthStream::new(&home, 1);
         let bytes = stream.frames(1_500, &motion, &Vector3::new(1.0, 2.0, 9.806_65));
         let messages: Vec<MavMessage> = frames(&bytes);
         let [MavMessage::HIL_STATE_QUATERNION(hil), MavMessage::SIM_STATE(sim)] = messages.as_slice() else {

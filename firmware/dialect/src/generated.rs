@@ -4940,6 +4940,105 @@ impl MessageData for PARAM_EXT_REQUEST_LIST_DATA {
         }
     }
 }
+#[doc = "An extended parameter."]
+#[doc = ""]
+#[doc = "ID: 322"]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(Arbitrary))]
+#[cfg_attr(feature = "ts-rs", derive(TS))]
+#[cfg_attr(feature = "ts-rs", ts(export))]
+pub struct PARAM_EXT_VALUE_DATA {
+    #[doc = "How many there are."]
+    pub param_count: u16,
+    #[doc = "Its number."]
+    pub param_index: u16,
+    #[doc = "Name."]
+    #[cfg_attr(feature = "ts-rs", ts(type = "string"))]
+    pub param_id: CharArray<16>,
+    #[doc = "Value."]
+    #[cfg_attr(feature = "ts-rs", ts(type = "string"))]
+    pub param_value: CharArray<128>,
+    #[doc = "Type."]
+    pub param_type: u8,
+}
+impl PARAM_EXT_VALUE_DATA {
+    pub const ENCODED_LEN: usize = 149usize;
+    pub const DEFAULT: Self = Self {
+        param_count: 0_u16,
+        param_index: 0_u16,
+        param_id: CharArray::new([0_u8; 16usize]),
+        param_value: CharArray::new([0_u8; 128usize]),
+        param_type: 0_u8,
+    };
+    #[cfg(feature = "arbitrary")]
+    pub fn random<R: rand::Rng>(rng: &mut R) -> Self {
+        use arbitrary::{Arbitrary, Unstructured};
+        let mut buf = [0u8; 1024];
+        rng.fill_bytes(&mut buf);
+        let mut unstructured = Unstructured::new(&buf);
+        Self::arbitrary(&mut unstructured).unwrap_or_default()
+    }
+}
+impl Default for PARAM_EXT_VALUE_DATA {
+    fn default() -> Self {
+        Self::DEFAULT.clone()
+    }
+}
+impl MessageData for PARAM_EXT_VALUE_DATA {
+    type Message = MavMessage;
+    const ID: u32 = 322u32;
+    const NAME: &'static str = "PARAM_EXT_VALUE";
+    const EXTRA_CRC: u8 = 243u8;
+    const ENCODED_LEN: usize = 149usize;
+    fn deser(_version: MavlinkVersion, __input: &[u8]) -> Result<Self, ::mavlink_core::error::ParserError> {
+        let avail_len = __input.len();
+        let mut payload_buf;
+        let mut buf = if avail_len < Self::ENCODED_LEN {
+            payload_buf = [0; Self::ENCODED_LEN];
+            payload_buf[0..avail_len].copy_from_slice(__input);
+            Bytes::new(&payload_buf)
+        } else {
+            Bytes::new(__input)
+        };
+        let mut __struct = Self::default();
+        __struct.param_count = buf.get_u16_le()?;
+        __struct.param_index = buf.get_u16_le()?;
+        let mut tmp = [0_u8; 16usize];
+        for v in &mut tmp {
+            *v = buf.get_u8()?;
+        }
+        __struct.param_id = CharArray::new(tmp);
+        let mut tmp = [0_u8; 128usize];
+        for v in &mut tmp {
+            *v = buf.get_u8()?;
+        }
+        __struct.param_value = CharArray::new(tmp);
+        __struct.param_type = buf.get_u8()?;
+        Ok(__struct)
+    }
+    fn ser(&self, version: MavlinkVersion, bytes: &mut [u8]) -> usize {
+        let mut __tmp = BytesMut::new(bytes);
+        if __tmp.remaining() < Self::ENCODED_LEN {
+            panic!("buffer is too small (need {} bytes, but got {})", Self::ENCODED_LEN, __tmp.remaining(),)
+        }
+        __tmp.put_u16_le(self.param_count);
+        __tmp.put_u16_le(self.param_index);
+        for val in &self.param_id {
+            __tmp.put_u8(*val);
+        }
+        for val in &self.param_value {
+            __tmp.put_u8(*val);
+        }
+        __tmp.put_u8(self.param_type);
+        if matches!(version, MavlinkVersion::V2) {
+            let len = __tmp.len();
+            ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
+        } else {
+            __tmp.len()
+        }
+    }
+}
 #[doc = "Asks for all parameters."]
 #[doc = ""]
 #[doc = "ID: 21"]
@@ -7931,6 +8030,10 @@ pub enum MavMessage {
     #[doc = ""]
     #[doc = "ID: 321"]
     PARAM_EXT_REQUEST_LIST(PARAM_EXT_REQUEST_LIST_DATA),
+    #[doc = "An extended parameter."]
+    #[doc = ""]
+    #[doc = "ID: 322"]
+    PARAM_EXT_VALUE(PARAM_EXT_VALUE_DATA),
     #[doc = "Asks for all parameters."]
     #[doc = ""]
     #[doc = "ID: 21"]
@@ -8047,8 +8150,8 @@ impl MavMessage {
             36u32, 38u32, 39u32, 40u32, 41u32, 42u32, 43u32, 44u32, 45u32, 47u32, 48u32, 49u32, 51u32, 65u32, 66u32,
             69u32, 70u32, 73u32, 74u32, 75u32, 76u32, 77u32, 82u32, 83u32, 84u32, 85u32, 86u32, 105u32, 108u32, 110u32,
             111u32, 115u32, 117u32, 118u32, 119u32, 121u32, 122u32, 126u32, 141u32, 147u32, 148u32, 230u32, 231u32,
-            241u32, 242u32, 244u32, 245u32, 251u32, 252u32, 253u32, 291u32, 300u32, 321u32, 331u32, 345u32, 350u32,
-            435u32, 436u32, 437u32,
+            241u32, 242u32, 244u32, 245u32, 251u32, 252u32, 253u32, 291u32, 300u32, 321u32, 322u32, 331u32, 345u32,
+            350u32, 435u32, 436u32, 437u32,
         ]
     }
     pub const fn all_messages() -> &'static [(&'static str, u32)] {
@@ -8122,6 +8225,7 @@ impl MavMessage {
             (ESC_STATUS_DATA::NAME, ESC_STATUS_DATA::ID),
             (PROTOCOL_VERSION_DATA::NAME, PROTOCOL_VERSION_DATA::ID),
             (PARAM_EXT_REQUEST_LIST_DATA::NAME, PARAM_EXT_REQUEST_LIST_DATA::ID),
+            (PARAM_EXT_VALUE_DATA::NAME, PARAM_EXT_VALUE_DATA::ID),
             (ODOMETRY_DATA::NAME, ODOMETRY_DATA::ID),
             (PARAM_ERROR_DATA::NAME, PARAM_ERROR_DATA::ID),
             (DEBUG_FLOAT_ARRAY_DATA::NAME, DEBUG_FLOAT_ARRAY_DATA::ID),
@@ -8206,6 +8310,7 @@ impl Message for MavMessage {
             PARAM_EXT_REQUEST_LIST_DATA::ID => {
                 PARAM_EXT_REQUEST_LIST_DATA::deser(version, payload).map(Self::PARAM_EXT_REQUEST_LIST)
             }
+            PARAM_EXT_VALUE_DATA::ID => PARAM_EXT_VALUE_DATA::deser(version, payload).map(Self::PARAM_EXT_VALUE),
             PARAM_REQUEST_LIST_DATA::ID => {
                 PARAM_REQUEST_LIST_DATA::deser(version, payload).map(Self::PARAM_REQUEST_LIST)
             }
@@ -8304,6 +8409,7 @@ impl Message for MavMessage {
             Self::ODOMETRY(..) => ODOMETRY_DATA::NAME,
             Self::PARAM_ERROR(..) => PARAM_ERROR_DATA::NAME,
             Self::PARAM_EXT_REQUEST_LIST(..) => PARAM_EXT_REQUEST_LIST_DATA::NAME,
+            Self::PARAM_EXT_VALUE(..) => PARAM_EXT_VALUE_DATA::NAME,
             Self::PARAM_REQUEST_LIST(..) => PARAM_REQUEST_LIST_DATA::NAME,
             Self::PARAM_REQUEST_READ(..) => PARAM_REQUEST_READ_DATA::NAME,
             Self::PARAM_SET(..) => PARAM_SET_DATA::NAME,
@@ -8383,6 +8489,7 @@ impl Message for MavMessage {
             Self::ODOMETRY(..) => ODOMETRY_DATA::ID,
             Self::PARAM_ERROR(..) => PARAM_ERROR_DATA::ID,
             Self::PARAM_EXT_REQUEST_LIST(..) => PARAM_EXT_REQUEST_LIST_DATA::ID,
+            Self::PARAM_EXT_VALUE(..) => PARAM_EXT_VALUE_DATA::ID,
             Self::PARAM_REQUEST_LIST(..) => PARAM_REQUEST_LIST_DATA::ID,
             Self::PARAM_REQUEST_READ(..) => PARAM_REQUEST_READ_DATA::ID,
             Self::PARAM_SET(..) => PARAM_SET_DATA::ID,
@@ -8462,6 +8569,7 @@ impl Message for MavMessage {
             ODOMETRY_DATA::NAME => Some(ODOMETRY_DATA::ID),
             PARAM_ERROR_DATA::NAME => Some(PARAM_ERROR_DATA::ID),
             PARAM_EXT_REQUEST_LIST_DATA::NAME => Some(PARAM_EXT_REQUEST_LIST_DATA::ID),
+            PARAM_EXT_VALUE_DATA::NAME => Some(PARAM_EXT_VALUE_DATA::ID),
             PARAM_REQUEST_LIST_DATA::NAME => Some(PARAM_REQUEST_LIST_DATA::ID),
             PARAM_REQUEST_READ_DATA::NAME => Some(PARAM_REQUEST_READ_DATA::ID),
             PARAM_SET_DATA::NAME => Some(PARAM_SET_DATA::ID),
@@ -8550,6 +8658,7 @@ impl Message for MavMessage {
             PARAM_EXT_REQUEST_LIST_DATA::ID => {
                 Some(Self::PARAM_EXT_REQUEST_LIST(PARAM_EXT_REQUEST_LIST_DATA::default()))
             }
+            PARAM_EXT_VALUE_DATA::ID => Some(Self::PARAM_EXT_VALUE(PARAM_EXT_VALUE_DATA::default())),
             PARAM_REQUEST_LIST_DATA::ID => Some(Self::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA::default())),
             PARAM_REQUEST_READ_DATA::ID => Some(Self::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA::default())),
             PARAM_SET_DATA::ID => Some(Self::PARAM_SET(PARAM_SET_DATA::default())),
@@ -8645,6 +8754,7 @@ impl Message for MavMessage {
             PARAM_EXT_REQUEST_LIST_DATA::ID => {
                 Some(Self::PARAM_EXT_REQUEST_LIST(PARAM_EXT_REQUEST_LIST_DATA::random(rng)))
             }
+            PARAM_EXT_VALUE_DATA::ID => Some(Self::PARAM_EXT_VALUE(PARAM_EXT_VALUE_DATA::random(rng))),
             PARAM_REQUEST_LIST_DATA::ID => Some(Self::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA::random(rng))),
             PARAM_REQUEST_READ_DATA::ID => Some(Self::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA::random(rng))),
             PARAM_SET_DATA::ID => Some(Self::PARAM_SET(PARAM_SET_DATA::random(rng))),
@@ -8733,6 +8843,7 @@ impl Message for MavMessage {
             Self::ODOMETRY(body) => body.ser(version, bytes),
             Self::PARAM_ERROR(body) => body.ser(version, bytes),
             Self::PARAM_EXT_REQUEST_LIST(body) => body.ser(version, bytes),
+            Self::PARAM_EXT_VALUE(body) => body.ser(version, bytes),
             Self::PARAM_REQUEST_LIST(body) => body.ser(version, bytes),
             Self::PARAM_REQUEST_READ(body) => body.ser(version, bytes),
             Self::PARAM_SET(body) => body.ser(version, bytes),
@@ -8812,6 +8923,7 @@ impl Message for MavMessage {
             ODOMETRY_DATA::ID => ODOMETRY_DATA::EXTRA_CRC,
             PARAM_ERROR_DATA::ID => PARAM_ERROR_DATA::EXTRA_CRC,
             PARAM_EXT_REQUEST_LIST_DATA::ID => PARAM_EXT_REQUEST_LIST_DATA::EXTRA_CRC,
+            PARAM_EXT_VALUE_DATA::ID => PARAM_EXT_VALUE_DATA::EXTRA_CRC,
             PARAM_REQUEST_LIST_DATA::ID => PARAM_REQUEST_LIST_DATA::EXTRA_CRC,
             PARAM_REQUEST_READ_DATA::ID => PARAM_REQUEST_READ_DATA::EXTRA_CRC,
             PARAM_SET_DATA::ID => PARAM_SET_DATA::EXTRA_CRC,

@@ -5,8 +5,8 @@ use glissade_dialect::{
     COMMAND_INT_DATA, COMMAND_LONG_DATA, FILE_TRANSFER_PROTOCOL_DATA, HEARTBEAT_DATA, LOG_REQUEST_DATA_DATA,
     LOG_REQUEST_LIST_DATA, MISSION_CLEAR_ALL_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA,
     MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MISSION_REQUEST_LIST_DATA, MISSION_SET_CURRENT_DATA,
-    MISSION_WRITE_PARTIAL_LIST_DATA, MavType, PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA,
-    PING_DATA, SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA, TIMESYNC_DATA,
+    MISSION_WRITE_PARTIAL_LIST_DATA, MavType, PARAM_EXT_REQUEST_LIST_DATA, PARAM_REQUEST_LIST_DATA,
+    PARAM_REQUEST_READ_DATA, PARAM_SET_DATA, PING_DATA, SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA, TIMESYNC_DATA,
 };
 
 use super::params::ParamRequest;
@@ -88,6 +88,8 @@ pub(super) enum Incoming {
     File(FileRequest),
     /// A request of the parameter protocol.
     Param(ParamRequest),
+    /// `PARAM_EXT_REQUEST_LIST`.
+    ExtendedParams,
     /// `LOG_REQUEST_LIST` or `LOG_REQUEST_DATA`.
     Logs,
     /// A request of `TIMESYNC`, with the sender's time.
@@ -162,6 +164,7 @@ pub(super) fn known(id: u32) -> Option<Known> {
         SET_GPS_GLOBAL_ORIGIN_DATA::ID => Known::of::<SET_GPS_GLOBAL_ORIGIN_DATA>(set_origin),
         COMMAND_INT_DATA::ID => Known::of::<COMMAND_INT_DATA>(command_int),
         COMMAND_LONG_DATA::ID => Known::of::<COMMAND_LONG_DATA>(command_long),
+        PARAM_EXT_REQUEST_LIST_DATA::ID => Known::of::<PARAM_EXT_REQUEST_LIST_DATA>(extended_params),
         FILE_TRANSFER_PROTOCOL_DATA::ID => Known::of::<FILE_TRANSFER_PROTOCOL_DATA>(file),
         TIMESYNC_DATA::ID => Known::of::<TIMESYNC_DATA>(timesync),
         LOG_REQUEST_LIST_DATA::ID => Known::of::<LOG_REQUEST_LIST_DATA>(log_list),
@@ -294,6 +297,11 @@ fn file(raw: &Raw) -> Option<Incoming> {
     let [low, high, session, opcode, ..] = m.payload;
     let request = FileRequest { sequence: u16::from_le_bytes([low, high]), session, opcode };
     raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::File(request))
+}
+
+fn extended_params(raw: &Raw) -> Option<Incoming> {
+    let m: PARAM_EXT_REQUEST_LIST_DATA = raw.read()?;
+    raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::ExtendedParams)
 }
 
 fn log_list(raw: &Raw) -> Option<Incoming> {

@@ -69,21 +69,21 @@ use crate::settings::{Changes, Marks, Settings};
 use crate::signals::{NavState, Tick};
 use crate::watchdog::Hung;
 
-/// MAVLink system of a vehicle that is alone.
-pub const SYSTEM_ID: u8 = 1;
 /// MAVLink component: the autopilot.
 pub const COMPONENT_ID: u8 = 1;
 
-/// Who the vehicle is on its links.
+/// Who the vehicle is on its links, as the settings say at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
     /// MAVLink system.
     pub system: u8,
+    /// `MAV_AUTOPILOT`.
+    pub autopilot: u8,
 }
 
-impl Default for Identity {
-    fn default() -> Self {
-        Self { system: SYSTEM_ID }
+impl Identity {
+    fn of(settings: &Settings) -> Self {
+        Self { system: settings.system_id(), autopilot: settings.autopilot() }
     }
 }
 
@@ -172,7 +172,7 @@ pub struct GroundOutput {
 const COMMANDS_A_JOB: usize = 2;
 
 /// The ground partition.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Ground {
     us: Identity,
     links: [Link; LINKS],
@@ -183,10 +183,16 @@ pub struct Ground {
     set_origin: Option<MapOrigin>,
 }
 
+impl Default for Ground {
+    fn default() -> Self {
+        Self::new(Settings::default())
+    }
+}
+
 impl Ground {
     /// The owner of these settings.
     pub fn new(settings: Settings) -> Self {
-        Self { settings, ..Self::default() }
+        Self { us: Identity::of(&settings), links: Default::default(), first: 0, settings, set_origin: None }
     }
 
     /// The settings, for whoever saves them.

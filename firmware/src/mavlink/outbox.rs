@@ -43,6 +43,8 @@ pub(super) enum Answer {
     File { request: FileRequest, to: Sender },
     /// There are no logs.
     NoLogs,
+    /// There are no extended parameters.
+    NoExtendedParams,
     /// To a time request: the time at which it was read, ns, and the time in it.
     Timesync { tc1: i64, ts1: i64, to: Sender },
     /// To a ping.
@@ -106,6 +108,7 @@ fn write_answer(answer: &Answer, view: &View, out: &mut Writer) -> bool {
         Answer::Mission { request, mission_type, to } => services::write_mission(request, mission_type, to, out),
         Answer::File { request, to } => services::write_file(request, to, out),
         Answer::NoLogs => services::write_no_logs(out),
+        Answer::NoExtendedParams => services::write_no_extended_params(out),
         Answer::Timesync { tc1, ts1, to: (target_system, target_component) } => {
             out.write(&TIMESYNC_DATA { tc1, ts1, target_system, target_component })
         }

@@ -1,9 +1,9 @@
-//! Services that ground stations ask for and the vehicle does not have: missions, files, logs. Each is answered at once,
+//! Services that ground stations ask for and the vehicle does not have: missions, files, logs, extended parameters. Each is answered at once,
 //! because a client that is not answered waits for seconds, and then again.
 
 use glissade_dialect::{
     FILE_TRANSFER_PROTOCOL_DATA, LOG_ENTRY_DATA, MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_CURRENT_DATA,
-    MavMissionResult,
+    MavMissionResult, PARAM_EXT_VALUE_DATA,
 };
 
 use super::incoming::{FileRequest, MissionRequest, Sender};
@@ -60,6 +60,11 @@ pub(super) fn write_file(request: FileRequest, to: Sender, out: &mut Writer) -> 
         *to = from;
     }
     out.write(&message)
+}
+
+/// Answers a request for extended parameters: there are none. False if it does not fit.
+pub(super) fn write_no_extended_params(out: &mut Writer) -> bool {
+    out.write(&PARAM_EXT_VALUE_DATA::DEFAULT)
 }
 
 /// Answers a request for logs: there are none. False if it does not fit.

@@ -169,7 +169,15 @@ fn listen_address(text: &str) -> Result<SocketAddr, String> {
 }
 
 fn peer_address(text: &str) -> Result<SocketAddr, String> {
-    match link::address::parse(text, link::PEER_PORT) {
+    address_to_send_to(text, link::PEER_PORT)
+}
+
+fn onboard_address(text: &str) -> Result<SocketAddr, String> {
+    address_to_send_to(text, link::ONBOARD_PORT)
+}
+
+fn address_to_send_to(text: &str, default_port: u16) -> Result<SocketAddr, String> {
+    match link::address::parse(text, default_port) {
         Ok(address) if address.ip().is_unspecified() => {
             Err(format!("the host is missing: use 127.0.0.1:{}", address.port()))
         }
@@ -265,9 +273,13 @@ struct ServeArgs {
     /// Address to receive on: `HOST:PORT`, `HOST`, or `:PORT` for every interface.
     #[arg(long, value_name = "ADDRESS", default_value = link::DEFAULT_LISTEN, value_parser = listen_address)]
     listen: SocketAddr,
-    /// Address to send to: `HOST:PORT`, or `HOST` for port 14550. Repeatable.
-    #[arg(long = "peer", value_name = "ADDRESS", default_values = link::DEFAULT_PEERS, value_parser = peer_address)]
+    /// Address of a ground station: `HOST:PORT`, or `HOST` for port 14550. Repeatable; without it and `--onboard`, a ground
+    /// station on port 14550 and a program on port 14540 of this machine.
+    #[arg(long = "peer", value_name = "ADDRESS", value_parser = peer_address)]
     peers: Vec<SocketAddr>,
+    /// Address of a program that is told more, as one on board: MAVSDK. Repeatable.
+    #[arg(long = "onboard", value_name = "ADDRESS", value_parser = onboard_address)]
+    onboard: Vec<SocketAddr>,
     /// Simulated seconds per second, 0.01 to 1000.
     #[arg(long, default_value_t = 1.0, value_parser = number(SPEEDS), allow_negative_numbers = true)]
     speed: f64,

@@ -4,6 +4,7 @@ use std::net::SocketAddr;
 
 use anyhow::Result;
 use firmware::config::Start;
+use firmware::mavlink::port::Profile;
 
 use super::ServeArgs;
 use super::names::{self, Kind};
@@ -11,7 +12,7 @@ use crate::console::Session;
 use crate::console::terminal::Stdio;
 use crate::flight;
 use crate::interrupt::{self, Interrupted};
-use crate::link::UdpLinks;
+use crate::link::{DEFAULT_PEERS, Peer, UdpLinks};
 use crate::scenario::Scenario;
 use crate::serve::{Flown, Pacing, serve};
 
@@ -21,9 +22,10 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     scenario.require_rigid_body()?;
     super::note_mismatches(&scenario, &args.settings.set);
     let flight = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;
-    let mut session = Session::new(flight);
-    let mut links = UdpLinks::bind(args.listen, &args.peers)?;
-    eprint!("{}", greeting(&scenario, links.local_address()?, &args.peers));
+    let mut session = Session::new(flight).telling_the_truth(&scenario.file.home);
+    let peers = peers(args);
+    let mut links = UdpLinks::bind(args.listen, &peers)?;
+    eprint!("{}", greeting(&scenario, links.local_address()?, &peers));
     interrupt::listen();
     let mut terminal = Stdio::new();
     let flown = serve(&mut session, &mut links, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
@@ -32,10 +34,21 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     if interrupt::requested() { Err(Interrupted.into()) } else { Ok(()) }
 }
 
+/// Whom the vehicle sends to without having heard of them.
+fn peers(args: &ServeArgs) -> Vec<Peer> {
+    if args.peers.is_empty() && args.onboard.is_empty() {
+        return DEFAULT_PEERS.to_vec();
+    }
+    let named = |addresses: &[SocketAddr], profile| {
+        addresses.iter().map(move |address| Peer { address: *address, profile }).collect::<Vec<_>>()
+    };
+    [named(&args.peers, Profile::Normal), named(&args.onboard, Profile::Onboard)].concat()
+}
+
 /// What flies, and how to talk to it.
-fn greeting(scenario: &Scenario, listen: SocketAddr, peers: &[SocketAddr]) -> String {
-    let hint = |port: u16, hint| if peers.iter().any(|peer| peer.port() == port) { hint } else { "" };
-    let addresses: Vec<String> = peers.iter().map(ToString::to_string).collect();
+fn greeting(scenario: &Scenario, listen: SocketAddr, peers: &[Peer]) -> String {
+    let hint = |port: u16, hint| if peers.iter().any(|peer| peer.address.port() == port) { hint } else { "" };
+    let addresses: Vec<String> = peers.iter().map(|peer| peer.address.to_string()).collect();
     format!(
         "`{}`{}\n\
          MAVLink goes to {}, and comes in on {listen}.\n\

@@ -19,8 +19,9 @@ use crate::failures::{self, Equipment};
 use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
 use crate::report::timeline::fault_name;
-use crate::sensors::Fault;
+use crate::sensors::{Fault, Home};
 use crate::sil::{Flight, Lockstep as _};
+use crate::truth::TruthStream;
 
 /// A line's instruction to the loop that runs the session.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,10 +54,14 @@ pub struct Session {
     /// The velocity to repeat, and the tick of its last request.
     velocity: Option<(Request, Tick)>,
     said: Vec<Line>,
+    truth: Option<TruthStream>,
 }
 
 /// Ticks after which a velocity is repeated: five times as often as the vehicle needs.
 const VELOCITY_AGAIN: Tick = 200;
+
+/// Ticks between two messages of the truth: 10 Hz.
+const TRUTH_EVERY: Tick = 100;
 
 impl Session {
     /// Starts a session on a flight, before its next tick.
@@ -65,7 +70,21 @@ impl Session {
         flight.autopilot.inner.allow_failures(injectable);
         let watch = Watch::new(&flight);
         let (answers, asked) = (Answers::default(), VecDeque::new());
-        Self { flight, watch, answers, asked, velocity: None, said: Vec::new() }
+        Self { flight, watch, answers, asked, velocity: None, said: Vec::new(), truth: None }
+    }
+
+    /// The same, with the truth told beside what the vehicle tells: the flight is about this home.
+    #[must_use]
+    pub fn telling_the_truth(mut self, home: &Home) -> Self {
+        self.truth = Some(TruthStream::new(home, self.flight.autopilot.ground.settings().system_id()));
+        self
+    }
+
+    /// The truth as MAVLink frames of a component of its own, when it is due.
+    pub fn truth(&mut self) -> Option<Vec<u8>> {
+        let tick = self.flight.next_tick();
+        let stream = self.truth.as_mut().filter(|_| tick.is_multiple_of(TRUTH_EVERY))?;
+        Some(stream.frames(tick, &self.flight.plant().motion(), &self.flight.specific_force()))
     }
 
     /// The flight.

@@ -7,7 +7,7 @@ pub mod address;
 pub mod frames;
 
 use std::io::ErrorKind;
-use std::net::{SocketAddr, UdpSocket};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, bail, ensure};
@@ -19,14 +19,31 @@ use crate::stations::{News, Stations};
 /// The default address on which `serve` listens.
 pub const DEFAULT_LISTEN: &str = "127.0.0.1:14580";
 /// The default peers of `serve`: ground stations, and programs that use MAVSDK.
-pub const DEFAULT_PEERS: [&str; 2] = ["127.0.0.1:14550", "127.0.0.1:14540"];
+pub const DEFAULT_PEERS: [Peer; 2] =
+    [Peer::here(PEER_PORT, Profile::Normal), Peer::here(ONBOARD_PORT, Profile::Onboard)];
+
+/// Whom the vehicle sends to without having heard of them, and how much.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Peer {
+    /// Where they listen.
+    pub address: SocketAddr,
+    /// What they are told.
+    pub profile: Profile,
+}
+
+impl Peer {
+    /// On this machine.
+    const fn here(port: u16, profile: Profile) -> Self {
+        Self { address: SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port), profile }
+    }
+}
 
 /// The port of each, where an address is given without one.
 pub const LISTEN_PORT: u16 = 14580;
 /// See [`LISTEN_PORT`].
 pub const PEER_PORT: u16 = 14550;
-/// Where programs listen that are meant to run on board: more is sent to them.
-const ONBOARD_PORT: u16 = 14540;
+/// See [`LISTEN_PORT`].
+pub const ONBOARD_PORT: u16 = 14540;
 
 /// A guest that has been silent this long has gone; ground stations send a heartbeat every second.
 const FORGET_AFTER: Duration = Duration::from_secs(10);
@@ -43,8 +60,9 @@ const INBOX_MAX: usize = 65_536;
 
 /// Who is at a link.
 #[derive(Clone, Copy, Debug)]
-struct Peer {
+struct Occupant {
     address: SocketAddr,
+    profile: Profile,
     /// Whether it was not named at the start.
     guest: bool,
     heard: Instant,
@@ -55,7 +73,7 @@ struct Peer {
 /// A link: who is there, and what has come from there.
 #[derive(Debug, Default)]
 struct Slot {
-    peer: Option<Peer>,
+    peer: Option<Occupant>,
     inbox: Vec<u8>,
     lost: u32,
 }
@@ -74,23 +92,24 @@ impl UdpLinks {
     ///
     /// # Errors
     /// One line that names the address, and what to do, if it cannot be listened on; more peers than links.
-    pub fn bind(listen: SocketAddr, peers: &[SocketAddr]) -> anyhow::Result<Self> {
-        if let Some(peer) = peers.iter().find(|peer| peer.port() == 0) {
+    pub fn bind(listen: SocketAddr, peers: &[Peer]) -> anyhow::Result<Self> {
+        let addresses: Vec<SocketAddr> = peers.iter().map(|peer| peer.address).collect();
+        if let Some(peer) = addresses.iter().find(|peer| peer.port() == 0) {
             bail!("--peer {peer} has no port from 1 to 65535: use {}", SocketAddr::new(peer.ip(), PEER_PORT));
         }
-        if let Some(peer) = peers.iter().find(|peer| peer.is_ipv4() != listen.is_ipv4()) {
+        if let Some(peer) = addresses.iter().find(|peer| peer.is_ipv4() != listen.is_ipv4()) {
             bail!("cannot send from {listen} to {peer}: one is IPv4, the other IPv6: give both of one kind");
         }
-        if let (true, Some(far)) = (listen.ip().is_loopback(), peers.iter().find(|peer| !peer.ip().is_loopback())) {
+        if let (true, Some(far)) = (listen.ip().is_loopback(), addresses.iter().find(|peer| !peer.ip().is_loopback())) {
             bail!(
                 "cannot send from {listen}, which reaches this machine alone, to {far}: add --listen :{}",
                 listen.port()
             );
         }
-        ensure!(peers.len() <= LINKS, "--peer is given {} times, but the vehicle has {LINKS} links", peers.len());
-        let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, peers, &error))?;
+        ensure!(peers.len() <= LINKS, "{} peers are given, but the vehicle has {LINKS} links", peers.len());
+        let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, &addresses, &error))?;
         let own = socket.local_addr().unwrap_or(listen);
-        if let Some(peer) = peers.iter().find(|peer| is_own(own, peer)) {
+        if let Some(peer) = addresses.iter().find(|peer| is_own(own, peer)) {
             bail!(
                 "--peer {peer} is where the vehicle itself listens: give the ground station's address, as {}",
                 elsewhere(own)
@@ -99,7 +118,8 @@ impl UdpLinks {
         socket.set_nonblocking(true).with_context(|| format!("cannot use UDP address {listen}"))?;
         let mut slots: [Slot; LINKS] = Default::default();
         for (slot, peer) in slots.iter_mut().zip(peers) {
-            slot.peer = Some(Peer { address: *peer, guest: false, heard: Instant::now(), opened: false });
+            let Peer { address, profile } = *peer;
+            slot.peer = Some(Occupant { address, profile, guest: false, heard: Instant::now(), opened: false });
         }
         Ok(Self { socket, slots, stations: Stations::default(), datagram: vec![0; DATAGRAM_MAX] })
     }
@@ -152,8 +172,9 @@ impl UdpLinks {
         };
         let slot = self.slots.get_mut(number)?;
         if known.is_none() {
-            *slot =
-                Slot { peer: Some(Peer { address: from, guest: true, heard: now, opened: false }), ..Slot::default() };
+            let profile = Profile::Normal;
+            let peer = Occupant { address: from, profile, guest: true, heard: now, opened: false };
+            *slot = Slot { peer: Some(peer), ..Slot::default() };
         }
         if let Some(peer) = slot.peer.as_mut().filter(|_| valid) {
             peer.heard = now;
@@ -185,7 +206,7 @@ impl UdpLinks {
             };
             if !peer.opened {
                 peer.opened = true;
-                port.open(if peer.address.port() == ONBOARD_PORT { Profile::Onboard } else { Profile::Normal });
+                port.open(peer.profile);
             }
             port.lose(core::mem::take(&mut slot.lost));
             if !slot.inbox.is_empty() {
@@ -214,6 +235,13 @@ impl UdpLinks {
                     let _ = self.socket.send_to(piece, peer.address);
                 });
             }
+        }
+    }
+
+    /// Sends frames that come from no link to every peer.
+    pub fn tell(&self, frames: &[u8]) {
+        for peer in self.slots.iter().filter_map(|slot| slot.peer) {
+            let _ = self.socket.send_to(frames, peer.address);
         }
     }
 

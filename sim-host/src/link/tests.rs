@@ -14,6 +14,10 @@ fn station() -> UdpSocket {
     socket
 }
 
+fn station_at(address: SocketAddr) -> Peer {
+    Peer { address, profile: Profile::Normal }
+}
+
 fn heartbeat(system: u8) -> Vec<u8> {
     let from = MavHeader { system_id: system.into(), component_id: 190, sequence: 0 };
     let mut raw = MAVLinkV2MessageRaw::new();
@@ -35,7 +39,8 @@ struct Bench {
 
 impl Bench {
     fn new(peers: &[SocketAddr]) -> Self {
-        Self { links: UdpLinks::bind(local(), peers).expect("a free port"), ports: Ports::new() }
+        let peers: Vec<Peer> = peers.iter().copied().map(station_at).collect();
+        Self { links: UdpLinks::bind(local(), &peers).expect("a free port"), ports: Ports::new() }
     }
 
     fn address(&self) -> SocketAddr {
@@ -127,8 +132,7 @@ fn a_peer_that_is_not_there_stops_nothing() {
 fn a_busy_address_is_named_with_a_remedy_in_one_line() {
     let first = UdpLinks::bind(local(), &[]).expect("a free port");
     let address = first.local_address().expect("bound");
-    let peers = DEFAULT_PEERS.map(|peer| peer.parse().expect("an address"));
-    let error = format!("{:#}", UdpLinks::bind(address, &peers).expect_err("in use"));
+    let error = format!("{:#}", UdpLinks::bind(address, &DEFAULT_PEERS).expect_err("in use"));
     // Both vehicles are system 1: a ground station that hears both takes them for one.
     let expected = format!(
         "{address} is in use (another `sim-host serve`?): stop it, or fly another vehicle for another ground \
@@ -140,11 +144,11 @@ fn a_busy_address_is_named_with_a_remedy_in_one_line() {
 
 #[test]
 fn nothing_can_be_sent_to_port_0_and_there_are_no_more_peers_than_links() {
-    let error = format!("{:#}", UdpLinks::bind(local(), &[local()]).expect_err("no port"));
+    let error = format!("{:#}", UdpLinks::bind(local(), &[station_at(local())]).expect_err("no port"));
     assert_eq!(error, "--peer 127.0.0.1:0 has no port from 1 to 65535: use 127.0.0.1:14550");
-    let five: Vec<SocketAddr> = (1..=5).map(|port| SocketAddr::from(([127, 0, 0, 1], port))).collect();
+    let five: Vec<Peer> = (1..=5).map(|port| station_at(SocketAddr::from(([127, 0, 0, 1], port)))).collect();
     let error = format!("{:#}", UdpLinks::bind(local(), &five).expect_err("too many"));
-    assert_eq!(error, "--peer is given 5 times, but the vehicle has 4 links");
+    assert_eq!(error, "5 peers are given, but the vehicle has 4 links");
 }
 
 #[test]
@@ -152,7 +156,7 @@ fn its_own_address_is_no_peer() {
     let free = station().local_addr().expect("bound").port();
     for (listen, peer) in [("127.0.0.1", "127.0.0.1"), ("0.0.0.0", "127.0.0.1"), ("0.0.0.0", "127.0.0.2")] {
         let at = |ip: &str| SocketAddr::new(ip.parse().expect("an address"), free);
-        let error = format!("{:#}", UdpLinks::bind(at(listen), &[at(peer)]).expect_err("its own"));
+        let error = format!("{:#}", UdpLinks::bind(at(listen), &[station_at(at(peer))]).expect_err("its own"));
         let expected = format!(
             "--peer {peer}:{free} is where the vehicle itself listens: give the ground station's address, as \
              127.0.0.1:14550"

@@ -2,7 +2,8 @@
 
 use glissade_dialect::mavlink_core::types::CharArray;
 use glissade_dialect::{
-    AUTOPILOT_VERSION_DATA, AVAILABLE_MODES_DATA, CURRENT_MODE_DATA, MavProtocolCapability, PROTOCOL_VERSION_DATA,
+    AUTOPILOT_VERSION_DATA, AVAILABLE_MODES_DATA, CURRENT_MODE_DATA, MavAutopilot, MavProtocolCapability,
+    PROTOCOL_VERSION_DATA,
 };
 
 use super::view::View;
@@ -69,13 +70,16 @@ pub(super) fn current_mode(view: &View) -> CURRENT_MODE_DATA {
     }
 }
 
-/// Version and capabilities. The hardware has no number of its own: `uid` is 0, unknown.
-pub(super) fn autopilot_version() -> AUTOPILOT_VERSION_DATA {
+/// Version and capabilities. Who tells that it is PX4 tells the version of PX4 whose interface it has: ground stations refuse
+/// versions below 1.4.1. Our own stands as the middleware's. The hardware has no number of its own: `uid` is 0, unknown.
+pub(super) fn autopilot_version(view: &View) -> AUTOPILOT_VERSION_DATA {
+    let as_px4 = view.us.autopilot == MavAutopilot::MAV_AUTOPILOT_PX4 as u8;
     AUTOPILOT_VERSION_DATA {
         capabilities: MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_COMMAND_INT
             | MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
             | MavProtocolCapability::MAV_PROTOCOL_CAPABILITY_MAVLINK2,
-        flight_sw_version: SOFTWARE_VERSION,
+        flight_sw_version: if as_px4 { PX4_INTERFACE } else { SOFTWARE_VERSION },
+        middleware_sw_version: SOFTWARE_VERSION,
         ..AUTOPILOT_VERSION_DATA::DEFAULT
     }
 }
@@ -84,6 +88,9 @@ pub(super) fn autopilot_version() -> AUTOPILOT_VERSION_DATA {
 pub(super) fn protocol_version() -> PROTOCOL_VERSION_DATA {
     PROTOCOL_VERSION_DATA { version: 200, min_version: 100, max_version: 200, ..PROTOCOL_VERSION_DATA::DEFAULT }
 }
+
+/// PX4's modes, parameters and messages as of v1.15: major, minor, patch, and 0 for a development version.
+const PX4_INTERFACE: u32 = 1 << 24 | 15 << 16;
 
 /// This crate's version: major, minor, patch, and 0 for a development version. QGroundControl compares the
 /// version of any other type with PX4's.

@@ -351,7 +351,7 @@ pub(super) fn write(report: Report, view: &View, out: &mut Writer) -> bool {
         Report::Wind => known(sensors::wind(view), out),
         Report::Vibration => known(sensors::vibration(view), out),
         Report::CurrentMode => out.write(&identity::current_mode(view)),
-        Report::AutopilotVersion => out.write(&identity::autopilot_version()),
+        Report::AutopilotVersion => out.write(&identity::autopilot_version(view)),
         Report::ProtocolVersion => out.write(&identity::protocol_version()),
         Report::AvailableModes(number) => known(identity::available_mode(number), out),
         Report::MessageInterval { id, interval_us } => {

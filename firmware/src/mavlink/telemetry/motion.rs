@@ -76,10 +76,10 @@ pub(super) fn vfr_hud(view: &View) -> Option<VFR_HUD_DATA> {
     let (nav, known, control) = (&view.input.nav, view.known(), &view.input.control);
     let v = &nav.velocity;
     let over_ground = |v: &Vector3<f32>| math::sqrt(v.x * v.x + v.y * v.y);
-    let through_air = |([x, y], _): ([f32; 2], [f32; 2])| math::sqrt((v - Vector3::new(x, y, 0.0)).norm_squared());
+    let through_air = |[x, y]: [f32; 2]| math::sqrt((v - Vector3::new(x, y, 0.0)).norm_squared());
     let unless = |known: bool, value: f32| if known { value } else { f32::NAN };
     (known.attitude && known.heading).then(|| VFR_HUD_DATA {
-        airspeed: view.wind().filter(|_| known.velocity && known.climb).map_or(f32::NAN, through_air),
+        airspeed: view.observed_wind().filter(|_| known.velocity && known.climb).map_or(f32::NAN, through_air),
         groundspeed: unless(known.velocity, over_ground(v)),
         heading: heading_deg(nav.yaw()) as i16,
         throttle: (math::clamp(control.thrust_n / control.thrust_max_n, 0.0, 1.0) * 100.0 + 0.5) as u16,

@@ -3,8 +3,7 @@
 use glissade_dialect::mavlink_core::types::CharArray;
 use glissade_dialect::{
     BATTERY_STATUS_DATA, ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, EstimatorStatusFlags, HEARTBEAT_DATA,
-    MavAutopilot, MavLandedState, MavModeFlag, MavState, MavSysStatusSensor, MavType, NAMED_VALUE_INT_DATA,
-    SYS_STATUS_DATA,
+    MavLandedState, MavModeFlag, MavState, MavSysStatusSensor, MavType, NAMED_VALUE_INT_DATA, SYS_STATUS_DATA,
 };
 
 use super::view::View;
@@ -174,7 +173,7 @@ pub(super) fn heartbeat(view: &View) -> HEARTBEAT_DATA {
     HEARTBEAT_DATA {
         custom_mode: mode::custom_mode(input.mode),
         mavtype: MavType::MAV_TYPE_QUADROTOR as u8,
-        autopilot: MavAutopilot::MAV_AUTOPILOT_PX4 as u8,
+        autopilot: view.us.autopilot,
         base_mode: (flags | armed).bits() as u8,
         system_status: state as u8,
         mavlink_version: glissade_dialect::MINOR_MAVLINK_VERSION,

@@ -137,12 +137,17 @@ impl<'a> View<'a> {
         Some(self.input.nav.position.z - home.z)
     }
 
-    /// The estimated wind and its standard deviations per axis, m/s, if it is known better than the calm.
+    /// The estimated wind and its standard deviations per axis, m/s: at first a calm, of which nothing is known.
     pub(in crate::mavlink) fn wind(&self) -> Option<([f32; 2], [f32; 2])> {
-        /// Greatest deviation of a wind that is told, m/s: some 40 % of the one that is assumed before any is observed.
+        self.input.estimator.as_ref().map(|status| (status.wind, status.wind_sigma))
+    }
+
+    /// The same, once it has been observed.
+    pub(in crate::mavlink) fn observed_wind(&self) -> Option<[f32; 2]> {
+        /// Greatest deviation of a wind that counts as observed, m/s: some 40 % of the one that is assumed before.
         const SIGMA_MAX: f32 = 2.0;
-        let status = self.input.estimator.as_ref()?;
-        status.wind_sigma.iter().all(|sigma| *sigma < SIGMA_MAX).then_some((status.wind, status.wind_sigma))
+        let (wind, sigma) = self.wind()?;
+        sigma.iter().all(|sigma| *sigma < SIGMA_MAX).then_some(wind)
     }
 
     /// The last GNSS solution, unless it is old.
