@@ -69,7 +69,8 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
 ) -> Result<Flight<P, A, L>> {
     let config = scenario.flight_config();
     let autopilot = Autopilot::with_laws(&config, attitude, position)
-        .map_err(|error| anyhow!("scenario `{}`: {error}", scenario.name))?;
+        .map_err(|error| anyhow!("scenario `{}`: {error}", scenario.name))?
+        .with_settings(scenario.settings());
     let noise = Noise::new(scenario.file.disturbance.as_ref(), seed, 1000.0);
     let flight = Flight::new(autopilot, plant, noise, config.trajectory.clone());
     let flight = flight.with_actuation_delay(scenario.actuation_delay_ticks());

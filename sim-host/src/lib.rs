@@ -54,6 +54,7 @@ pub mod cli;
 pub mod compare;
 pub mod console;
 pub mod failures;
+pub mod flash_file;
 pub mod flight;
 pub mod interrupt;
 pub mod link;

@@ -7,6 +7,7 @@ mod files;
 mod load;
 mod notes;
 mod orders;
+mod params;
 mod settings;
 #[cfg(test)]
 mod tests;
@@ -17,6 +18,7 @@ mod world;
 use anyhow::{Context, Result, bail};
 use firmware::config::{FlightConfig, ModeSettings, Start};
 use firmware::guidance::{JoinPlan, Trajectory};
+use firmware::settings::Settings;
 use serde::{Deserialize, Serialize};
 
 use crate::airframe::AirframeFile;
@@ -27,6 +29,7 @@ use crate::sensors::{Fault, Home, SuiteFile};
 pub use crate::world::{AttitudeWave, Disturbance, Gust, ScheduledPush, Tumble, Wind};
 pub use load::tuning;
 pub use notes::tuned_for_another;
+pub use params::Params;
 pub(crate) use settings::{is_of_controller, is_within, value, with_files};
 pub use world::{BatteryStart, Truth, World};
 
@@ -125,6 +128,9 @@ pub struct ScenarioFile {
     /// How the vehicle flies by itself.
     #[serde(default)]
     pub modes: ModeSettings,
+    /// Settings of the firmware by their names, in place of what the keys above give.
+    #[serde(default, skip_serializing_if = "Params::is_empty")]
+    pub params: Params,
     /// How its flights are judged.
     pub assess: Option<Assess>,
     /// Gaussian disturbances.
@@ -242,6 +248,17 @@ impl Scenario {
 
     /// What the firmware is told.
     pub fn flight_config(&self) -> FlightConfig {
+        let mut config = self.unset_config();
+        if !self.file.params.is_empty() {
+            let mut settings = Settings::of(&config);
+            params::lay_over(&mut settings, &self.file.params);
+            settings.write_to(&mut config);
+        }
+        config
+    }
+
+    /// The same without its `[params]`.
+    fn unset_config(&self) -> FlightConfig {
         let mut config = FlightConfig {
             airframe: self.airframe.flight(),
             trajectory: self.file.trajectory.clone(),

@@ -7,5 +7,6 @@ mod hung;
 mod mixer;
 mod modes;
 mod moving_start;
+mod parameters;
 mod settings;
 mod sliding;

@@ -286,6 +286,9 @@ struct ServeArgs {
     /// Seed of the random numbers.
     #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
     seed: u64,
+    /// Keep the parameters that ground stations set in this file, and load them from it.
+    #[arg(long, value_name = "FILE")]
+    params: Option<PathBuf>,
     #[command(flatten)]
     settings: Settings,
 }

@@ -1,15 +1,18 @@
 //! `serve`: flies in real time, with a console and for ground stations.
 
 use std::net::SocketAddr;
+use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context as _, Result};
 use firmware::config::Start;
 use firmware::mavlink::port::Profile;
+use firmware::settings::store::Loaded;
 
 use super::ServeArgs;
 use super::names::{self, Kind};
 use crate::console::Session;
 use crate::console::terminal::Stdio;
+use crate::flash_file::ParameterFile;
 use crate::flight;
 use crate::interrupt::{self, Interrupted};
 use crate::link::{DEFAULT_PEERS, Peer, UdpLinks};
@@ -18,11 +21,19 @@ use crate::serve::{Flown, Pacing, serve};
 
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
     names::require(Kind::Scenario, &args.scenario)?;
-    let scenario = Scenario::load(&args.scenario, &args.settings.set)?;
+    let mut scenario = Scenario::load(&args.scenario, &args.settings.set)?;
     scenario.require_rigid_body()?;
     super::note_mismatches(&scenario, &args.settings.set);
+    let mut parameters = None;
+    if let Some(path) = &args.params {
+        let mut settings = scenario.settings();
+        let (file, loaded) = ParameterFile::open(path, &mut settings)?;
+        scenario = scenario.with_settings(&settings).with_context(|| format!("--params {}", path.display()))?;
+        eprintln!("{}", kept(path, &loaded));
+        parameters = Some(file);
+    }
     let flight = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;
-    let mut session = Session::new(flight).telling_the_truth(&scenario.file.home);
+    let mut session = Session::new(flight).with_parameters(parameters).telling_the_truth(&scenario.file.home);
     let peers = peers(args);
     let mut links = UdpLinks::bind(args.listen, &peers)?;
     eprint!("{}", greeting(&scenario, links.local_address()?, &peers));
@@ -73,6 +84,13 @@ fn first_flight(scenario: &Scenario) -> &'static str {
         (Start::InFlight, true) => "it is in the air already: `goto 5 0 5`, `land`",
         (Start::InFlight, false) => "it is in the air already, with no ground to land on: `goto 5 0 5`, `hold`",
     }
+}
+
+/// What was loaded from a file of parameters.
+fn kept(path: &Path, loaded: &Loaded) -> String {
+    let Loaded { values, refused, .. } = *loaded;
+    let left = if refused == 0 { String::new() } else { format!("; {refused} do not fit any more, and are left out") };
+    format!("{values} parameters loaded from {}{left}", path.display())
 }
 
 fn about(summary: &str) -> String {

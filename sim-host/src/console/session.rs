@@ -16,6 +16,7 @@ use super::events::{self, Watch};
 use super::line::{Line, Tone};
 use super::parse::{self, COMMANDS, Command};
 use crate::failures::{self, Equipment};
+use crate::flash_file::ParameterFile;
 use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
 use crate::report::timeline::fault_name;
@@ -55,6 +56,8 @@ pub struct Session {
     velocity: Option<(Request, Tick)>,
     said: Vec<Line>,
     truth: Option<TruthStream>,
+    /// Where settings are kept.
+    parameters: Option<ParameterFile>,
 }
 
 /// Ticks after which a velocity is repeated: five times as often as the vehicle needs.
@@ -70,7 +73,7 @@ impl Session {
         flight.autopilot.inner.allow_failures(injectable);
         let watch = Watch::new(&flight);
         let (answers, asked) = (Answers::default(), VecDeque::new());
-        Self { flight, watch, answers, asked, velocity: None, said: Vec::new(), truth: None }
+        Self { flight, watch, answers, asked, velocity: None, said: Vec::new(), truth: None, parameters: None }
     }
 
     /// The same, with the truth told beside what the vehicle tells: the flight is about this home.
@@ -85,6 +88,22 @@ impl Session {
         let tick = self.flight.next_tick();
         let stream = self.truth.as_mut().filter(|_| tick.is_multiple_of(TRUTH_EVERY))?;
         Some(stream.frames(tick, &self.flight.plant().motion(), &self.flight.specific_force()))
+    }
+
+    /// The same, with a file in which its settings are kept.
+    #[must_use]
+    pub fn with_parameters(self, parameters: Option<ParameterFile>) -> Self {
+        Self { parameters, ..self }
+    }
+
+    /// Saves a setting that was set, once the vehicle is disarmed.
+    fn save_parameters(&mut self) {
+        let Some(file) = &mut self.parameters else { return };
+        let armed = self.flight.autopilot.inner.commander_output().armed;
+        if let Err(error) = file.save_next(self.flight.autopilot.ground.settings_mut(), armed) {
+            self.parameters = None;
+            self.say(Tone::Refused, format!("parameters are not kept any more: {error:#}"));
+        }
     }
 
     /// The flight.
@@ -120,6 +139,7 @@ impl Session {
     pub fn tick(&mut self) {
         self.flight.step(&mut ());
         self.take_failures();
+        self.save_parameters();
         self.watch.step(&self.flight);
         if events::is_due(self.flight.next_tick()) {
             self.look();

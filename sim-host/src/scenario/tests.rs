@@ -149,3 +149,23 @@ fn a_setting_of_another_kind_takes_the_place_of_the_files() {
     let Controller::Smc(control) = &tuned.controller else { panic!("sliding mode") };
     assert_eq!(control.x.reaching, firmware::control::sliding::ReachingLaw::Sat { rho: 1.0 });
 }
+
+#[test]
+fn parameters_take_the_place_of_what_the_scenario_gives_and_flow_back_into_it() {
+    let keys = ["params.SMC_X_LAW=5", "params.SMC_X_HORIZ=0.2", "params.MPC_XY_CRUISE=3", "params.MAV_SYS_ID=7"];
+    let scenario = Scenario::load("x500-step", &keys.map(str::to_owned)).expect("valid");
+    let config = scenario.flight_config();
+    assert_eq!(
+        config.position.axes[0].reaching,
+        firmware::control::sliding::ReachingLaw::ImplicitSgn { horizon_s: 0.2 }
+    );
+    assert_eq!(config.modes.cruise_m_s, 3.0);
+    let settings = scenario.settings();
+    assert!(settings.is_configured() && settings.system_id() == 7);
+    // As a file of parameters does it.
+    let plain = Scenario::load("x500-step", &[]).expect("valid");
+    let again = plain.clone().with_settings(&settings).expect("valid");
+    assert_eq!((again.flight_config(), again.settings()), (config, settings));
+    let same = plain.clone().with_settings(&plain.settings()).expect("valid");
+    assert_eq!(same, plain, "nothing is written down that is so already");
+}

@@ -61,6 +61,7 @@ impl Scenario {
         if f.plant == PlantKind::PaperDecoupled {
             self.controller.require_smc("the plant `paper-decoupled`")?;
         }
+        super::params::validate(&f.params, &self.unset_config())?;
         let config = self.flight_config();
         firmware::autopilot::Autopilot::new(&config).map_err(Refusal::from)?;
         if let (Trajectory::Spline(path), true) = (&f.trajectory, f.plant != PlantKind::PaperDecoupled) {
