@@ -1,7 +1,7 @@
 //! The rows of the table, in their fixed order.
 //!
-//! A row of the configuration names its field once: access and key both follow from it. New rows are appended as a new
-//! block at the end of [`SETTINGS`].
+//! A row of the configuration names its field once: access and key both follow from it. The store goes by names; a new
+//! row that is to leave the others' indices as they are is a new block at the end of [`SETTINGS`].
 
 use super::axes::{AXES, AXES_COUNT};
 use super::table::{Class, Domain, Place, Setting, Slot, Value};
@@ -246,7 +246,7 @@ pub const COUNT: usize = MODES.len()
     + ESTIMATOR.len()
     + STATION.len();
 
-/// Every setting. The order is fixed, because ground stations ask by index: new ones are added at the end.
+/// Every setting. The order does not change while the vehicle runs, because ground stations ask by index.
 pub static SETTINGS: [Setting; COUNT] =
     concatenated(&[&MODES, &FLIGHT, &AXES, &CONTROL, &AIRFRAME, &CHOICES, &ESTIMATOR, &STATION]);
 
