@@ -48,6 +48,26 @@ fn a_name_that_is_unknown_is_answered_with_the_one_that_was_meant() {
 }
 
 #[test]
+fn a_parameter_that_cannot_be_set_is_named_with_its_value_and_what_it_may_be() {
+    let folder = Folder::new("parameters");
+    for (setting, parts) in [
+        ("params.MPC_XY_CRUSE=3", &["`params.MPC_XY_CRUSE` is no parameter: did you mean `MPC_XY_CRUISE`?"][..]),
+        ("params.MPC_XY_CRUISE=1000", &["`params.MPC_XY_CRUISE` must be between 0.05 and 100, not 1000"]),
+        ("params.MAV_SYS_ID=1.5", &["`params.MAV_SYS_ID` must be a whole number from 1 to 250, not 1.5"]),
+        ("params.GL_AUTOPILOT=3", &["`params.GL_AUTOPILOT` must be 0 or 12, not 3"]),
+        ("params.COM_RC_IN_MODE=0", &["`params.COM_RC_IN_MODE` cannot be set"]),
+        ("params.MPC_XY_CRUISE=fast", &["`params.MPC_XY_CRUISE` must be a number, not \"fast\""]),
+        ("params.qqqq=3", &["`params.qqqq` is no parameter: docs/parameters.md lists them"]),
+        (
+            "params={GL_YAW_1=0,GL_YAW_2=0,GL_YAW_3=0,GL_YAW_4=0}",
+            &["`params`: the rotors cannot produce thrust and three torques"],
+        ),
+    ] {
+        refuses_settings(&folder, "helix", &[setting], parts);
+    }
+}
+
+#[test]
 fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
     let folder = Folder::new("settings");
     for (scenario, setting, parts) in [
@@ -57,18 +77,6 @@ fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
         ("helix", "control.x.lambda=nan", &["`control.x.lambda` must be a finite number, not nan"]),
         ("helix", "control.x={lambda=3}", &["`control.x.gain` is missing", "add `gain"]),
         ("helix", "control.w.lambda=3", &["`control.w` is no key", "roll, pitch, yaw, x, y, z"]),
-        ("helix", "params.MPC_XY_CRUSE=3", &["`params.MPC_XY_CRUSE` is no parameter: did you mean `MPC_XY_CRUISE`?"]),
-        ("helix", "params.MPC_XY_CRUISE=1000", &["`params.MPC_XY_CRUISE` must be between 0.05 and 100, not 1000"]),
-        ("helix", "params.MAV_SYS_ID=1.5", &["`params.MAV_SYS_ID` must be a whole number from 1 to 250, not 1.5"]),
-        ("helix", "params.GL_AUTOPILOT=3", &["`params.GL_AUTOPILOT` must be 0 or 12, not 3"]),
-        ("helix", "params.COM_RC_IN_MODE=0", &["`params.COM_RC_IN_MODE` cannot be set"]),
-        ("helix", "params.MPC_XY_CRUISE=fast", &["`params.MPC_XY_CRUISE` must be a number, not \"fast\""]),
-        ("helix", "params.qqqq=3", &["`params.qqqq` is no parameter: docs/parameters.md lists them"]),
-        (
-            "helix",
-            "params={GL_YAW_1=0,GL_YAW_2=0,GL_YAW_3=0,GL_YAW_4=0}",
-            &["`params`: the rotors cannot produce thrust and three torques"],
-        ),
         ("helix", "contrl.x.lambda=3", &["`contrl` is no key", "did you mean `control`?"]),
         ("helix", "control=3", &["`control` must be a table, not 3"]),
         ("outdoor-tour", "home=[47.0,8.0]", &["`home` must be a table, not an array"]),
