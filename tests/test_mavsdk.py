@@ -13,7 +13,8 @@ import socket
 
 import pytest
 
-from conftest import HANG_S, PREARM_CHECK, Simulator, Station
+from client import Client
+from conftest import HANG_S, PREARM_CHECK, Simulator
 
 # The longest until a vehicle is found, and that a call may take with MAVSDK's repetitions and a busy machine, s.
 CONNECT_S, CALL_S = 20, 15
@@ -132,7 +133,8 @@ SUBSCRIPTIONS = {
     # After 2020, before 2100.
     "unix_epoch_time": lambda time_us: 1_577_836_800 < time_us / 1e6 < 4_102_444_800,
     "velocity_ned": is_velocity,
-    "wind": lambda wind: 0 < norm(wind.wind_x_ned_m_s, wind.wind_y_ned_m_s) < 10,
+    # On the ground it has not felt any yet, and says so by the accuracy.
+    "wind": lambda wind: norm(wind.wind_x_ned_m_s, wind.wind_y_ned_m_s) < 10 and wind.horizontal_wind_speed_accuracy_m_s > 0,
 }
 
 # Rates can be asked for of these.
@@ -216,7 +218,7 @@ class Pilot:
     def __init__(self, sdk):
         self.loop = asyncio.new_event_loop()
         self.sdk = sdk
-        self.raw = Station()
+        self.raw = Client()
         port = free_port(socket.SOCK_DGRAM)
         self.simulator = Simulator(self.raw, "--onboard", f"127.0.0.1:{port}", "--speed", "3")
         self.do(sdk.connect(f"udpin://127.0.0.1:{port}"), HANG_S)

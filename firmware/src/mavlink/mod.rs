@@ -65,6 +65,7 @@ use crate::commander::{Answers, Commands, Events, Mode, Origin};
 use crate::estimator::status::Status;
 use crate::failure::{Failures, Injectable};
 use crate::frames::Origin as MapOrigin;
+use crate::sensors::BatterySample;
 use crate::settings::{Changes, Marks, Settings};
 use crate::signals::{NavState, Tick};
 use crate::watchdog::Hung;
@@ -149,6 +150,11 @@ pub struct GroundInput {
 }
 
 impl GroundInput {
+    /// The last sample of the battery monitor, unless it is old.
+    fn battery(&self) -> Option<BatterySample> {
+        self.estimator.as_ref().filter(|status| status.battery.healthy)?.battery_sample
+    }
+
     /// Where GNSS has found the local frame's origin to be.
     fn origin(&self) -> Option<MapOrigin> {
         self.estimator.as_ref()?.origin

@@ -29,6 +29,8 @@ pub(crate) use self::marks::Marks;
 use crate::airframe::Airframe;
 use crate::config::FlightConfig;
 use crate::control::mixer::Mixer;
+use crate::math;
+use crate::sensors::BatterySample;
 use crate::validate::ConfigError;
 
 /// Index of the airframe's number; 0 for a vehicle that was never configured.
@@ -37,6 +39,14 @@ pub const SYS_AUTOSTART: usize = rows::index_of("SYS_AUTOSTART");
 pub const MAV_SYS_ID: usize = rows::index_of("MAV_SYS_ID");
 /// Index of the `MAV_AUTOPILOT` that ground stations are told.
 pub const GL_AUTOPILOT: usize = rows::index_of("GL_AUTOPILOT");
+/// Index of the battery's number of cells.
+pub const BAT1_N_CELLS: usize = rows::index_of("BAT1_N_CELLS");
+/// Index of the voltage of an empty cell.
+pub const BAT1_V_EMPTY: usize = rows::index_of("BAT1_V_EMPTY");
+/// Index of the voltage of a full cell.
+pub const BAT1_V_CHARGED: usize = rows::index_of("BAT1_V_CHARGED");
+/// Index of the resistance of a cell.
+pub const BAT1_R_INTERNAL: usize = rows::index_of("BAT1_R_INTERNAL");
 /// Index of the height of a take-off for which none is given.
 pub const MIS_TAKEOFF_ALT: usize = rows::index_of("MIS_TAKEOFF_ALT");
 /// Index of the greatest tilt.
@@ -341,6 +351,16 @@ impl Settings {
     /// The `MAV_AUTOPILOT` that ground stations are told.
     pub fn autopilot(&self) -> u8 {
         self.get(GL_AUTOPILOT).and_then(|value| u8::try_from(value.int()).ok()).unwrap_or(0)
+    }
+
+    /// Charge of the battery, as a fraction, by its voltage at rest: linear between the voltages that count as empty and as
+    /// full. `None` while the number of cells is not set.
+    pub fn charge(&self, battery: &BatterySample) -> Option<f32> {
+        let real = |index| self.get(index).map(Value::real);
+        let cells = self.get(BAT1_N_CELLS).map(Value::int).filter(|cells| *cells > 0)? as f32;
+        let (empty, full) = (real(BAT1_V_EMPTY)?, real(BAT1_V_CHARGED)?);
+        let at_rest = battery.voltage_v / cells + battery.current_a * real(BAT1_R_INTERNAL)?;
+        (full > empty && at_rest.is_finite()).then(|| math::clamp((at_rest - empty) / (full - empty), 0.0, 1.0))
     }
 
     /// Height of a take-off for which none is given, m.

@@ -200,7 +200,7 @@ const ESTIMATOR: [Setting; 22] = reals! { Estimator "estimator":
 const ID: Domain = Domain::Whole(0, 16_777_215);
 
 /// What ground stations look for. They read most of them to show the vehicle's state; it cannot be changed here.
-const STATION: [Setting; 31] = own! {
+const STATION: [Setting; 34] = own! {
     "MAV_SYS_ID", "", Int(1), Domain::Whole(1, 250), Boot, "MAVLink system of this vehicle";
     "GL_AUTOPILOT", "", Int(12), Domain::OneOf(&[0, 12]), Boot, "Autopilot that ground stations are told: 12 PX4, 0 generic";
     "SYS_AUTOSTART", "", Int(0), Domain::Whole(0, 9_999_999), Disarmed, "Airframe; 0 for a vehicle that is not configured, and does not arm";
@@ -222,7 +222,7 @@ const STATION: [Setting; 31] = own! {
     "COM_FLTMODE5", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 5: none. No effect yet";
     "COM_FLTMODE6", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 6: none. No effect yet";
     "BAT1_SOURCE", "", Int(0), Domain::Whole(-1, 2), ReadOnly, "Source of battery data: 0, the power module";
-    "BAT1_N_CELLS", "", Int(0), Domain::Whole(0, 16), ReadOnly, "Cells of the battery: 0, unknown. No effect yet";
+    "BAT1_N_CELLS", "", Int(0), Domain::Whole(0, 16), InFlight, "Cells of the battery, by which its charge is told: 0, unknown";
     "RTL_LAND_DELAY", "s", Real(0.0), Domain::Real(Range::Within(-1.0, 300.0)), ReadOnly, "Wait over home before landing: none";
     "RTL_DESCEND_ALT", "m", Real(0.0), Domain::Real(Range::Within(0.0, 100.0)), ReadOnly, "Height over home to wait at before landing: none";
     "NAV_DLL_ACT", "", Int(0), Domain::Whole(0, 6), ReadOnly, "What is done without a ground station: 0, nothing. No effect yet";
@@ -232,7 +232,11 @@ const STATION: [Setting; 31] = own! {
     "COM_LOW_BAT_ACT", "", Int(3), Domain::Whole(0, 3), ReadOnly, "What a low battery does: 3, returns, and lands when critical";
     "NAV_ACC_RAD", "m", Real(crate::commander::AT_PLACE_M), Domain::Real(Range::Within(0.05, 200.0)), ReadOnly, "Acceptance radius of a place";
     "MIS_TAKEOFF_ALT", "m", Real(crate::commander::TAKE_OFF_HEIGHT_M), Domain::Real(TAKE_OFF), InFlight, "Height of a take-off for which none is given";
+    "BAT1_V_EMPTY", "V", Real(3.6), Domain::Real(CELL), InFlight, "Voltage of a cell at rest that is told as empty";
+    "BAT1_V_CHARGED", "V", Real(4.05), Domain::Real(CELL), InFlight, "Voltage of a cell at rest that is told as full";
+    "BAT1_R_INTERNAL", "Ohm", Real(0.005), Domain::Real(Range::Within(0.0, 0.2)), InFlight, "Resistance of a cell, with its share of the wires";
 };
+const CELL: Range = Range::Within(2.0, 5.0);
 const TAKE_OFF: Range =
     Range::Within(*crate::commander::TAKE_OFF_HEIGHTS_M.start(), *crate::commander::TAKE_OFF_HEIGHTS_M.end());
 

@@ -365,3 +365,18 @@ proptest! {
         prop_assert_eq!(config.validate(), Ok(()));
     }
 }
+
+#[test]
+fn a_charge_is_told_once_the_cells_are_known_by_their_voltage_at_rest() {
+    let mut settings = Settings::of(&FlightConfig::default());
+    // Four cells of 3.825 V at rest, half way from 3.6 to 4.05 V, of which 20 A take 0.1 V each.
+    let battery = BatterySample { voltage_v: 4.0 * 3.725, current_a: 20.0 };
+    assert_eq!(settings.charge(&battery), None);
+    settings.set(BAT1_N_CELLS, Value::Int(4), false).expect("in range");
+    assert!(math::abs(settings.charge(&battery).expect("known") - 0.5) < 1e-5);
+    for (voltage_v, charge) in [(10.0, Some(0.0)), (17.0, Some(1.0)), (f32::NAN, None)] {
+        assert_eq!(settings.charge(&BatterySample { voltage_v, current_a: 0.0 }), charge);
+    }
+    settings.set(BAT1_V_CHARGED, Value::Real(3.0), false).expect("in range");
+    assert_eq!(settings.charge(&battery), None, "full is below empty");
+}

@@ -37,7 +37,7 @@ pub(super) fn sys_status(view: &View) -> SYS_STATUS_DATA {
     // Armed it has passed: scripts wait for this bit whatever the vehicle is doing.
     health.set(prearm, (input.armable || input.armed) && !input.health.hung.commander);
     health.set(GUIDED, !input.health.hung.outer);
-    let sample = battery(input);
+    let sample = input.battery();
     let [outer, commander, ground] = input.health.overruns.map(saturate);
     SYS_STATUS_DATA {
         onboard_control_sensors_present: present,
@@ -45,7 +45,7 @@ pub(super) fn sys_status(view: &View) -> SYS_STATUS_DATA {
         onboard_control_sensors_health: health,
         voltage_battery: sample.map_or(u16::MAX, millivolts),
         current_battery: sample.map_or(-1, centiamperes),
-        battery_remaining: -1,
+        battery_remaining: view.battery_percent,
         errors_comm: saturate(view.errors),
         errors_count1: saturate(input.health.refused_samples),
         errors_count2: outer,
@@ -53,12 +53,6 @@ pub(super) fn sys_status(view: &View) -> SYS_STATUS_DATA {
         errors_count4: ground,
         ..SYS_STATUS_DATA::DEFAULT
     }
-}
-
-/// The last sample of the battery monitor, unless it is old.
-fn battery(input: &GroundInput) -> Option<BatterySample> {
-    let status = input.estimator.as_ref().filter(|status| status.battery.healthy)?;
-    status.battery_sample
 }
 
 /// Bits of the sensors that are present, and of those that are healthy. On ideal state only the ground truth is
@@ -138,7 +132,7 @@ pub(super) fn estimator_status(view: &View) -> Option<ESTIMATOR_STATUS_DATA> {
 pub(super) fn battery_status(view: &View) -> Option<BATTERY_STATUS_DATA> {
     /// `MAV_BATTERY_FUNCTION_ALL`.
     const ALL: u8 = 1;
-    let sample = battery(view.input)?;
+    let sample = view.input.battery()?;
     // The voltages of the cells are not known: the whole stands in the first.
     let mut voltages = [u16::MAX; 10];
     if let Some(whole) = voltages.first_mut() {
@@ -151,7 +145,7 @@ pub(super) fn battery_status(view: &View) -> Option<BATTERY_STATUS_DATA> {
         current_battery: centiamperes(sample),
         current_consumed: -1,
         energy_consumed: -1,
-        battery_remaining: -1,
+        battery_remaining: view.battery_percent,
         ..BATTERY_STATUS_DATA::DEFAULT
     })
 }

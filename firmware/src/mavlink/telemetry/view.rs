@@ -64,6 +64,8 @@ pub(in crate::mavlink) struct View<'a> {
     pub(in crate::mavlink) map: Option<Map>,
     /// Who the vehicle is.
     pub(in crate::mavlink) us: Identity,
+    /// Charge of the battery, %; −1 while it is unknown.
+    pub(in crate::mavlink) battery_percent: i8,
     /// Height of a take-off that names none, m.
     pub(in crate::mavlink) take_off_m: f32,
     /// Bytes that this link has lost and frames whose checksum was wrong, since boot.
@@ -80,7 +82,16 @@ impl<'a> View<'a> {
         set_origin: Option<&Origin>,
     ) -> Self {
         let map = input.origin().as_ref().or(set_origin).map(Map::new);
-        Self { now, input, us, take_off_m: settings.take_off_height_m(), map, errors: 0 }
+        let charge = input.battery().and_then(|battery| settings.charge(&battery));
+        Self {
+            now,
+            input,
+            us,
+            battery_percent: charge.map_or(-1, |charge| (charge * 100.0 + 0.5) as i8),
+            take_off_m: settings.take_off_height_m(),
+            map,
+            errors: 0,
+        }
     }
 
     /// Time since boot, µs.
