@@ -14,8 +14,8 @@ use firmware::mavlink::port::Ports;
 use firmware::signals::TICK_S_EXACT;
 
 use crate::console::terminal::Terminal;
-use crate::console::{Control, Line, Session};
-use crate::link::UdpLinks;
+use crate::console::{Control, Line, Session, Tone};
+use crate::link::Links;
 use crate::stations::{LOST_AFTER, News};
 
 /// Allowed simulated seconds per second.
@@ -91,47 +91,115 @@ pub struct Flown {
 const BATCH: u64 = 100;
 /// Pause between two reads of the clock when on time.
 const NAP: Duration = Duration::from_millis(1);
+/// How often it is looked whether the speed is reached, and the part of it below which it is not.
+const LOOK_EVERY: Duration = Duration::from_secs(3);
+const LAGS_BELOW: f64 = 0.95;
 /// Greatest delay that is caught up, s of wall time.
 const CATCH_UP_S: f64 = 0.1;
 
-/// Flies until `stop` returns true, or a line ends the program.
+/// A vehicle and its links.
+#[derive(Debug)]
+pub struct Member<V> {
+    /// The vehicle, in its own world.
+    pub vehicle: V,
+    /// Its links.
+    pub links: Links,
+}
+
+impl<V: Vehicle> Member<V> {
+    /// Reads its sockets, and tells it of ground stations that have come or gone.
+    fn listen(&mut self) {
+        self.links.receive();
+        self.links.forget_silent();
+        while let Some(news) = self.links.news() {
+            self.vehicle.notice(&news);
+        }
+    }
+
+    fn tick(&mut self) {
+        self.links.deliver(self.vehicle.ports());
+        self.vehicle.tick();
+        self.links.send(self.vehicle.ports());
+        if let Some(frames) = self.vehicle.truth() {
+            self.links.tell(&frames);
+        }
+    }
+}
+
+/// Vehicles that fly by one clock, and the one that typed lines are for.
+#[derive(Debug)]
+struct Fleet<'a, V> {
+    members: &'a mut [Member<V>],
+    selected: usize,
+}
+
+impl<V: Vehicle> Fleet<'_, V> {
+    fn tick(&mut self) {
+        self.members.iter_mut().for_each(Member::tick);
+    }
+
+    /// Executes a line: `vehicle 2` selects one, where there are several; any other is the selected one's.
+    fn enter(&mut self, line: &str, terminal: &mut impl Terminal) -> Option<Control> {
+        let several = self.members.len() > 1;
+        if let Some(number) = line.trim().strip_prefix("vehicle").filter(|_| several) {
+            let count = self.members.len();
+            let text = match number.trim().parse::<usize>() {
+                Ok(number) if (1..=count).contains(&number) => {
+                    self.selected = number - 1;
+                    format!("lines are for vehicle {number}")
+                }
+                _ => format!("there are the vehicles 1 to {count}; lines are for vehicle {}", self.selected + 1),
+            };
+            terminal.print(&Line { t_s: None, tone: Tone::Plain, text });
+            return None;
+        }
+        self.members.get_mut(self.selected)?.vehicle.enter(line)
+    }
+
+    /// Prints what the vehicles have said, with their number where there are several.
+    fn print(&mut self, terminal: &mut impl Terminal) {
+        let several = self.members.len() > 1;
+        for (number, member) in (1..).zip(self.members.iter_mut()) {
+            for mut line in member.vehicle.take_lines() {
+                if several {
+                    line.text = format!("{number}: {}", line.text);
+                }
+                terminal.print(&line);
+            }
+        }
+    }
+}
+
+/// Flies until `stop` returns true, or a line ends the program. All vehicles fly in step.
 ///
 /// # Errors
 /// A speed outside of [`SPEEDS`].
-pub fn serve(
-    vehicle: &mut impl Vehicle,
-    links: &mut UdpLinks,
+pub fn serve<V: Vehicle>(
+    members: &mut [Member<V>],
     terminal: &mut impl Terminal,
     pacing: Pacing,
     stop: impl Fn() -> bool,
 ) -> anyhow::Result<Flown> {
     let (low, high) = (SPEEDS.start(), SPEEDS.end());
     ensure!(SPEEDS.contains(&pacing.speed), "--speed must be between {low} and {high}, not {}", pacing.speed);
+    let mut fleet = Fleet { members, selected: 0 };
     let (start, mut ticks) = (Instant::now(), 0);
     let mut pacer = Pacer::starting(start, pacing.speed);
     while !stop() {
-        links.receive();
-        links.forget_silent();
-        while let Some(news) = links.news() {
-            vehicle.notice(&news);
-        }
-        match terminal.next_line().and_then(|line| vehicle.enter(&line)) {
+        fleet.members.iter_mut().for_each(Member::listen);
+        match terminal.next_line().and_then(|line| fleet.enter(&line, terminal)) {
             Some(Control::Quit) => break,
             Some(Control::Speed(speed)) => pacer = Pacer::starting(Instant::now(), speed),
             None => {}
         }
         let due = pacer.due(Instant::now()).min(BATCH);
-        for _ in 0..due {
-            links.deliver(vehicle.ports());
-            vehicle.tick();
-            links.send(vehicle.ports());
-            if let Some(frames) = vehicle.truth() {
-                links.tell(&frames);
-            }
-        }
+        (0..due).for_each(|_| fleet.tick());
         pacer.done += due;
         ticks += due;
-        vehicle.take_lines().iter().for_each(|line| terminal.print(line));
+        fleet.print(terminal);
+        if let Some(text) = pacer.news(Instant::now()) {
+            terminal.print(&Line { t_s: None, tone: Tone::Plain, text });
+        }
         if due < BATCH {
             sleep(NAP);
         }
@@ -148,12 +216,37 @@ struct Pacer {
     done: u64,
     /// Ticks dropped.
     skipped: u64,
+    /// When it was last looked whether the speed is reached, and the ticks flown by then.
+    looked: (Instant, u64),
+    /// Whether it was not.
+    lags: bool,
 }
 
 impl Pacer {
     /// Starts at a time, with a speed.
     fn starting(start: Instant, speed: f64) -> Self {
-        Self { start, speed, done: 0, skipped: 0 }
+        Self { start, speed, done: 0, skipped: 0, looked: (start, 0), lags: false }
+    }
+
+    /// Whether the speed is reached or not, when that has changed over the last seconds.
+    fn news(&mut self, now: Instant) -> Option<String> {
+        let (then, done) = self.looked;
+        let past = now.saturating_duration_since(then);
+        if past < LOOK_EVERY {
+            return None;
+        }
+        let reached = (self.done - done) as f64 * TICK_S_EXACT / past.as_secs_f64();
+        let lags = reached < LAGS_BELOW * self.speed;
+        self.looked = (now, self.done);
+        if core::mem::replace(&mut self.lags, lags) == lags {
+            return None;
+        }
+        let speed = self.speed;
+        Some(if lags {
+            format!("runs at {reached:.2} x real time, not at {speed}: this machine does no more now")
+        } else {
+            format!("runs at {speed} x real time again")
+        })
     }
 
     /// Ticks to fly until `now`. Ticks beyond [`CATCH_UP_S`] are dropped.
@@ -173,7 +266,6 @@ mod tests {
     use std::sync::atomic::{AtomicBool, Ordering};
 
     use super::*;
-    use crate::console::Tone;
 
     /// Counts ticks; stops itself in the end.
     struct Counter<'a> {
@@ -244,33 +336,32 @@ mod tests {
         Counter { ticks: 0, end, ports: Ports::new(), said: Vec::new(), stop }
     }
 
-    fn unheard() -> UdpLinks {
-        UdpLinks::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port")
+    /// A vehicle that nobody hears.
+    fn alone<V>(vehicle: V) -> [Member<V>; 1] {
+        let links = Links::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port");
+        [Member { vehicle, links }]
     }
 
     #[test]
     fn a_tenth_of_a_second_takes_no_less() {
         let stop = AtomicBool::new(false);
-        let mut vehicle = counter(100, &stop);
+        let mut fleet = alone(counter(100, &stop));
         let start = Instant::now();
-        serve(&mut vehicle, &mut unheard(), &mut Script::default(), Pacing { speed: 1.0 }, || {
-            stop.load(Ordering::Relaxed)
-        })
-        .expect("flies");
+        serve(&mut fleet, &mut Script::default(), Pacing { speed: 1.0 }, || stop.load(Ordering::Relaxed))
+            .expect("flies");
         let took = start.elapsed();
         assert!(took >= Duration::from_millis(100), "{took:?}");
-        assert!(vehicle.ticks < 100 + BATCH);
+        assert!(fleet[0].vehicle.ticks < 100 + BATCH);
     }
 
     #[test]
     fn lines_are_carried_out_and_what_is_said_is_printed() {
         let stop = AtomicBool::new(false);
-        let mut vehicle = counter(u64::MAX, &stop);
+        let mut fleet = alone(counter(u64::MAX, &stop));
         let mut script = Script::typing(&["", "nonsense", "faster", "end"]);
         let flown =
-            serve(&mut vehicle, &mut unheard(), &mut script, Pacing { speed: 10.0 }, || stop.load(Ordering::Relaxed))
-                .expect("it ends");
-        assert_eq!(flown.simulated_s, vehicle.ticks as f64 * TICK_S_EXACT);
+            serve(&mut fleet, &mut script, Pacing { speed: 10.0 }, || stop.load(Ordering::Relaxed)).expect("it ends");
+        assert_eq!(flown.simulated_s, fleet[0].vehicle.ticks as f64 * TICK_S_EXACT);
         let printed: Vec<&str> = script.printed.iter().map(|line| line.text.as_str()).collect();
         assert_eq!(printed, ["", "nonsense"]);
     }
@@ -278,11 +369,40 @@ mod tests {
     #[test]
     fn a_line_can_end_it() {
         let stop = AtomicBool::new(false);
-        let mut vehicle = counter(u64::MAX, &stop);
+        let mut fleet = alone(counter(u64::MAX, &stop));
         let mut script = Script::typing(&["nonsense", "quit", "more"]);
-        serve(&mut vehicle, &mut unheard(), &mut script, Pacing { speed: 1.0 }, || stop.load(Ordering::Relaxed))
-            .expect("it ends");
+        serve(&mut fleet, &mut script, Pacing { speed: 1.0 }, || stop.load(Ordering::Relaxed)).expect("it ends");
         assert_eq!((script.typed.len(), script.printed.len()), (1, 1));
+    }
+
+    #[test]
+    fn several_vehicles_fly_in_step_and_lines_are_for_the_one_selected() {
+        let stop = AtomicBool::new(false);
+        let [one] = alone(counter(u64::MAX, &stop));
+        let [two] = alone(counter(u64::MAX, &stop));
+        let mut fleet = vec![one, two];
+        let mut script = Script::typing(&["first", "vehicle 2", "second", "vehicle 3", "vehicle", "quit"]);
+        serve(&mut fleet, &mut script, Pacing { speed: 10.0 }, || stop.load(Ordering::Relaxed)).expect("it ends");
+        let printed: Vec<&str> = script.printed.iter().map(|line| line.text.as_str()).collect();
+        let wrong = "there are the vehicles 1 to 2; lines are for vehicle 2";
+        assert_eq!(printed, ["1: first", "lines are for vehicle 2", "2: second", wrong, wrong]);
+        assert_eq!(fleet[0].vehicle.ticks, fleet[1].vehicle.ticks);
+    }
+
+    #[test]
+    fn a_speed_that_is_not_reached_is_told_once_and_so_is_that_it_is_again() {
+        let start = Instant::now();
+        let mut pacer = Pacer::starting(start, 10.0);
+        let mut at = |seconds: u64, done: u64| {
+            pacer.done += done;
+            pacer.news(start + Duration::from_secs(seconds))
+        };
+        assert_eq!(at(1, 10_000), None, "too early to say");
+        assert_eq!(at(3, 20_000), None, "reached");
+        let text = "runs at 5.00 x real time, not at 10: this machine does no more now";
+        assert_eq!(at(6, 15_000).as_deref(), Some(text));
+        assert_eq!(at(9, 15_000), None, "told");
+        assert_eq!(at(12, 30_000).as_deref(), Some("runs at 10 x real time again"));
     }
 
     #[test]
@@ -304,9 +424,8 @@ mod tests {
         let stop = AtomicBool::new(true);
         for speed in [0.0, -1.0, 1e4, f64::NAN, f64::INFINITY] {
             let mut script = Script::default();
-            let flown = serve(&mut counter(1, &stop), &mut unheard(), &mut script, Pacing { speed }, || {
-                stop.load(Ordering::Relaxed)
-            });
+            let flown =
+                serve(&mut alone(counter(1, &stop)), &mut script, Pacing { speed }, || stop.load(Ordering::Relaxed));
             let refusal = flown.expect_err("refused").to_string();
             assert!(refusal.contains("between 0.01 and 1000"), "{refusal}");
         }

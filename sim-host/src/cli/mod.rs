@@ -168,6 +168,15 @@ fn listen_address(text: &str) -> Result<SocketAddr, String> {
     link::address::parse(text, link::LISTEN_PORT).map_err(|error| format!("{error:#}"))
 }
 
+fn tcp_address(text: &str) -> Result<SocketAddr, String> {
+    link::address::parse(text, link::TCP_PORT).map_err(|error| format!("{error:#}"))
+}
+
+fn vehicles(text: &str) -> Result<u16, String> {
+    let count = text.parse().ok().filter(|count| (1..=250).contains(count));
+    count.ok_or_else(|| "vehicles are a whole number from 1 to 250".to_owned())
+}
+
 fn peer_address(text: &str) -> Result<SocketAddr, String> {
     address_to_send_to(text, link::PEER_PORT)
 }
@@ -280,6 +289,15 @@ struct ServeArgs {
     /// Address of a program that is told more, as one on board: MAVSDK. Repeatable.
     #[arg(long = "onboard", value_name = "ADDRESS", value_parser = onboard_address)]
     onboard: Vec<SocketAddr>,
+    /// Address on which ground stations can connect by TCP: `HOST:PORT`, or `HOST` for port 5760.
+    #[arg(long, value_name = "ADDRESS", value_parser = tcp_address)]
+    tcp: Option<SocketAddr>,
+    /// MAVLink system of the vehicle, 1 to 250, in place of the scenario's.
+    #[arg(long, value_name = "N", value_parser = whole(1..=250_u32), allow_negative_numbers = true)]
+    sysid: Option<u32>,
+    /// Vehicles to fly by one clock: each has the next system, seed, `--listen` and `--onboard` port.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = vehicles, allow_negative_numbers = true)]
+    vehicles: u16,
     /// Simulated seconds per second, 0.01 to 1000.
     #[arg(long, default_value_t = 1.0, value_parser = number(SPEEDS), allow_negative_numbers = true)]
     speed: f64,

@@ -3,10 +3,11 @@
 use std::net::SocketAddr;
 use std::path::Path;
 
-use anyhow::{Context as _, Result};
+use anyhow::{Context as _, Result, anyhow, ensure};
 use firmware::config::Start;
 use firmware::mavlink::port::Profile;
 use firmware::settings::store::Loaded;
+use firmware::settings::{MAV_SYS_ID, Value};
 
 use super::ServeArgs;
 use super::names::{self, Kind};
@@ -15,45 +16,94 @@ use crate::console::terminal::Stdio;
 use crate::flash_file::ParameterFile;
 use crate::flight;
 use crate::interrupt::{self, Interrupted};
-use crate::link::{DEFAULT_PEERS, Peer, UdpLinks};
+use crate::link::{DEFAULT_PEERS, Links, Peer};
 use crate::scenario::Scenario;
-use crate::serve::{Flown, Pacing, serve};
+use crate::serve::{Flown, Member, Pacing, serve};
+
+/// Distance between the homes of several vehicles, m: to the east, so that they stand side by side on a map.
+const APART_M: f64 = 5.0;
+/// Metres of a degree of latitude.
+const METRES_A_DEGREE: f64 = 111_320.0;
 
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
     names::require(Kind::Scenario, &args.scenario)?;
-    let mut scenario = Scenario::load(&args.scenario, &args.settings.set)?;
+    let mut set = args.settings.set.clone();
+    set.extend(args.sysid.map(|system| format!("params.MAV_SYS_ID={system}")));
+    let mut scenario = Scenario::load(&args.scenario, &set)?;
     scenario.require_rigid_body()?;
-    super::note_mismatches(&scenario, &args.settings.set);
+    super::note_mismatches(&scenario, &set);
     let mut parameters = None;
     if let Some(path) = &args.params {
+        ensure!(args.vehicles == 1, "--params is one vehicle's file: leave out --vehicles {}", args.vehicles);
         let mut settings = scenario.settings();
         let (file, loaded) = ParameterFile::open(path, &mut settings)?;
         scenario = scenario.with_settings(&settings).with_context(|| format!("--params {}", path.display()))?;
         eprintln!("{}", kept(path, &loaded));
         parameters = Some(file);
     }
-    let flight = flight::lockstep(&scenario, args.seed, flight::rigid_body(&scenario, args.seed))?;
-    let mut session = Session::new(flight).with_parameters(parameters).telling_the_truth(&scenario.file.home);
-    let peers = peers(args);
-    let mut links = UdpLinks::bind(args.listen, &peers)?;
-    eprint!("{}", greeting(&scenario, links.local_address()?, &peers));
+    let mut fleet = Vec::new();
+    for number in 0..args.vehicles {
+        fleet.push(member(&scenario, args, number)?);
+    }
+    if let Some(first) = fleet.first_mut() {
+        eprint!("{}", greeting(&scenario, first.links.local_address()?, &peers(args, 0)));
+        first.vehicle.keep_parameters(parameters);
+    }
+    if args.vehicles > 1 {
+        eprintln!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles);
+    }
     interrupt::listen();
     let mut terminal = Stdio::new();
-    let flown = serve(&mut session, &mut links, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
+    let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
     drop(terminal);
     eprintln!("{}", farewell(&flown));
     if interrupt::requested() { Err(Interrupted.into()) } else { Ok(()) }
 }
 
-/// Whom the vehicle sends to without having heard of them.
-fn peers(args: &ServeArgs) -> Vec<Peer> {
-    if args.peers.is_empty() && args.onboard.is_empty() {
-        return DEFAULT_PEERS.to_vec();
+/// The vehicle with this number, from 0: each has the next system, seed and ports, and its home beside the last one's.
+fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<Session>> {
+    let mut scenario = scenario.clone();
+    if number > 0 {
+        let mut settings = scenario.settings();
+        let system = i32::from(settings.system_id()) + i32::from(number);
+        settings.set(MAV_SYS_ID, Value::Int(system), false).map_err(|_| {
+            anyhow!("--vehicles {}: there is no MAVLink system {system}: they go to 250", args.vehicles)
+        })?;
+        scenario = scenario.with_settings(&settings)?;
+        let home = &mut scenario.file.home;
+        let degree_m = METRES_A_DEGREE * libm::cos(home.latitude_deg.to_radians()).max(1e-3);
+        home.longitude_deg += f64::from(number) * APART_M / degree_m;
     }
+    let seed = args.seed.wrapping_add(number.into());
+    let flight = flight::lockstep(&scenario, seed, flight::rigid_body(&scenario, seed))?;
+    let vehicle = Session::new(flight).telling_the_truth(&scenario.file.home);
+    let mut links = Links::bind(further(args.listen, number), &peers(args, number))?;
+    if let Some(listen) = args.tcp {
+        let server = links.serve_tcp(further(listen, number))?;
+        eprintln!("Ground stations can connect by TCP to {server}.");
+    }
+    Ok(Member { vehicle, links })
+}
+
+/// The address of the vehicle with this number; a port that the system chooses stays that.
+fn further(address: SocketAddr, number: u16) -> SocketAddr {
+    let port = if address.port() == 0 { 0 } else { address.port().saturating_add(number) };
+    SocketAddr::new(address.ip(), port)
+}
+
+/// Whom a vehicle sends to without having heard of them: all the same ground stations, each its own programs.
+fn peers(args: &ServeArgs, number: u16) -> Vec<Peer> {
     let named = |addresses: &[SocketAddr], profile| {
         addresses.iter().map(move |address| Peer { address: *address, profile }).collect::<Vec<_>>()
     };
-    [named(&args.peers, Profile::Normal), named(&args.onboard, Profile::Onboard)].concat()
+    let mut peers = [named(&args.peers, Profile::Normal), named(&args.onboard, Profile::Onboard)].concat();
+    if peers.is_empty() {
+        peers = DEFAULT_PEERS.to_vec();
+    }
+    for peer in peers.iter_mut().filter(|peer| peer.profile == Profile::Onboard) {
+        peer.address = further(peer.address, number);
+    }
+    peers
 }
 
 /// What flies, and how to talk to it.

@@ -90,10 +90,9 @@ impl Session {
         Some(stream.frames(tick, &self.flight.plant().motion(), &self.flight.specific_force()))
     }
 
-    /// The same, with a file in which its settings are kept.
-    #[must_use]
-    pub fn with_parameters(self, parameters: Option<ParameterFile>) -> Self {
-        Self { parameters, ..self }
+    /// Keeps its settings in a file from now on.
+    pub fn keep_parameters(&mut self, parameters: Option<ParameterFile>) {
+        self.parameters = parameters;
     }
 
     /// Saves a setting that was set, once the vehicle is disarmed.

@@ -1,19 +1,22 @@
-//! The vehicle's links over UDP: each peer has one of its own, bytes in datagrams either way.
+//! The vehicle's links over UDP and TCP: each peer has one of its own.
 //!
-//! Owns the socket and who has which link: the configured peers for good, and up to [`LINKS`] in all every other address
-//! that a valid frame has come from. A datagram that cannot be sent is dropped, as the network may drop it too.
+//! Owns the sockets and who has which link: the configured peers for good, and up to [`LINKS`] in all every other address
+//! that a valid frame has come from, and everyone who connects. A datagram that cannot be sent is dropped, as the network
+//! may drop it too.
 
 pub mod address;
 pub mod frames;
+mod tcp;
 
 use std::io::ErrorKind;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener, UdpSocket};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, bail, ensure};
 use firmware::mavlink::port::{LINKS, Ports, Profile, SENT_CAPACITY};
 
 use self::address::{cannot_listen, elsewhere, is_own};
+use self::tcp::Connection;
 use crate::stations::{News, Stations};
 
 /// The default address on which `serve` listens.
@@ -40,6 +43,8 @@ impl Peer {
 
 /// The port of each, where an address is given without one.
 pub const LISTEN_PORT: u16 = 14580;
+/// See [`LISTEN_PORT`].
+pub const TCP_PORT: u16 = 5760;
 /// See [`LISTEN_PORT`].
 pub const PEER_PORT: u16 = 14550;
 /// See [`LISTEN_PORT`].
@@ -70,24 +75,46 @@ struct Occupant {
     opened: bool,
 }
 
+impl Occupant {
+    fn guest(address: SocketAddr, now: Instant) -> Self {
+        Self { address, profile: Profile::Normal, guest: true, heard: now, opened: false }
+    }
+}
+
 /// A link: who is there, and what has come from there.
 #[derive(Debug, Default)]
 struct Slot {
     peer: Option<Occupant>,
+    /// The connection of a peer that has come by TCP.
+    connection: Option<Connection>,
     inbox: Vec<u8>,
     lost: u32,
 }
 
-/// A UDP socket that never blocks, and its peers.
+impl Slot {
+    /// Sends whole frames to whoever is there.
+    fn send(&mut self, socket: &UdpSocket, frames: &[u8]) {
+        match (&mut self.connection, &self.peer) {
+            (Some(connection), _) => connection.write(frames),
+            (None, Some(peer)) => frames::datagrams(frames, SENT_MAX).for_each(|piece| {
+                let _ = socket.send_to(piece, peer.address);
+            }),
+            (None, None) => {}
+        }
+    }
+}
+
+/// Sockets that never block, and their peers.
 #[derive(Debug)]
-pub struct UdpLinks {
+pub struct Links {
     socket: UdpSocket,
+    server: Option<TcpListener>,
     slots: [Slot; LINKS],
     stations: Stations,
     datagram: Vec<u8>,
 }
 
-impl UdpLinks {
+impl Links {
     /// Listens on an address; what is sent goes to `peers`, and to whoever sends a valid frame.
     ///
     /// # Errors
@@ -121,7 +148,19 @@ impl UdpLinks {
             let Peer { address, profile } = *peer;
             slot.peer = Some(Occupant { address, profile, guest: false, heard: Instant::now(), opened: false });
         }
-        Ok(Self { socket, slots, stations: Stations::default(), datagram: vec![0; DATAGRAM_MAX] })
+        Ok(Self { socket, server: None, slots, stations: Stations::default(), datagram: vec![0; DATAGRAM_MAX] })
+    }
+
+    /// Takes connections over TCP too.
+    ///
+    /// # Errors
+    /// One line that names the address if it cannot be listened on.
+    pub fn serve_tcp(&mut self, listen: SocketAddr) -> anyhow::Result<SocketAddr> {
+        let server = TcpListener::bind(listen).with_context(|| format!("cannot listen on TCP address {listen}"))?;
+        server.set_nonblocking(true).with_context(|| format!("cannot use TCP address {listen}"))?;
+        let address = server.local_addr().context("the server has no address")?;
+        self.server = Some(server);
+        Ok(address)
     }
 
     /// The address on which it listens; with the port that was assigned for port 0.
@@ -144,6 +183,36 @@ impl UdpLinks {
             }
         }
         self.datagram = datagram;
+        self.accept();
+        self.read_connections();
+    }
+
+    /// Gives a link to everyone who has connected. Who finds none free is turned away.
+    fn accept(&mut self) {
+        while let Some((stream, address)) = self.server.as_ref().and_then(|server| server.accept().ok()) {
+            let now = Instant::now();
+            let Some(connection) = Connection::new(stream) else { continue };
+            if let Some(slot) = self.place_for_guest(now).and_then(|number| self.slots.get_mut(number)) {
+                *slot =
+                    Slot { peer: Some(Occupant::guest(address, now)), connection: Some(connection), ..Slot::default() };
+            }
+        }
+    }
+
+    fn read_connections(&mut self) {
+        let now = Instant::now();
+        for slot in &mut self.slots {
+            let (Some(connection), Some(peer)) = (&mut slot.connection, &mut slot.peer) else { continue };
+            let before = slot.inbox.len();
+            if !connection.read(&mut slot.inbox, INBOX_MAX) {
+                *slot = Slot::default();
+                continue;
+            }
+            if let Some(frame) = frames::whole(&slot.inbox[before..]).find(|frame| frame.valid) {
+                peer.heard = now;
+                self.stations.hear(peer.address, frame.system, now);
+            }
+        }
     }
 
     /// Puts a datagram's whole frames into its sender's inbox. Whoever has sent no valid frame yet is nobody.
@@ -172,9 +241,7 @@ impl UdpLinks {
         };
         let slot = self.slots.get_mut(number)?;
         if known.is_none() {
-            let profile = Profile::Normal;
-            let peer = Occupant { address: from, profile, guest: true, heard: now, opened: false };
-            *slot = Slot { peer: Some(peer), ..Slot::default() };
+            *slot = Slot { peer: Some(Occupant::guest(from, now)), ..Slot::default() };
         }
         if let Some(peer) = slot.peer.as_mut().filter(|_| valid) {
             peer.heard = now;
@@ -224,25 +291,16 @@ impl UdpLinks {
 
     /// Sends each link's bytes to its peer. Nobody listening is not an error.
     pub fn send(&mut self, ports: &Ports) {
-        for (slot, port) in self.slots.iter().zip(ports) {
-            if !port.has_output() {
-                continue;
-            }
-            let mut bytes = [0; SENT_CAPACITY];
-            let bytes = port.take(&mut bytes);
-            if let Some(peer) = slot.peer {
-                frames::datagrams(bytes, SENT_MAX).for_each(|piece| {
-                    let _ = self.socket.send_to(piece, peer.address);
-                });
+        for (slot, port) in self.slots.iter_mut().zip(ports) {
+            if port.has_output() {
+                slot.send(&self.socket, port.take(&mut [0; SENT_CAPACITY]));
             }
         }
     }
 
     /// Sends frames that come from no link to every peer.
-    pub fn tell(&self, frames: &[u8]) {
-        for peer in self.slots.iter().filter_map(|slot| slot.peer) {
-            let _ = self.socket.send_to(frames, peer.address);
-        }
+    pub fn tell(&mut self, frames: &[u8]) {
+        self.slots.iter_mut().for_each(|slot| slot.send(&self.socket, frames));
     }
 
     /// Forgets guests that have gone.
@@ -251,7 +309,8 @@ impl UdpLinks {
     }
 
     fn forget_at(&mut self, now: Instant) {
-        for slot in &mut self.slots {
+        // Who is connected is there.
+        for slot in self.slots.iter_mut().filter(|slot| slot.connection.is_none()) {
             if slot.peer.is_some_and(|peer| peer.guest && now.saturating_duration_since(peer.heard) > FORGET_AFTER) {
                 *slot = Slot::default();
             }

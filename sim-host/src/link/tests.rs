@@ -1,3 +1,6 @@
+use std::io::{Read as _, Write as _};
+use std::net::TcpStream;
+
 use glissade_dialect::HEARTBEAT_DATA;
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
 
@@ -33,14 +36,14 @@ fn hears(station: &UdpSocket) -> Vec<u8> {
 
 /// Links with a vehicle's ports.
 struct Bench {
-    links: UdpLinks,
+    links: Links,
     ports: Ports,
 }
 
 impl Bench {
     fn new(peers: &[SocketAddr]) -> Self {
         let peers: Vec<Peer> = peers.iter().copied().map(station_at).collect();
-        Self { links: UdpLinks::bind(local(), &peers).expect("a free port"), ports: Ports::new() }
+        Self { links: Links::bind(local(), &peers).expect("a free port"), ports: Ports::new() }
     }
 
     fn address(&self) -> SocketAddr {
@@ -130,9 +133,9 @@ fn a_peer_that_is_not_there_stops_nothing() {
 
 #[test]
 fn a_busy_address_is_named_with_a_remedy_in_one_line() {
-    let first = UdpLinks::bind(local(), &[]).expect("a free port");
+    let first = Links::bind(local(), &[]).expect("a free port");
     let address = first.local_address().expect("bound");
-    let error = format!("{:#}", UdpLinks::bind(address, &DEFAULT_PEERS).expect_err("in use"));
+    let error = format!("{:#}", Links::bind(address, &DEFAULT_PEERS).expect_err("in use"));
     // Both vehicles are system 1: a ground station that hears both takes them for one.
     let expected = format!(
         "{address} is in use (another `sim-host serve`?): stop it, or fly another vehicle for another ground \
@@ -144,10 +147,10 @@ fn a_busy_address_is_named_with_a_remedy_in_one_line() {
 
 #[test]
 fn nothing_can_be_sent_to_port_0_and_there_are_no_more_peers_than_links() {
-    let error = format!("{:#}", UdpLinks::bind(local(), &[station_at(local())]).expect_err("no port"));
+    let error = format!("{:#}", Links::bind(local(), &[station_at(local())]).expect_err("no port"));
     assert_eq!(error, "--peer 127.0.0.1:0 has no port from 1 to 65535: use 127.0.0.1:14550");
     let five: Vec<Peer> = (1..=5).map(|port| station_at(SocketAddr::from(([127, 0, 0, 1], port)))).collect();
-    let error = format!("{:#}", UdpLinks::bind(local(), &five).expect_err("too many"));
+    let error = format!("{:#}", Links::bind(local(), &five).expect_err("too many"));
     assert_eq!(error, "5 peers are given, but the vehicle has 4 links");
 }
 
@@ -156,7 +159,7 @@ fn its_own_address_is_no_peer() {
     let free = station().local_addr().expect("bound").port();
     for (listen, peer) in [("127.0.0.1", "127.0.0.1"), ("0.0.0.0", "127.0.0.1"), ("0.0.0.0", "127.0.0.2")] {
         let at = |ip: &str| SocketAddr::new(ip.parse().expect("an address"), free);
-        let error = format!("{:#}", UdpLinks::bind(at(listen), &[station_at(at(peer))]).expect_err("its own"));
+        let error = format!("{:#}", Links::bind(at(listen), &[station_at(at(peer))]).expect_err("its own"));
         let expected = format!(
             "--peer {peer}:{free} is where the vehicle itself listens: give the ground station's address, as \
              127.0.0.1:14550"
@@ -187,4 +190,29 @@ fn a_silent_guest_gives_way_and_one_that_speaks_stays() {
     assert!((1..=6).all(|port| !is_guest(&bench, port)));
     bench.links.deliver(&bench.ports);
     assert!(bench.ports.iter().all(|port| !port.is_open()));
+}
+
+#[test]
+fn a_station_that_connects_over_tcp_has_a_link_until_it_leaves() {
+    let mut bench = Bench::new(&[]);
+    let server = bench.links.serve_tcp(local()).expect("a free port");
+    let mut station = TcpStream::connect(server).expect("somebody listens");
+    station.set_read_timeout(Some(Duration::from_secs(5))).expect("a socket");
+    // In two pieces: a stream has no borders.
+    let (first, second) = (&heartbeat(255)[..5], &heartbeat(255)[5..]);
+    station.write_all(first).expect("sent");
+    assert_eq!(bench.receive(0), first);
+    station.write_all(second).expect("sent");
+    assert_eq!(bench.receive(0), second);
+    bench.say(&heartbeat(1));
+    let mut heard = vec![0; heartbeat(1).len()];
+    station.read_exact(&mut heard).expect("something was sent");
+    assert_eq!(heard, heartbeat(1));
+    drop(station);
+    let start = Instant::now();
+    while bench.ports.first().is_open() && start.elapsed() < Duration::from_secs(5) {
+        bench.links.receive();
+        bench.links.deliver(&bench.ports);
+    }
+    assert!(!bench.ports.first().is_open());
 }
