@@ -6,10 +6,12 @@ use glissade_dialect::{
     LOG_REQUEST_LIST_DATA, MISSION_CLEAR_ALL_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA,
     MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MISSION_REQUEST_LIST_DATA, MISSION_SET_CURRENT_DATA,
     MISSION_WRITE_PARTIAL_LIST_DATA, MavType, PARAM_EXT_REQUEST_LIST_DATA, PARAM_REQUEST_LIST_DATA,
-    PARAM_REQUEST_READ_DATA, PARAM_SET_DATA, PING_DATA, SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA, TIMESYNC_DATA,
+    PARAM_REQUEST_READ_DATA, PARAM_SET_DATA, PING_DATA, SERIAL_CONTROL_DATA, SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA,
+    TIMESYNC_DATA,
 };
 
 use super::params::ParamRequest;
+use super::services;
 use super::telemetry::Place;
 use super::{COMPONENT_ID, Identity};
 
@@ -88,6 +90,8 @@ pub(super) enum Incoming {
     File(FileRequest),
     /// A request of the parameter protocol.
     Param(ParamRequest),
+    /// `SERIAL_CONTROL` of this device.
+    Serial { device: u8 },
     /// `PARAM_EXT_REQUEST_LIST`.
     ExtendedParams,
     /// `LOG_REQUEST_LIST` or `LOG_REQUEST_DATA`.
@@ -164,6 +168,7 @@ pub(super) fn known(id: u32) -> Option<Known> {
         SET_GPS_GLOBAL_ORIGIN_DATA::ID => Known::of::<SET_GPS_GLOBAL_ORIGIN_DATA>(set_origin),
         COMMAND_INT_DATA::ID => Known::of::<COMMAND_INT_DATA>(command_int),
         COMMAND_LONG_DATA::ID => Known::of::<COMMAND_LONG_DATA>(command_long),
+        SERIAL_CONTROL_DATA::ID => Known::of::<SERIAL_CONTROL_DATA>(serial),
         PARAM_EXT_REQUEST_LIST_DATA::ID => Known::of::<PARAM_EXT_REQUEST_LIST_DATA>(extended_params),
         FILE_TRANSFER_PROTOCOL_DATA::ID => Known::of::<FILE_TRANSFER_PROTOCOL_DATA>(file),
         TIMESYNC_DATA::ID => Known::of::<TIMESYNC_DATA>(timesync),
@@ -297,6 +302,12 @@ fn file(raw: &Raw) -> Option<Incoming> {
     let [low, high, session, opcode, ..] = m.payload;
     let request = FileRequest { sequence: u16::from_le_bytes([low, high]), session, opcode };
     raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::File(request))
+}
+
+fn serial(raw: &Raw) -> Option<Incoming> {
+    let m: SERIAL_CONTROL_DATA = raw.read()?;
+    let asks = m.flags & services::SERIAL_REPLY == 0;
+    asks.then_some(Incoming::Serial { device: m.device })
 }
 
 fn extended_params(raw: &Raw) -> Option<Incoming> {

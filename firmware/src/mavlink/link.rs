@@ -88,6 +88,7 @@ impl Link {
             Incoming::Param(request) => self.handle_param(sender, &request, job),
             Incoming::File(request) => self.outbox.answer(Answer::File { request, to: sender }),
             Incoming::SetOrigin(place) => place::set_origin(&place, job.view.input, job.set_origin),
+            Incoming::Serial { device } => self.outbox.answer(Answer::NoSerial { device }),
             Incoming::ExtendedParams => self.outbox.answer(Answer::NoExtendedParams),
             Incoming::Logs => self.outbox.answer(Answer::NoLogs),
             Incoming::Timesync { ts1 } => {

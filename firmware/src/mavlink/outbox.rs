@@ -43,6 +43,8 @@ pub(super) enum Answer {
     File { request: FileRequest, to: Sender },
     /// There are no logs.
     NoLogs,
+    /// There is no such serial console.
+    NoSerial { device: u8 },
     /// There are no extended parameters.
     NoExtendedParams,
     /// To a time request: the time at which it was read, ns, and the time in it.
@@ -108,6 +110,7 @@ fn write_answer(answer: &Answer, view: &View, out: &mut Writer) -> bool {
         Answer::Mission { request, mission_type, to } => services::write_mission(request, mission_type, to, out),
         Answer::File { request, to } => services::write_file(request, to, out),
         Answer::NoLogs => services::write_no_logs(out),
+        Answer::NoSerial { device } => services::write_no_serial(device, out),
         Answer::NoExtendedParams => services::write_no_extended_params(out),
         Answer::Timesync { tc1, ts1, to: (target_system, target_component) } => {
             out.write(&TIMESYNC_DATA { tc1, ts1, target_system, target_component })

@@ -1,9 +1,9 @@
-//! Services that ground stations ask for and the vehicle does not have: missions, files, logs, extended parameters. Each is answered at once,
+//! Services that ground stations ask for and the vehicle does not have: missions, files, logs, extended parameters, consoles. Each is answered at once,
 //! because a client that is not answered waits for seconds, and then again.
 
 use glissade_dialect::{
     FILE_TRANSFER_PROTOCOL_DATA, LOG_ENTRY_DATA, MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_CURRENT_DATA,
-    MavMissionResult, PARAM_EXT_VALUE_DATA,
+    MavMissionResult, PARAM_EXT_VALUE_DATA, SERIAL_CONTROL_DATA,
 };
 
 use super::incoming::{FileRequest, MissionRequest, Sender};
@@ -60,6 +60,14 @@ pub(super) fn write_file(request: FileRequest, to: Sender, out: &mut Writer) -> 
         *to = from;
     }
     out.write(&message)
+}
+
+/// Flag of `SERIAL_CONTROL`: an answer.
+pub(super) const SERIAL_REPLY: u8 = 1;
+
+/// Answers a serial console's message: nothing was read. False if it does not fit.
+pub(super) fn write_no_serial(device: u8, out: &mut Writer) -> bool {
+    out.write(&SERIAL_CONTROL_DATA { device, flags: SERIAL_REPLY, ..SERIAL_CONTROL_DATA::DEFAULT })
 }
 
 /// Answers a request for extended parameters: there are none. False if it does not fit.

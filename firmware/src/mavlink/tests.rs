@@ -6,6 +6,7 @@ mod modes;
 mod params;
 mod places;
 mod requests;
+mod services;
 mod status;
 
 use glissade_dialect::mavlink_core::{
