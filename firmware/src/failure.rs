@@ -73,6 +73,7 @@ pub type Failures = heapless::Vec<Failure, 4>;
 
 /// The failures that a board can inject: manners and number of instances per unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Injectable {
     /// One bit per manner, for each unit.
     manners: [u8; Unit::ALL.len()],

@@ -3,8 +3,8 @@
 //! ```text
 //! host ── Hello ──► image      once: configuration, busy-waits and faults
 //! host ◄─ Answer ── image      once: ready, or why not
-//! host ── Request ► image      per tick: the sample, or the end; a pilot's request before it, if any
-//! host ◄─ Reply ─── image      per tick: output of the inner task
+//! host ── Request ► image      per tick: the sample, or the end; before it what a pilot asks, and what happens on links
+//! host ◄─ Reply ─── image      per tick: output of the inner task, and a checksum of all that was sent on each link
 //! ```
 //!
 //! Every frame has a fixed size, so that it is transferred in one file call. Values are little-endian 32-bit words;
@@ -12,6 +12,7 @@
 
 #[cfg(feature = "pil-wire")]
 mod hello;
+mod link;
 mod words;
 
 use nalgebra::Vector3;
@@ -23,6 +24,7 @@ use crate::sensors::Measurements;
 use crate::signals::{NavState, SensorFrame, Tick};
 #[cfg(feature = "pil-wire")]
 pub use hello::{Answer, BusyWait, Fault, HELLO_BYTES, Hello, HelloError};
+pub use link::{AllSent, PIECE_BYTES, Piece, Sent, Signal, take_sent};
 use words::{Reader, Words, Writer, as_words};
 
 /// Incremented with every change of what the bytes of a frame or of a flight's configuration mean. A frame that changes
@@ -44,8 +46,15 @@ pub enum Request {
     Sample(SensorFrame),
     /// Run a tick without a sample.
     Missing,
-    /// Hand this to the inner task before the tick, which follows in the next frame. Has no reply.
+    /// Hand this to the inner task before the tick, which follows in a later frame. Has no reply.
     Ask(Asked),
+    /// This happens on a link before the tick, which follows in a later frame. Has no reply.
+    Link {
+        /// Its number.
+        link: u32,
+        /// What happens.
+        signal: Signal,
+    },
     /// Exit.
     Exit,
 }
@@ -83,11 +92,13 @@ pub struct Reply {
     pub s_position: Vector3<f32>,
     /// Overruns since boot of outer, commander and ground.
     pub overruns: [u32; 3],
+    /// What has been sent on each link.
+    pub sent: AllSent,
 }
 
 impl Reply {
     /// The reply after [`InnerTask::tick`].
-    pub fn of(flight: &InnerTask, overruns: [u32; 3]) -> Self {
+    pub fn of(flight: &InnerTask, overruns: [u32; 3], sent: AllSent) -> Self {
         Self {
             tick: flight.next_tick().wrapping_sub(1),
             state: State::Flying,
@@ -95,6 +106,7 @@ impl Reply {
             inner: *flight.inner_output(),
             s_position: flight.outer_output().s,
             overruns,
+            sent,
         }
     }
 
@@ -107,6 +119,7 @@ impl Reply {
             inner: InnerOutput::IDLE,
             s_position: Vector3::zeros(),
             overruns: [0; 3],
+            sent: AllSent::default(),
         }
     }
 
@@ -140,11 +153,12 @@ as_words!(Reply {
     nav: NavState,
     inner: InnerOutput,
     s_position: Vector3<f32>,
-    overruns: [u32; 3]
+    overruns: [u32; 3],
+    sent: AllSent
 });
 
 impl Words for Request {
-    const WORDS: usize = 1 + words::larger(NavState::WORDS, Measurements::WORDS);
+    const WORDS: usize = 1 + words::larger(words::larger(NavState::WORDS, Measurements::WORDS), 1 + Signal::WORDS);
 
     fn write(&self, to: &mut Writer) {
         match self {
@@ -162,6 +176,11 @@ impl Words for Request {
                 to.word(4);
                 request.write(to);
             }
+            Self::Link { link, signal } => {
+                to.word(5);
+                to.word(*link);
+                signal.write(to);
+            }
         }
     }
 
@@ -172,6 +191,7 @@ impl Words for Request {
             2 => Some(Self::Missing),
             3 => Some(Self::Exit),
             4 => Some(Self::Ask(Words::read(from)?)),
+            5 => Some(Self::Link { link: Words::read(from)?, signal: Words::read(from)? }),
             _ => None,
         }
     }

@@ -22,6 +22,7 @@ use crate::plant::rigid_body::RigidBody;
 use crate::record::Recorder;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sensors::Suite;
+use crate::sil::replay::Replay;
 use crate::sil::{AnyFlight, Flight, Lockstep as _, Outcome, UnderLaws};
 use crate::touchdown::Touchdown;
 use crate::weather::Weather;
@@ -77,7 +78,8 @@ pub fn with_laws<P: Plant, A: AttitudeLaw, L: PositionLaw>(
     let file = &scenario.file;
     let sensors = file.sensors.as_ref().map(|suite| Suite::new(suite, &file.home, &file.fault, seed));
     let pilot = (!file.command.is_empty()).then(|| Pilot::new(&file.command));
-    Ok(flight.with_weather(weather(scenario, seed)).with_sensors(sensors).with_pilot(pilot))
+    let replay = scenario.replay.clone().map(Replay::new);
+    Ok(flight.with_weather(weather(scenario, seed)).with_sensors(sensors).with_pilot(pilot).with_replay(replay))
 }
 
 /// A scenario's flight, before its first tick.

@@ -64,6 +64,7 @@ mod parallel;
 pub mod pil;
 #[cfg(feature = "search")]
 pub mod plan;
+pub mod recording;
 pub mod report;
 pub mod scenario;
 pub mod score;

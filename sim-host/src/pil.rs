@@ -5,6 +5,9 @@
 //! plant ◄─ PilOutput   ── FIFO from-image ◄─ rotor driver ◄┘
 //! ```
 //!
+//! Before a sample may go what a pilot asks and what ground stations send; a reply has a checksum of all that was sent to
+//! them.
+//!
 //! The image's clock is virtual: it stands still while the image waits for a sample, so nothing here depends on how
 //! fast the desktop is. Every wait has a time-out; see `firmware::pil` for the frames.
 
@@ -19,8 +22,10 @@ use anyhow::{Context, Result, bail};
 use firmware::autopilot::InnerTask;
 use firmware::commander::Asked;
 use firmware::config::FlightConfig;
+use firmware::failure::Injectable;
 use firmware::inner::InnerOutput;
-use firmware::pil::{Answer, Cause, Hello, REPLY_BYTES, Reply, Request, State};
+use firmware::mavlink::port::LinkEvent;
+use firmware::pil::{AllSent, Answer, Cause, Hello, REPLY_BYTES, Reply, Request, Sent, Signal, State};
 pub use firmware::pil::{BusyWait, Fault};
 use firmware::signals::{ControlInput, MotorCommand, NavState, SensorFrame, TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
@@ -37,6 +42,8 @@ pub struct PilOptions<'a> {
     pub image: PathBuf,
     /// The flight's configuration.
     pub config: &'a FlightConfig,
+    /// Failures that ground stations may inject; the host does it.
+    pub injectable: Injectable,
     /// Busy-waits added to its partitions' jobs.
     pub busy: BusyWait,
     /// A fault that the outer partition's job causes at a tick.
@@ -46,9 +53,16 @@ pub struct PilOptions<'a> {
 }
 
 impl<'a> PilOptions<'a> {
-    /// Without busy-waits and faults, with a time-out of 10 s.
+    /// Without busy-waits, faults and failures, with a time-out of 10 s.
     pub fn new(image: impl Into<PathBuf>, config: &'a FlightConfig) -> Self {
-        Self { image: image.into(), config, busy: BusyWait::default(), fault: None, timeout: Duration::from_secs(10) }
+        Self {
+            image: image.into(),
+            config,
+            injectable: Injectable::NONE,
+            busy: BusyWait::default(),
+            fault: None,
+            timeout: Duration::from_secs(10),
+        }
     }
 }
 
@@ -69,13 +83,15 @@ pub struct PilOutput {
     pub saturated: bool,
     /// Overruns so far of outer, commander and ground: zeros, because the first one ends the flight.
     pub overruns: [u32; 3],
+    /// What has been sent on each link so far.
+    pub sent: AllSent,
 }
 
 impl From<Reply> for PilOutput {
     fn from(reply: Reply) -> Self {
         let InnerOutput { motors, demand, s, saturated } = reply.inner;
-        let Reply { nav, s_position, overruns, .. } = reply;
-        Self { nav, motors, demand, s_attitude: s, s_position, saturated, overruns }
+        let Reply { nav, s_position, overruns, sent, .. } = reply;
+        Self { nav, motors, demand, s_attitude: s, s_position, saturated, overruns, sent }
     }
 }
 
@@ -139,7 +155,8 @@ impl Pil {
     /// # Errors
     /// In one line: no image, no QEMU, no answer in time, or a configuration that the image refuses.
     pub fn start(options: &PilOptions) -> Result<Self> {
-        let hello = Hello { config: options.config.clone(), busy: options.busy, fault: options.fault };
+        let PilOptions { config, injectable, busy, fault, .. } = *options;
+        let hello = Hello { config: config.clone(), injectable, busy, fault };
         let hello = hello.encode().map_err(|error| anyhow::anyhow!("{error}"))?;
         let mut qemu = Qemu::start(&options.image, options.timeout)?;
         qemu.send(&hello)?;
@@ -164,6 +181,20 @@ impl Pil {
     /// In one line, why it could not be sent.
     pub fn ask(&mut self, asked: Asked) -> Result<()> {
         self.qemu.send(&Request::Ask(asked).encode())
+    }
+
+    /// Tells the image what happens on a link before the next tick.
+    ///
+    /// # Errors
+    /// In one line, why it could not be sent.
+    pub fn link(&mut self, link: usize, event: LinkEvent) -> Result<()> {
+        let mut result = Ok(());
+        Signal::each(event, |signal| {
+            if result.is_ok() {
+                result = self.qemu.send(&Request::Link { link: link as u32, signal }.encode());
+            }
+        });
+        result
     }
 
     /// One tick of the image without a sample.
@@ -234,11 +265,52 @@ impl std::error::Error for Difference {}
 /// # Errors
 /// The first field that differs.
 pub fn compare(desktop: &InnerTask, pil: &PilOutput) -> Result<(), Difference> {
-    let reply = Reply::of(desktop, [0; 3]);
+    let reply = Reply::of(desktop, [0; 3], pil.sent);
     let (tick, sil) = (reply.tick, reply.into());
     for ((field, sil), (_, pil)) in fields(&sil).zip(fields(pil)) {
         if sil.to_bits() != pil.to_bits() {
             return Err(Difference { tick, field, sil, pil });
+        }
+    }
+    Ok(())
+}
+
+/// What was sent on a link differs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SentDiffers {
+    /// The tick.
+    pub tick: Tick,
+    /// The link.
+    pub link: usize,
+    /// All that the desktop has sent on it.
+    pub desktop: Sent,
+    /// All that the image has.
+    pub image: Sent,
+}
+
+impl fmt::Display for SentDiffers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { tick, link, desktop, image } = self;
+        let text = |sent: &Sent| format!("{} bytes (checksum {:08x})", sent.bytes, sent.checksum);
+        let (desktop, image) = (text(desktop), text(image));
+        write!(
+            f,
+            "what is sent on link {link} differs at {:.3} s: {desktop} on the desktop, {image} in the image",
+            seconds(*tick)
+        )
+    }
+}
+
+impl std::error::Error for SentDiffers {}
+
+/// Compares what was sent on the links until a tick, every byte of it.
+///
+/// # Errors
+/// The first link on which something else was sent.
+pub fn compare_sent(tick: Tick, desktop: &AllSent, image: &AllSent) -> Result<(), SentDiffers> {
+    for (link, (desktop, image)) in desktop.iter().zip(image).enumerate() {
+        if desktop != image {
+            return Err(SentDiffers { tick, link, desktop: *desktop, image: *image });
         }
     }
     Ok(())
@@ -305,7 +377,7 @@ mod tests {
             autopilot.tick(None);
         }
         let desktop = &autopilot.inner;
-        let mut pil: PilOutput = Reply::of(desktop, [0; 3]).into();
+        let mut pil: PilOutput = Reply::of(desktop, [0; 3], AllSent::default()).into();
         assert_eq!(compare(desktop, &pil), Ok(()));
         pil.demand.roll_n_m = -0.0;
         pil.motors.omega_rad_s[3] = 1.0;
@@ -315,6 +387,17 @@ mod tests {
         pil.nav.velocity.y = f32::NAN;
         let difference = compare(desktop, &pil).expect_err("the motion comes first");
         assert_eq!(difference.field, "vy");
+    }
+
+    #[test]
+    fn a_link_on_which_another_byte_was_sent_is_named() {
+        let desktop = AllSent::default();
+        let mut image = desktop;
+        assert_eq!(compare_sent(20, &desktop, &image), Ok(()));
+        image[2] = Sent { bytes: 0, checksum: 1 };
+        let text = "what is sent on link 2 differs at 0.020 s: 0 bytes (checksum 811c9dc5) on the desktop, 0 bytes \
+                    (checksum 00000001) in the image";
+        assert_eq!(compare_sent(20, &desktop, &image).expect_err("another").to_string(), text);
     }
 
     #[test]

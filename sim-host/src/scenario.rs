@@ -15,6 +15,8 @@ mod trajectory;
 mod validate;
 mod world;
 
+use std::sync::Arc;
+
 use anyhow::{Context, Result, bail};
 use firmware::config::{FlightConfig, ModeSettings, Start};
 use firmware::guidance::{JoinPlan, Trajectory};
@@ -26,6 +28,7 @@ use crate::assess::Assess;
 use crate::controller::{Control, Controller};
 use crate::pilot::Command;
 use crate::sensors::{Fault, Home, SuiteFile};
+use crate::sil::replay::Entry;
 pub use crate::world::{AttitudeWave, Disturbance, Gust, ScheduledPush, Tumble, Wind};
 pub use load::tuning;
 pub use notes::tuned_for_another;
@@ -170,6 +173,8 @@ pub struct Scenario {
     pub airframe: AirframeFile,
     /// What flies it.
     pub controller: Controller,
+    /// What came from outside in an earlier flight, to come again.
+    pub replay: Option<Arc<[Entry]>>,
 }
 
 /// What scenarios have in common by which they are listed.

@@ -11,11 +11,12 @@ use core::ops::RangeInclusive;
 
 use anyhow::ensure;
 use firmware::mavlink::port::Ports;
-use firmware::signals::TICK_S_EXACT;
+use firmware::signals::{TICK_S_EXACT, Tick};
 
 use crate::console::terminal::Terminal;
-use crate::console::{Control, Line, Session, Tone};
+use crate::console::{ConsoleInput, Control, Line, Session, Tone};
 use crate::link::Links;
+use crate::recording::Recorder;
 use crate::stations::{LOST_AFTER, News};
 
 /// Allowed simulated seconds per second.
@@ -40,6 +41,12 @@ pub trait Vehicle {
 
     /// The lines to print since the last call.
     fn take_lines(&mut self) -> Vec<Line>;
+
+    /// The tick that comes next.
+    fn next_tick(&self) -> Tick;
+
+    /// What of the typed lines has acted on the flight since the last call, each with the tick before which it did.
+    fn take_inputs(&mut self) -> Vec<(Tick, ConsoleInput)>;
 }
 
 impl Vehicle for Session {
@@ -68,6 +75,14 @@ impl Vehicle for Session {
 
     fn take_lines(&mut self) -> Vec<Line> {
         Self::take_lines(self)
+    }
+
+    fn next_tick(&self) -> Tick {
+        self.flight().next_tick()
+    }
+
+    fn take_inputs(&mut self) -> Vec<(Tick, ConsoleInput)> {
+        Self::take_inputs(self)
     }
 }
 
@@ -104,6 +119,8 @@ pub struct Member<V> {
     pub vehicle: V,
     /// Its links.
     pub links: Links,
+    /// What comes to it from outside is recorded here.
+    pub recorder: Option<Recorder>,
 }
 
 impl<V: Vehicle> Member<V> {
@@ -117,12 +134,29 @@ impl<V: Vehicle> Member<V> {
     }
 
     fn tick(&mut self) {
-        self.links.deliver(self.vehicle.ports());
-        self.vehicle.tick();
-        self.links.send(self.vehicle.ports());
-        if let Some(frames) = self.vehicle.truth() {
-            self.links.tell(&frames);
+        let Self { vehicle, links, recorder } = self;
+        let typed = vehicle.take_inputs();
+        if let Some(recorder) = recorder {
+            typed.iter().for_each(|(tick, input)| recorder.console(*tick, input));
         }
+        let tick = vehicle.next_tick();
+        links.deliver(vehicle.ports(), |link, event| {
+            if let Some(recorder) = recorder {
+                recorder.link(tick, link, event);
+            }
+        });
+        vehicle.tick();
+        links.send(vehicle.ports());
+        if let Some(frames) = vehicle.truth() {
+            links.tell(&frames);
+        }
+    }
+
+    /// Writes what has been recorded; returns what is to be said of it.
+    fn flush(&mut self) -> anyhow::Result<Vec<String>> {
+        let Some(recorder) = &mut self.recorder else { return Ok(Vec::new()) };
+        recorder.flush()?;
+        Ok(recorder.take_notes())
     }
 }
 
@@ -156,6 +190,16 @@ impl<V: Vehicle> Fleet<'_, V> {
         self.members.get_mut(self.selected)?.vehicle.enter(line)
     }
 
+    /// Writes what has been recorded.
+    fn flush(&mut self, terminal: &mut impl Terminal) -> anyhow::Result<()> {
+        for member in self.members.iter_mut() {
+            for text in member.flush()? {
+                terminal.print(&Line { t_s: None, tone: Tone::Alarm, text });
+            }
+        }
+        Ok(())
+    }
+
     /// Prints what the vehicles have said, with their number where there are several.
     fn print(&mut self, terminal: &mut impl Terminal) {
         let several = self.members.len() > 1;
@@ -173,7 +217,7 @@ impl<V: Vehicle> Fleet<'_, V> {
 /// Flies until `stop` returns true, or a line ends the program. All vehicles fly in step.
 ///
 /// # Errors
-/// A speed outside of [`SPEEDS`].
+/// A speed outside of [`SPEEDS`]; a recording that cannot be written.
 pub fn serve<V: Vehicle>(
     members: &mut [Member<V>],
     terminal: &mut impl Terminal,
@@ -182,7 +226,7 @@ pub fn serve<V: Vehicle>(
 ) -> anyhow::Result<Flown> {
     let (low, high) = (SPEEDS.start(), SPEEDS.end());
     ensure!(SPEEDS.contains(&pacing.speed), "--speed must be between {low} and {high}, not {}", pacing.speed);
-    let mut fleet = Fleet { members, selected: 0 };
+    let mut fleet = Fleet { members: &mut *members, selected: 0 };
     let (start, mut ticks) = (Instant::now(), 0);
     let mut pacer = Pacer::starting(start, pacing.speed);
     while !stop() {
@@ -197,11 +241,17 @@ pub fn serve<V: Vehicle>(
         pacer.done += due;
         ticks += due;
         fleet.print(terminal);
+        fleet.flush(terminal)?;
         if let Some(text) = pacer.news(Instant::now()) {
             terminal.print(&Line { t_s: None, tone: Tone::Plain, text });
         }
         if due < BATCH {
             sleep(NAP);
+        }
+    }
+    for member in members {
+        if let Some(recorder) = &mut member.recorder {
+            recorder.finish(member.vehicle.next_tick())?;
         }
     }
     Ok(Flown { simulated_s: ticks as f64 * TICK_S_EXACT, wall_s: start.elapsed().as_secs_f64() })
@@ -307,6 +357,14 @@ mod tests {
         fn take_lines(&mut self) -> Vec<Line> {
             core::mem::take(&mut self.said)
         }
+
+        fn next_tick(&self) -> Tick {
+            self.ticks as Tick
+        }
+
+        fn take_inputs(&mut self) -> Vec<(Tick, ConsoleInput)> {
+            Vec::new()
+        }
     }
 
     /// Lines that have been typed, and what was printed.
@@ -339,7 +397,7 @@ mod tests {
     /// A vehicle that nobody hears.
     fn alone<V>(vehicle: V) -> [Member<V>; 1] {
         let links = Links::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port");
-        [Member { vehicle, links }]
+        [Member { vehicle, links, recorder: None }]
     }
 
     #[test]

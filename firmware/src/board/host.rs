@@ -1,12 +1,14 @@
 //! Drivers for processor in the loop: the host is IMU and rotors, over two semihosting FIFOs.
 //!
 //! A read blocks the emulated machine until the host answers, and takes no time on its clock. The board's own rotor
-//! outputs are driven too. See `pil` for the frames.
+//! outputs are driven too. The host is at the other end of every link: the serial port carries none. See `pil` for the
+//! frames.
 
 use core::cell::RefCell;
 use core::ffi::CStr;
 
 use cortex_m::interrupt::{self, Mutex};
+use heapless::Deque;
 use semihosting::fs::File;
 use semihosting::io::{Read, Write};
 
@@ -15,12 +17,20 @@ use crate::airframe::ROTORS;
 use crate::autopilot::InnerTask;
 use crate::board::mps2::{FreeRunning, RecordingPwm};
 use crate::commander::Asked;
-use crate::pil::{Answer, BusyWait, Cause, Fault, HELLO_BYTES, Hello, REPLY_BYTES, REQUEST_BYTES, Reply, Request};
+use crate::mavlink::port::Ports;
+use crate::pil::{
+    AllSent, Answer, BusyWait, Cause, Fault, HELLO_BYTES, Hello, REPLY_BYTES, REQUEST_BYTES, Reply, Request, take_sent,
+};
 use crate::rotors::PwmRotors;
 use crate::signals::{SensorFrame, Tick};
 
 /// Longest path of the FIFOs' directory.
 const PATH_MAX: usize = 256;
+/// What a pilot may ask between two ticks.
+const ASKED_MAX: usize = 8;
+
+/// The links are the host's, and what is sent on them depends on ticks alone: no rates measured by the clock.
+pub const STANDS_ALONE: bool = false;
 
 /// The FIFO to the host, once it is open: used by the inner task and by the fault handlers.
 static TO_HOST: Mutex<RefCell<Option<File>>> = Mutex::new(RefCell::new(None));
@@ -28,7 +38,8 @@ static TO_HOST: Mutex<RefCell<Option<File>>> = Mutex::new(RefCell::new(None));
 /// An IMU whose samples come from the host.
 pub struct Imu {
     from_host: File,
-    asked: Option<Asked>,
+    ports: &'static Ports,
+    asked: Deque<Asked, ASKED_MAX>,
 }
 
 impl Imu {
@@ -40,41 +51,47 @@ impl Imu {
 
 impl super::Imu for Imu {
     fn sample(&mut self) -> Option<SensorFrame> {
-        let mut request = self.request();
-        if let Some(Request::Ask(asked)) = request {
-            self.asked = Some(asked);
-            request = self.request();
-        }
-        match request {
-            Some(Request::Sample(sample)) => Some(sample),
-            Some(Request::Missing) => None,
-            Some(Request::Exit) => {
-                fault::stop_rotors();
-                semihosting::process::exit(0)
-            }
-            // The host has gone, or has sent two requests in a tick.
-            None | Some(Request::Ask(_)) => {
-                fault::stop_rotors();
-                fault::end()
+        loop {
+            match self.request() {
+                Some(Request::Sample(sample)) => return Some(sample),
+                Some(Request::Missing) => return None,
+                Some(Request::Ask(asked)) if self.asked.push_back(asked).is_ok() => {}
+                Some(Request::Link { link, signal }) => {
+                    if let Some(port) = self.ports.get(link as usize) {
+                        port.take_in(signal.event());
+                    }
+                }
+                Some(Request::Exit) => {
+                    fault::stop_rotors();
+                    semihosting::process::exit(0)
+                }
+                // The host has gone, or has asked too much of a tick.
+                _ => {
+                    fault::stop_rotors();
+                    fault::end()
+                }
             }
         }
     }
 
     fn asked(&mut self) -> Option<Asked> {
-        self.asked.take()
+        self.asked.pop_front()
     }
 }
 
 /// Rotors whose commands go to the host and to the board's own outputs.
 pub struct Rotors {
     pwm: PwmRotors<RecordingPwm>,
+    ports: &'static Ports,
+    sent: AllSent,
 }
 
 impl super::Rotors for Rotors {
     fn drive(&mut self, flight: &InnerTask, overruns: [u32; 3]) {
         // These outputs cannot fail.
         let _ = self.pwm.set(&flight.inner_output().motors);
-        send(&Reply::of(flight, overruns).encode());
+        take_sent(self.ports, &mut self.sent);
+        send(&Reply::of(flight, overruns, self.sent).encode());
     }
 }
 
@@ -112,7 +129,11 @@ impl Diagnostics {
 ///
 /// # Errors
 /// The host cannot be reached, or its frame is malformed.
-pub fn start(pwm: [RecordingPwm; ROTORS], clock: FreeRunning) -> Result<Start<Imu, Rotors, Diagnostics>, StartError> {
+pub fn start(
+    pwm: [RecordingPwm; ROTORS],
+    clock: FreeRunning,
+    ports: &'static Ports,
+) -> Result<Start<Imu, Rotors, Diagnostics>, StartError> {
     let arguments = semihosting::experimental::env::args::<PATH_MAX>().map_err(|_| StartError::NoHost)?;
     let directory = (&arguments).next().and_then(Result::ok).ok_or(StartError::NoHost)?;
     let to_host = open(directory, "from-image", |path| File::create(path))?;
@@ -121,9 +142,15 @@ pub fn start(pwm: [RecordingPwm; ROTORS], clock: FreeRunning) -> Result<Start<Im
     let mut from_host = open(directory, "to-image", |path| File::open(path))?;
     let mut bytes = [0; HELLO_BYTES];
     from_host.read_exact(&mut bytes).map_err(|_| StartError::NoHost)?;
-    let Hello { config, busy, fault } = Hello::decode(&bytes).map_err(StartError::Hello)?;
-    let rotors = Rotors { pwm: PwmRotors::new(pwm, config.airframe.omega_max_rad_s) };
-    Ok(Start { config, imu: Imu { from_host, asked: None }, rotors, diagnostics: Diagnostics { clock, busy, fault } })
+    let Hello { config, injectable, busy, fault } = Hello::decode(&bytes).map_err(StartError::Hello)?;
+    let pwm = PwmRotors::new(pwm, config.airframe.omega_max_rad_s);
+    Ok(Start {
+        config,
+        injectable,
+        imu: Imu { from_host, ports, asked: Deque::new() },
+        rotors: Rotors { pwm, ports, sent: AllSent::default() },
+        diagnostics: Diagnostics { clock, busy, fault },
+    })
 }
 
 /// Sends the host whether the flight begins.

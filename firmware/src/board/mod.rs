@@ -3,7 +3,7 @@
 //! [`mps2`] is the chip of QEMU's mps2-an386: interrupts, timers, serial port, and PWM outputs that only record their
 //! duty cycle. An application takes its IMU and rotors from a drivers module: [`pad`] for a board without sensors that
 //! stands still, `host` for processor in the loop. Each drivers module has the same items: the functions `start`,
-//! `answer` and `stopped`, and the types `Imu`, `Rotors` and `Diagnostics`. [`fault`] stops the rotors after a panic or
+//! `answer` and `stopped`, the types `Imu`, `Rotors` and `Diagnostics`, and `STANDS_ALONE`. [`fault`] stops the rotors after a panic or
 //! hard fault.
 //!
 //! Apart from the square root instruction in `math`, this is the only module of the crate with `unsafe` code; each
@@ -20,6 +20,7 @@ pub mod pad;
 use crate::autopilot::InnerTask;
 use crate::commander::Asked;
 use crate::config::FlightConfig;
+use crate::failure::Injectable;
 use crate::signals::SensorFrame;
 use crate::validate::ConfigError;
 
@@ -29,7 +30,7 @@ pub trait Imu {
     /// which waits for it.
     fn sample(&mut self) -> Option<SensorFrame>;
 
-    /// A request since the last tick that did not come by MAVLink. Called once per tick, after the sample.
+    /// The next request since the last tick that did not come by MAVLink. Called after the sample until there is none.
     fn asked(&mut self) -> Option<Asked> {
         None
     }
@@ -46,6 +47,8 @@ pub trait Rotors {
 pub struct Start<I, R, D> {
     /// Configuration of the flight.
     pub config: FlightConfig,
+    /// Failures that can be injected.
+    pub injectable: Injectable,
     /// Source of samples.
     pub imu: I,
     /// Sink of commands.

@@ -5,9 +5,14 @@ use crate::airframe::ROTORS;
 use crate::autopilot::InnerTask;
 use crate::board::mps2::{FreeRunning, RecordingPwm};
 use crate::config::FlightConfig;
+use crate::failure::Injectable;
+use crate::mavlink::port::Ports;
 use crate::pil::Cause;
 use crate::rotors::PwmRotors;
 use crate::signals::{NavState, SensorFrame, Tick};
+
+/// The serial port carries a link, and the loops' measured rates are sent.
+pub const STANDS_ALONE: bool = true;
 
 /// An IMU that always returns the same sample.
 pub struct Imu {
@@ -49,12 +54,17 @@ impl Diagnostics {
 ///
 /// # Errors
 /// None on this board.
-pub fn start(pwm: [RecordingPwm; ROTORS], _clock: FreeRunning) -> Result<Start<Imu, Rotors, Diagnostics>, StartError> {
+pub fn start(
+    pwm: [RecordingPwm; ROTORS],
+    _clock: FreeRunning,
+    _ports: &'static Ports,
+) -> Result<Start<Imu, Rotors, Diagnostics>, StartError> {
     let config = FlightConfig::default();
     let mut nav = NavState::at_rest();
     nav.position = config.start_position();
     let rotors = Rotors { pwm: PwmRotors::new(pwm, config.airframe.omega_max_rad_s) };
-    Ok(Start { config, imu: Imu { sample: SensorFrame::Motion(nav) }, rotors, diagnostics: Diagnostics })
+    let imu = Imu { sample: SensorFrame::Motion(nav) };
+    Ok(Start { config, injectable: Injectable::NONE, imu, rotors, diagnostics: Diagnostics })
 }
 
 /// Does nothing: there is no host.

@@ -169,9 +169,9 @@ impl Link {
 
     /// Writes what is to be said and fits: failures, acknowledgements, answers, telemetry, settings.
     pub(super) fn write(&mut self, view: &View, settings: &Settings, port: &Port) {
-        let errors = self.parser.bad_checksums().saturating_add(port.received().lost());
+        let errors = self.parser.bad_checksums().saturating_add(port.lost());
         let view = View { errors, ..*view };
-        let mut out = Writer::new(port.sent(), &mut self.sequence, view.us);
+        let mut out = Writer::new(port, &mut self.sequence, view.us);
         self.outbox.send(&view, &mut out);
         self.telemetry.send(&view, &mut out);
         out.set_limit(TELEMETRY_SHARE);

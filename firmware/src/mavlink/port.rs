@@ -154,6 +154,19 @@ pub enum Profile {
     Onboard,
 }
 
+/// What happens on a link, as its driver tells it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinkEvent<'a> {
+    /// There is a new peer.
+    Open(Profile),
+    /// The peer has gone.
+    Close,
+    /// So many bytes were lost before they got here.
+    Lost(u32),
+    /// Bytes have arrived.
+    Received(&'a [u8]),
+}
+
 /// One link.
 #[derive(Debug)]
 pub struct Port {
@@ -165,11 +178,34 @@ pub struct Port {
     session: AtomicU32,
     /// The same, as seen by the ground partition.
     seen: AtomicU32,
+    /// Bytes of `sent` that waited for the driver when the ground partition was released, and bytes lost of `received`
+    /// until then: a job must not see how far a driver has come meanwhile.
+    waiting: AtomicU32,
+    lost: AtomicU32,
 }
 
 impl Port {
     const fn new() -> Self {
-        Self { received: Ring::new(), sent: Ring::new(), session: AtomicU32::new(0), seen: AtomicU32::new(0) }
+        Self {
+            received: Ring::new(),
+            sent: Ring::new(),
+            session: AtomicU32::new(0),
+            seen: AtomicU32::new(0),
+            waiting: AtomicU32::new(0),
+            lost: AtomicU32::new(0),
+        }
+    }
+
+    /// The driver's side: what has happened.
+    pub fn take_in(&self, event: LinkEvent) {
+        match event {
+            LinkEvent::Open(profile) => self.open(profile),
+            LinkEvent::Close => self.close(),
+            LinkEvent::Lost(count) => self.lose(count),
+            LinkEvent::Received(bytes) => {
+                self.receive(bytes);
+            }
+        }
     }
 
     /// Opens the link for a new peer: what the last one had asked for is forgotten.
@@ -237,6 +273,24 @@ impl Port {
         (seen & 1 == 1).then_some((seen >> 2, profile))
     }
 
+    /// The ground partition's side: bytes that waited to be sent when it was released.
+    pub(super) fn waiting(&self) -> usize {
+        self.waiting.load(Ordering::Relaxed) as usize
+    }
+
+    /// The ground partition's side: received bytes lost since boot, until it was released.
+    pub(super) fn lost(&self) -> u32 {
+        self.lost.load(Ordering::Relaxed)
+    }
+
+    /// At the release of the ground partition.
+    fn release(&self) {
+        self.received.open_gate();
+        self.seen.store(self.session.load(Ordering::Relaxed), Ordering::Relaxed);
+        self.waiting.store(self.sent.held() as u32, Ordering::Relaxed);
+        self.lost.store(self.received.lost(), Ordering::Relaxed);
+    }
+
     /// The ground partition's side: what has arrived.
     pub fn received(&self) -> &Ring<RECEIVED_CAPACITY> {
         &self.received
@@ -256,6 +310,8 @@ impl Clone for Port {
             sent: self.sent.clone(),
             session: copy(&self.session),
             seen: copy(&self.seen),
+            waiting: copy(&self.waiting),
+            lost: copy(&self.lost),
         }
     }
 }
@@ -289,10 +345,7 @@ impl Ports {
 
     /// At the release of the ground partition: shows it what has arrived.
     pub fn release(&self) {
-        for port in self {
-            port.received.open_gate();
-            port.seen.store(port.session.load(Ordering::Relaxed), Ordering::Relaxed);
-        }
+        self.iter().for_each(Port::release);
     }
 
     /// When the ground partition's output is published: lets its bytes leave.

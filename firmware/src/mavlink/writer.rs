@@ -2,7 +2,7 @@
 
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MessageData};
 
-use super::port::{Ring, SENT_CAPACITY};
+use super::port::{Port, Ring, SENT_CAPACITY};
 use super::{COMPONENT_ID, Identity};
 
 /// Bytes of an unsigned frame besides its payload.
@@ -19,13 +19,15 @@ pub(super) struct Writer<'a> {
     /// The link's sequence number.
     sequence: &'a mut u8,
     us: Identity,
+    /// Bytes that wait to be sent, as far as this job may know: those of its release, and its own.
+    waiting: usize,
     limit: usize,
 }
 
 impl<'a> Writer<'a> {
     /// Writes until the ring is full.
-    pub(super) fn new(ring: &'a Ring<SENT_CAPACITY>, sequence: &'a mut u8, us: Identity) -> Self {
-        Self { ring, sequence, us, limit: SENT_CAPACITY }
+    pub(super) fn new(port: &'a Port, sequence: &'a mut u8, us: Identity) -> Self {
+        Self { ring: port.sent(), sequence, us, waiting: port.waiting(), limit: SENT_CAPACITY }
     }
 
     /// Writes from now on only as long as no more than this many bytes wait to be sent.
@@ -35,7 +37,7 @@ impl<'a> Writer<'a> {
 
     /// True if `count` more bytes fit.
     pub(super) fn has_room(&self, count: usize) -> bool {
-        self.ring.held() + count <= self.limit
+        self.waiting + count <= self.limit
     }
 
     /// Appends a frame; false, with nothing written, if it does not fit. A frame is often shorter than its longest form,
@@ -49,7 +51,7 @@ impl<'a> Writer<'a> {
             return false;
         }
         // Whole, because there is room.
-        self.ring.write(raw.raw_bytes());
+        self.waiting += self.ring.write(raw.raw_bytes());
         *self.sequence = self.sequence.wrapping_add(1);
         true
     }

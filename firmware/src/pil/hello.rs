@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{REPLY_BYTES, VERSION};
 use crate::config::FlightConfig;
+use crate::failure::Injectable;
 use crate::guidance::CONTROL_POINTS;
 use crate::signals::Tick;
 
@@ -16,6 +17,8 @@ const TEXT_BYTES: usize = REPLY_BYTES - 4;
 pub struct Hello {
     /// Configuration of the flight.
     pub config: FlightConfig,
+    /// Failures that the host can inject on behalf of the image.
+    pub injectable: Injectable,
     /// Busy-waits added to the partitions' jobs.
     pub busy: BusyWait,
     /// A fault that the outer partition's job provokes from this tick on.

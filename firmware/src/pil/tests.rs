@@ -3,6 +3,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::commander;
+use crate::mavlink::port::{LinkEvent, Profile};
 use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, PoseSample};
 use crate::signals::{ControlInput, MotorCommand};
 
@@ -142,6 +143,7 @@ fn a_reply_is_decoded_as_it_was_encoded() {
         },
         s_position: numbers::<3>(7.0).into(),
         overruns: [1, 2, 3],
+        sent: core::array::from_fn(|i| Sent { bytes: i as u32, checksum: u32::MAX - i as u32 }),
     };
     assert_eq!(Reply::decode(&reply.encode()), Some(reply));
     for cause in [Cause::Panic, Cause::HardFault] {
@@ -171,8 +173,11 @@ fn longest_config() -> crate::config::FlightConfig {
 #[cfg(feature = "pil-wire")]
 #[test]
 fn a_hello_is_decoded_as_it_was_encoded_and_an_invalid_one_is_refused() {
+    use crate::failure::{Injectable, Manner, Unit};
+
     let hello = Hello {
         config: longest_config(),
+        injectable: Injectable::NONE.with(Unit::Gnss, 1, &[Manner::Off]),
         busy: BusyWait { outer_us: 1, commander_us: 2, ground_us: 3 },
         fault: Some((5, Fault::Panic)),
     };
@@ -218,4 +223,42 @@ fn a_pilots_request_is_decoded_as_it_was_encoded() {
         assert_survives(&Request::Ask(asked));
         assert_eq!(Request::decode(&Request::Ask(asked).encode()), Some(Request::Ask(asked)));
     }
+}
+
+#[test]
+fn what_happens_on_a_link_is_decoded_as_it_was_encoded() {
+    let bytes: Vec<u8> = (0..=255).collect();
+    let mut arrived = Vec::new();
+    let events = [
+        LinkEvent::Open(Profile::Normal),
+        LinkEvent::Open(Profile::Onboard),
+        LinkEvent::Close,
+        LinkEvent::Lost(u32::MAX),
+        LinkEvent::Received(&bytes),
+    ];
+    for event in events {
+        Signal::each(event, |signal| {
+            let request = Request::Link { link: 3, signal };
+            assert_survives(&request);
+            match signal.event() {
+                LinkEvent::Received(piece) => arrived.extend_from_slice(piece),
+                other => assert_eq!(other, event),
+            }
+        });
+    }
+    assert_eq!(arrived, bytes, "in pieces, and whole");
+    let mut too_long = Request::Link { link: 0, signal: Signal::Received(Piece::split(&bytes).0) }.encode();
+    too_long[12] = PIECE_BYTES as u8 + 1;
+    assert_eq!(Request::decode(&too_long), None);
+}
+
+#[test]
+fn the_checksum_of_what_was_sent_is_fnv_1a() {
+    let mut sent = Sent::default();
+    assert_eq!((sent.bytes, sent.checksum), (0, 0x811c_9dc5));
+    for byte in *b"foobar" {
+        sent.add(byte);
+    }
+    // The test vector of its authors.
+    assert_eq!((sent.bytes, sent.checksum), (6, 0xbf9c_f968));
 }

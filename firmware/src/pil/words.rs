@@ -7,6 +7,7 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use crate::airframe::ROTORS;
 use crate::commander::{Asked, Request};
 use crate::inner::InnerOutput;
+use crate::pil::Sent;
 use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, Measurements, PoseSample};
 use crate::signals::{ControlInput, MotorCommand, NavState, Tick};
 
@@ -263,6 +264,7 @@ impl Words for Asked {
 type Vector = Vector3<f32>;
 type Attitude = UnitQuaternion<f32>;
 
+as_words!(Sent { bytes: u32, checksum: u32 });
 as_words!(NavState { position: Vector, velocity: Vector, attitude: Attitude, rates: Vector });
 as_words!(InnerOutput { motors: MotorCommand, demand: ControlInput, s: Vector, saturated: bool });
 as_words!(MotorCommand { omega_rad_s: [f32; ROTORS] });

@@ -9,22 +9,26 @@ use firmware::commander::Asked;
 use firmware::control::attitude::SlidingAttitude;
 use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
+use firmware::failure::{Failures, Injectable, Manner};
 use firmware::guidance::Trajectory;
 use firmware::inner::InnerOutput;
 use firmware::navigator::Navigator;
 use firmware::outer::OuterOutput;
+use firmware::pil::AllSent;
 use firmware::schedule::OUTER;
 use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::angles::roll_pitch_yaw;
 use crate::delay::Delay;
+use crate::failures::{self, Equipment};
 use crate::noise::{Disturbed, Noise};
 use crate::outcome::{End, Outcome};
 use crate::pilot::Pilot;
 use crate::plant::{Motion, Plant};
 use crate::record::{Activity, Navigation, Recorder, Row, Seen};
 use crate::reference;
+use crate::replay::{Entry, Input, Replay};
 use crate::sensors::faults::Kind;
 use crate::sensors::{BatteryTruth, Fault, FaultId, Suite, Truth};
 use crate::weather::Weather;
@@ -94,6 +98,7 @@ pub struct Flight<P, A = SlidingAttitude, L = SlidingPosition> {
     weather: Option<Box<Weather>>,
     sensors: Option<Box<Suite>>,
     pilot: Option<Box<Pilot>>,
+    replay: Option<Box<Replay>>,
 }
 
 impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
@@ -110,6 +115,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
             weather: None,
             sensors: None,
             pilot: None,
+            replay: None,
         }
     }
 
@@ -139,6 +145,16 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     #[must_use]
     pub fn with_pilot(mut self, pilot: Option<Pilot>) -> Self {
         self.pilot = pilot.map(Box::new);
+        self
+    }
+
+    /// With what came from outside in an earlier flight. The failures of ground stations are injected.
+    #[must_use]
+    pub fn with_replay(mut self, replay: Option<Replay>) -> Self {
+        if replay.is_some() {
+            self.autopilot.inner.allow_failures(self.injectable());
+        }
+        self.replay = replay.map(Box::new);
         self
     }
 
@@ -214,6 +230,29 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         Ok(())
     }
 
+    /// The failures that ground stations may be allowed to inject.
+    pub fn injectable(&self) -> Injectable {
+        failures::injectable(self.sensors(), self.plant.battery().is_some())
+    }
+
+    /// Injects the failures that the last tick has accepted from ground stations, and returns them. To be called once a
+    /// tick, if any are allowed.
+    pub fn take_failures(&mut self) -> Failures {
+        let accepted = self.autopilot.inner.take_failures();
+        for failure in &accepted {
+            // Failures are allowed on sensors alone, where none of this can fail.
+            if failure.manner == Manner::Well {
+                // Also what a console or the scenario has made fail: it is said to work again.
+                let of = Equipment::of(failure);
+                let _ = self.clear_faults_where(|fault| of.has(fault));
+            }
+            for (slot, fault) in failures::of(failure, self.tick) {
+                let _ = self.hold_fault(slot, fault.as_ref());
+            }
+        }
+        accepted
+    }
+
     /// The steady part of the wind, in the world, m/s.
     pub fn steady_wind(&self) -> Vector3<f64> {
         self.weather.as_ref().map_or_else(Vector3::zeros, |weather| weather.steady_wind())
@@ -265,6 +304,48 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         // A full queue drops the request, as a busy vehicle would; the pilot looks again.
         let _ = vehicle.ask(asked);
         Some(asked)
+    }
+
+    /// What came from outside before this tick, handed over, after the failures that were accepted in the last one. To be
+    /// called once a tick, before [`sense`](Self::sense).
+    #[cold]
+    pub fn hear_replayed(&mut self) -> &[Entry] {
+        if self.replay.is_some() {
+            self.take_failures();
+        }
+        let Some(replay) = self.replay.as_mut() else { return &[] };
+        let (due, vehicle) = (replay.due(self.tick), &mut self.autopilot);
+        for entry in due {
+            match &entry.input {
+                Input::Link { link, event } => {
+                    if let Some(port) = vehicle.ports.get(*link) {
+                        port.take_in(event.event());
+                    }
+                }
+                // A full queue drops the request, as it did before.
+                Input::Ask(asked) => drop(vehicle.inner.ask(*asked)),
+            }
+        }
+        due
+    }
+
+    /// Takes what the vehicle sends to the ground stations of an earlier flight. To be called once a tick, after the
+    /// firmware's.
+    #[cold]
+    pub fn send_replayed(&mut self) {
+        if let Some(replay) = &mut self.replay {
+            replay.take_sent(&self.autopilot.ports);
+        }
+    }
+
+    /// What the vehicle has sent on each link, in a flight with inputs of an earlier one.
+    pub fn sent(&self) -> AllSent {
+        self.replay.as_ref().map_or_else(AllSent::default, |replay| *replay.sent())
+    }
+
+    /// Whether it is told where to go while it flies.
+    fn is_commanded(&self) -> bool {
+        self.pilot.is_some() || self.replay.is_some()
     }
 
     /// What a tick shows, with what a firmware has made of its sample.
@@ -319,7 +400,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
             omega,
             omega_command: command,
             reference: self.reference(t, outer),
-            reference_is_held: self.pilot.is_some() && self.tick % OUTER.period != OUTER.offset,
+            reference_is_held: self.is_commanded() && self.tick % OUTER.period != OUTER.offset,
             desired_attitude: roll_pitch_yaw([desired.w, desired.i, desired.j, desired.k]),
             u: inner.demand.as_array().map(f64::from),
             s: [inner.s.x, inner.s.y, inner.s.z, outer.s.x, outer.s.y, outer.s.z].map(f64::from),
@@ -357,7 +438,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
 
     /// Where the vehicle ought to be: on its trajectory, or where guidance has it.
     fn reference(&self, t: f64, outer: &OuterOutput) -> [f64; 4] {
-        if self.pilot.is_none() {
+        if !self.is_commanded() {
             return reference::at(&self.trajectory, self.flight_time(t));
         }
         let wanted = outer.wanted;
@@ -374,11 +455,17 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
 impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Lockstep for Flight<P, A, L> {
     #[inline]
     fn control(&mut self) {
+        if self.replay.is_some() {
+            self.hear_replayed();
+        }
         let sample = self.sense();
         if self.pilot.is_some() {
             self.ask_pilot();
         }
         self.autopilot.tick(Some(&sample));
+        if self.replay.is_some() {
+            self.send_replayed();
+        }
     }
 
     fn look(&mut self) -> Seen<'_> {

@@ -61,7 +61,7 @@ fn misplaced_setting(error: &clap::Error) -> Option<String> {
         "--duration" => "set the scenario's: --set duration_s=5",
         "-o" | "--output" => "use --out DIR",
         "--out" if is_serve => {
-            "a flight by hand is not recorded; `run` records those of a scenario with `[[command]]`s"
+            "record the flight by --record FILE, and fly it again by `run SCENARIO --replay FILE --out DIR`"
         }
         flag if flag.starts_with("--") => "keys of a scenario are set by --set KEY=VALUE",
         word if word.contains('=') && !given("--set") => "put --set before it",

@@ -16,6 +16,7 @@ use crate::failures::Equipment;
 use crate::files::{LARGEST, read_regular};
 use crate::flight;
 use crate::record::Row;
+use crate::recording::arguments;
 use crate::report::estimate::Belief;
 use crate::report::mission::{self, REACHED_BY_GNSS_M, REACHED_M};
 use crate::report::summary::{Aim, Told};
@@ -247,11 +248,19 @@ pub(super) fn provenance(folder: &OutFolder, scenario: &Scenario, settings: &[St
         scenario: &scenario.name,
         set: settings,
         seed,
-        again: format!("sim-host run scenario.toml --seed {seed}"),
+        again: again(scenario, settings, seed),
         from: provenance_beside(&scenario.name),
     };
     folder.text("provenance.toml", &toml::to_string(&provenance)?)?;
     scenario.files()?.iter().try_for_each(|(name, text)| folder.text(name, text))
+}
+
+/// How to fly it again: by the scenario in its folder; with a recording, by what that was recorded of.
+fn again(scenario: &Scenario, settings: &[String], seed: u64) -> String {
+    if scenario.replay.is_none() {
+        return format!("sim-host run scenario.toml --seed {seed}");
+    }
+    format!("sim-host run {}{} --seed {seed} --replay RECORDING", scenario.name, arguments(settings))
 }
 
 /// The seed of the flight that has left a scenario.toml, if one has.

@@ -16,6 +16,7 @@ mod numbers;
 mod paper;
 mod pil;
 mod plan;
+mod replay;
 mod run;
 mod scenarios;
 mod serve;
@@ -221,6 +222,9 @@ struct RunArgs {
     seeds: Option<Seeds>,
     #[command(flatten)]
     threads: Threads,
+    /// Fly it as it was flown in a recording of `serve --record`.
+    #[arg(long, value_name = "FILE", conflicts_with = "seeds")]
+    replay: Option<PathBuf>,
     /// Write truth.csv, summary.json and figures there; with several seeds, into a folder a seed.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -298,6 +302,9 @@ struct ServeArgs {
     /// Vehicles to fly by one clock: each has the next system, seed, `--listen` and `--onboard` port.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = vehicles, allow_negative_numbers = true)]
     vehicles: u16,
+    /// Record what comes from outside into a new file, for `run --replay` and `pil --replay`.
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
     /// Simulated seconds per second, 0.01 to 1000.
     #[arg(long, default_value_t = 1.0, value_parser = number(SPEEDS), allow_negative_numbers = true)]
     speed: f64,
@@ -315,9 +322,12 @@ struct ServeArgs {
 struct PilArgs {
     #[command(flatten)]
     which: Which,
-    /// Seed of the random numbers.
-    #[arg(long, default_value_t = 1, value_parser = seeds::number, allow_negative_numbers = true)]
-    seed: u64,
+    /// Seed of the random numbers; 1, or that of the recording.
+    #[arg(long, value_parser = seeds::number, allow_negative_numbers = true)]
+    seed: Option<u64>,
+    /// Fly it as it was flown in a recording of `serve --record`.
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
     /// The image; by default the one that `cargo fw-pil` has built.
     #[arg(long, value_name = "ELF")]
     image: Option<PathBuf>,

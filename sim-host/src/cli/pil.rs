@@ -4,44 +4,51 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
+use firmware::failure::Injectable;
 use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
+use firmware::pil::AllSent;
 use serde_json::json;
 
-use super::{PilArgs, fly as report_of};
+use super::{PilArgs, fly as report_of, replay};
 use crate::flight;
 use crate::interrupt::{self, Interrupted};
-use crate::pil::{BusyWait, Difference, Overrun, Pil, PilOptions, PilOutput, Stopped, compare};
+use crate::pil::{
+    BusyWait, Difference, Overrun, Pil, PilOptions, PilOutput, SentDiffers, Stopped, compare, compare_sent,
+};
 use crate::plant::rigid_body::RigidBody;
 use crate::record::Recorder;
 use crate::report::{Metrics, Paint, Progress, Staged, Summary, TruthWriter, table};
 use crate::scenario::Scenario;
+use crate::sil::replay::Input;
 use crate::sil::{End, Flight, Lockstep as _};
 use crate::touchdown::Touchdown;
 
 pub(super) fn run(args: &PilArgs) -> Result<()> {
-    let scenario = args.which.load()?;
+    let (scenario, seed) = replay::load(&args.which, args.seed, args.replay.as_deref(), |_| 1)?;
     scenario.require_rigid_body()?;
     scenario.controller.require_smc("`pil`")?;
     let config = scenario.flight_config();
     let busy =
         BusyWait { outer_us: args.busy_outer_us, commander_us: args.busy_commander_us, ground_us: args.busy_ground_us };
     let timeout = Duration::from_secs(10);
-    let options = PilOptions { busy, timeout, ..PilOptions::new(image(args.image.as_deref())?, &config) };
-    let pil = Pil::start(&options)?;
+    let flight = flight::lockstep(&scenario, seed, flight::rigid_body(&scenario, seed))?;
+    let injectable = if scenario.replay.is_some() { flight.injectable() } else { Injectable::NONE };
+    let image = image(args.image.as_deref())?;
+    let pil = Pil::start(&PilOptions { injectable, busy, timeout, ..PilOptions::new(image, &config) })?;
 
     let bar = Progress::new(scenario.file.duration_s, !args.json);
     interrupt::listen();
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
-    let (summary, wall_s) = match &staged {
+    let Flown { summary, wall_s, sent } = match &staged {
         Some(staged) => {
             let folder = staged.folder();
-            report_of::provenance(&folder, &scenario, &args.which.settings.set, args.seed)?;
-            let flown = fly(&scenario, args.seed, pil, folder.truth()?, bar)?;
-            folder.summary(&flown.0)?;
+            report_of::provenance(&folder, &scenario, &args.which.settings.set, seed)?;
+            let flown = fly(&scenario, seed, flight, pil, folder.truth()?, bar)?;
+            folder.summary(&flown.summary)?;
             flown
         }
-        None => fly(&scenario, args.seed, pil, TruthWriter::hash_only(), bar)?,
+        None => fly(&scenario, seed, flight, pil, TruthWriter::hash_only(), bar)?,
     };
     staged.map(Staged::finish).transpose()?;
     if summary.ended == End::Interrupted {
@@ -49,11 +56,18 @@ pub(super) fn run(args: &PilArgs) -> Result<()> {
         return Err(Interrupted.into());
     }
     // The desktop alone, without the image, must leave the same bytes.
-    let sil = report_of::fly(&scenario, args.seed, false)?;
+    let sil = report_of::fly(&scenario, seed, false)?;
     if sil.truth_sha256 != summary.truth_sha256 {
         return Err(TruthDiffers { desktop: sil.truth_sha256, image: summary.truth_sha256 }.into());
     }
-    report(args, &summary, wall_s)
+    report(args, &summary, wall_s, &sent)
+}
+
+/// What came of a flight, how long it took, s, and what was sent on the links.
+struct Flown {
+    summary: Summary,
+    wall_s: f64,
+    sent: AllSent,
 }
 
 /// Two truth.csv that ought to be the same; their SHA-256.
@@ -73,7 +87,11 @@ impl std::error::Error for TruthDiffers {}
 
 /// Whether an error is what a comparison has found, rather than a reason why there was none.
 pub(super) fn is_finding(error: &anyhow::Error) -> bool {
-    error.is::<TruthDiffers>() || error.is::<Difference>() || error.is::<Overrun>() || error.is::<Stopped>()
+    error.is::<TruthDiffers>()
+        || error.is::<Difference>()
+        || error.is::<SentDiffers>()
+        || error.is::<Overrun>()
+        || error.is::<Stopped>()
 }
 
 /// The image to fly: the one named, else the one built in the workspace that this program or the user is in.
@@ -92,15 +110,15 @@ fn image(named: Option<&Path>) -> Result<PathBuf> {
     bail!("no image: build it with `cargo fw-pil`, or name one with --image")
 }
 
-/// Flies plant and image in lockstep, the desktop's autopilot beside them. Returns the wall time too, s.
+/// Flies plant and image in lockstep, the desktop's autopilot beside them.
 fn fly<W: std::io::Write>(
     scenario: &Scenario,
     seed: u64,
+    mut flight: Flight<RigidBody>,
     mut pil: Pil,
     truth: TruthWriter<W>,
     bar: Progress,
-) -> Result<(Summary, f64)> {
-    let mut flight = flight::lockstep(scenario, seed, flight::rigid_body(scenario, seed))?;
+) -> Result<Flown> {
     let touchdown = flight::ground(scenario).map(Touchdown::new);
     let mut recorder = (((Metrics::new(), truth), bar), touchdown);
     let start = Instant::now();
@@ -120,19 +138,28 @@ fn fly<W: std::io::Write>(
     let (((metrics, truth), bar), touchdown) = recorder;
     bar.finish();
     let flown = report_of::Flown { outcome: flight.outcome().after(touchdown.as_ref()), wall_s };
-    Ok((report_of::summarise(scenario, seed, &flown, truth.finish()?, &metrics), wall_s))
+    let summary = report_of::summarise(scenario, seed, &flown, truth.finish()?, &metrics);
+    Ok(Flown { summary, wall_s, sent: flight.sent() })
 }
 
 /// One tick. What moves the plant and what truth.csv records of the firmware is the image's; the desired attitude,
 /// which only the figures of merit look at, is the desktop's.
 fn step(flight: &mut Flight<RigidBody>, pil: &mut Pil, recorder: &mut impl Recorder) -> Result<bool> {
+    for entry in flight.hear_replayed() {
+        match &entry.input {
+            Input::Link { link, event } => pil.link(*link, event.event())?,
+            Input::Ask(asked) => pil.ask(*asked)?,
+        }
+    }
     let sample = flight.sense();
     if let Some(asked) = flight.ask_pilot() {
         pil.ask(asked)?;
     }
     flight.autopilot.tick(Some(&sample));
+    flight.send_replayed();
     let image = pil.tick(&sample)?;
     compare(&flight.autopilot.inner, &image)?;
+    compare_sent(flight.next_tick(), &flight.sent(), &image.sent)?;
     let inner = inner_of(&image);
     let outer = OuterOutput { s: image.s_position, ..*flight.autopilot.inner.outer_output() };
     flight.look_at(&inner, &outer).show(recorder);
@@ -143,7 +170,8 @@ fn inner_of(image: &PilOutput) -> InnerOutput {
     InnerOutput { motors: image.motors, demand: image.demand, s: image.s_attitude, saturated: image.saturated }
 }
 
-fn report(args: &PilArgs, summary: &Summary, wall_s: f64) -> Result<()> {
+fn report(args: &PilArgs, summary: &Summary, wall_s: f64, sent: &AllSent) -> Result<()> {
+    let sent_bytes: u64 = sent.iter().map(|sent| u64::from(sent.bytes)).sum();
     let microseconds_a_tick = wall_s * 1e6 / (summary.duration_s * 1e3);
     if args.json {
         let verdict = json!({
@@ -152,12 +180,14 @@ fn report(args: &PilArgs, summary: &Summary, wall_s: f64) -> Result<()> {
             "duration_s": summary.duration_s,
             "truth_sha256": summary.truth_sha256,
             "bit_identical": true,
+            "sent_bytes": sent_bytes,
             "real_time_factor": summary.real_time_factor,
         });
         return super::say(&verdict.to_string());
     }
+    let sent = if sent_bytes > 0 { format!(", {sent_bytes} bytes of MAVLink") } else { String::new() };
     super::say(&format!(
-        "{}image and desktop  the same, bit for bit: {} ticks, and truth.csv ({microseconds_a_tick:.0} µs a tick)",
+        "{}image and desktop  the same, bit for bit: {} ticks{sent}, and truth.csv ({microseconds_a_tick:.0} µs a tick)",
         table::render(summary, Paint::for_stdout()),
         (summary.duration_s * 1e3).round()
     ))

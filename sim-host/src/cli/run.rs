@@ -2,7 +2,7 @@
 
 use anyhow::{Result, bail, ensure};
 
-use super::{RunArgs, fly};
+use super::{RunArgs, fly, replay};
 use crate::interrupt::{self, Interrupted};
 use crate::parallel;
 use crate::report::summary::{self, Row};
@@ -13,7 +13,8 @@ use crate::sil::End;
 use crate::words::counted;
 
 pub(super) fn run(args: &RunArgs) -> Result<()> {
-    let scenario = args.which.load()?;
+    let (scenario, seed) =
+        replay::load(&args.which, args.seed, args.replay.as_deref(), |scenario| seed(args, scenario))?;
     super::note_idle_seeds(&scenario, args.seeds.is_some() || args.seed.is_some_and(|seed| seed != 1));
     let duration_s = scenario.file.duration_s;
     if args.out.is_some() && duration_s > fly::FIGURES_UP_TO_S {
@@ -26,22 +27,22 @@ pub(super) fn run(args: &RunArgs) -> Result<()> {
     let staged = args.out.as_deref().map(Staged::begin).transpose()?;
     match args.seeds {
         Some(seeds) => many(args, &scenario, seeds, staged),
-        None => one(args, &scenario, seed(args, &scenario), staged),
+        None => one(args, &scenario, seed, staged),
     }
 }
 
-/// The seed that was given, or that of the flight which has left the scenario, so that it is the same flight; else 1.
+/// The seed of the flight which has left the scenario, so that it is the same flight; else 1.
 fn seed(args: &RunArgs, scenario: &Scenario) -> u64 {
     let again = || {
         let seed = fly::seed_beside(&args.which.scenario)?;
-        if scenario.file.is_random() {
+        if args.seeds.is_none() && scenario.file.is_random() {
             super::complain(&format!(
                 "note: flown with seed {seed}, as provenance.toml has it; choose another with --seed"
             ));
         }
         Some(seed)
     };
-    args.seed.or_else(again).unwrap_or(1)
+    again().unwrap_or(1)
 }
 
 fn one(args: &RunArgs, scenario: &Scenario, seed: u64, staged: Option<Staged>) -> Result<()> {

@@ -17,6 +17,7 @@ use crate::flash_file::ParameterFile;
 use crate::flight;
 use crate::interrupt::{self, Interrupted};
 use crate::link::{DEFAULT_PEERS, Links, Peer};
+use crate::recording::{Header, Recorder, arguments};
 use crate::scenario::Scenario;
 use crate::serve::{Flown, Member, Pacing, serve};
 
@@ -41,6 +42,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
         eprintln!("{}", kept(path, &loaded));
         parameters = Some(file);
     }
+    let header = Header::new(&scenario, &set, args.seed)?;
     let mut fleet = Vec::new();
     for number in 0..args.vehicles {
         fleet.push(member(&scenario, args, number)?);
@@ -48,6 +50,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     if let Some(first) = fleet.first_mut() {
         eprint!("{}", greeting(&scenario, first.links.local_address()?, &peers(args, 0)));
         first.vehicle.keep_parameters(parameters);
+        first.recorder = recorder(args, &header)?;
     }
     if args.vehicles > 1 {
         eprintln!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles);
@@ -57,6 +60,10 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
     drop(terminal);
     eprintln!("{}", farewell(&flown));
+    let recorder = fleet.first().and_then(|first| first.recorder.as_ref());
+    if let (Some(path), Some(true)) = (&args.record, recorder.map(Recorder::is_whole)) {
+        eprintln!("recorded into {}: fly it again by sim-host {}", path.display(), again(args, &set, path));
+    }
     if interrupt::requested() { Err(Interrupted.into()) } else { Ok(()) }
 }
 
@@ -82,7 +89,7 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
         let server = links.serve_tcp(further(listen, number))?;
         eprintln!("Ground stations can connect by TCP to {server}.");
     }
-    Ok(Member { vehicle, links })
+    Ok(Member { vehicle, links, recorder: None })
 }
 
 /// The address of the vehicle with this number; a port that the system chooses stays that.
@@ -104,6 +111,19 @@ fn peers(args: &ServeArgs, number: u16) -> Vec<Peer> {
         peer.address = further(peer.address, number);
     }
     peers
+}
+
+/// The recorder of what comes from outside, if there is to be one.
+fn recorder(args: &ServeArgs, header: &Header) -> Result<Option<Recorder>> {
+    let Some(path) = &args.record else { return Ok(None) };
+    ensure!(args.vehicles == 1, "--record is of one vehicle: leave out --vehicles {}", args.vehicles);
+    ensure!(args.params.is_none(), "--record knows no --params: give what is set by --set params.NAME=VALUE");
+    Recorder::create(path, header).map(Some)
+}
+
+/// How a recording is flown again.
+fn again(args: &ServeArgs, set: &[String], path: &Path) -> String {
+    format!("run {}{} --replay {}", args.scenario, arguments(set), path.display())
 }
 
 /// What flies, and how to talk to it.

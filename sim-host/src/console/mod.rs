@@ -13,4 +13,4 @@ mod session;
 pub mod terminal;
 
 pub use line::{Line, Tone};
-pub use session::{Control, Session};
+pub use session::{ConsoleInput, Control, Session};

@@ -228,7 +228,7 @@ fn fault(words: &[&str], now: Tick) -> Result<Command> {
 }
 
 fn clear(words: &[&str], _: Tick) -> Result<Command> {
-    let of = (!words.is_empty()).then(|| Equipment::parse(words)).transpose()?;
+    let of = (!words.is_empty()).then(|| failures::parse_equipment(words)).transpose()?;
     Ok(Command::Clear(of))
 }
 

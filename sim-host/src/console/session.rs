@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::net::SocketAddr;
 
 use anyhow::{Result, ensure};
-use firmware::commander::{LAUNCH_HELD_S, Mode, Origin, Outcome, Refusal, Reply, Request};
+use firmware::commander::{self, LAUNCH_HELD_S, Mode, Origin, Outcome, Refusal, Reply, Request};
 use firmware::config::ModeSettings;
 use firmware::failure::Manner;
 use firmware::mavlink::port::{Ports, SENT_CAPACITY};
@@ -58,6 +58,17 @@ pub struct Session {
     truth: Option<TruthStream>,
     /// Where settings are kept.
     parameters: Option<ParameterFile>,
+    /// What of the console has acted on the flight, since somebody has last looked.
+    inputs: Vec<(Tick, ConsoleInput)>,
+}
+
+/// What a typed line does to the flight, and before which tick.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ConsoleInput {
+    /// Asks the vehicle.
+    Asked(commander::Asked),
+    /// Changes the world around it: the line.
+    World(String),
 }
 
 /// Ticks after which a velocity is repeated: five times as often as the vehicle needs.
@@ -69,11 +80,21 @@ const TRUTH_EVERY: Tick = 100;
 impl Session {
     /// Starts a session on a flight, before its next tick.
     pub fn new(mut flight: Flight<RigidBody>) -> Self {
-        let injectable = failures::injectable(flight.sensors(), flight.plant().battery().is_some());
+        let injectable = flight.injectable();
         flight.autopilot.inner.allow_failures(injectable);
         let watch = Watch::new(&flight);
         let (answers, asked) = (Answers::default(), VecDeque::new());
-        Self { flight, watch, answers, asked, velocity: None, said: Vec::new(), truth: None, parameters: None }
+        Self {
+            flight,
+            watch,
+            answers,
+            asked,
+            velocity: None,
+            said: Vec::new(),
+            truth: None,
+            parameters: None,
+            inputs: Vec::new(),
+        }
     }
 
     /// The same, with the truth told beside what the vehicle tells: the flight is about this home.
@@ -120,6 +141,15 @@ impl Session {
         core::mem::take(&mut self.said)
     }
 
+    /// What of the console has acted on the flight since the last call, each with the tick before which it did.
+    pub fn take_inputs(&mut self) -> Vec<(Tick, ConsoleInput)> {
+        core::mem::take(&mut self.inputs)
+    }
+
+    fn note(&mut self, input: ConsoleInput) {
+        self.inputs.push((self.flight.next_tick(), input));
+    }
+
     fn say(&mut self, tone: Tone, text: String) {
         self.said.push(Line { t_s: Some(self.time_s()), tone, text });
     }
@@ -161,16 +191,9 @@ impl Session {
 
     /// Applies the failures that were accepted from ground stations.
     fn take_failures(&mut self) {
-        for failure in self.flight.autopilot.inner.take_failures() {
+        for failure in self.flight.take_failures() {
             if failure.manner == Manner::Well {
-                // Also what the console or the scenario has made fail: it is said to work again.
-                let of = Equipment::of(&failure);
-                let _ = self.flight.clear_faults_where(|fault| of.has(fault));
-                self.say(Tone::Plain, format!("ground station: {} works again", of.name()));
-            }
-            for (slot, fault) in failures::of(&failure, self.flight.next_tick()) {
-                // The firmware is allowed failures on sensors alone, where this cannot fail.
-                let _ = self.flight.hold_fault(slot, fault.as_ref());
+                self.say(Tone::Plain, format!("ground station: {} works again", Equipment::of(&failure).name()));
             }
         }
     }
@@ -244,6 +267,10 @@ impl Session {
         if let Some(next) = self.asked.front_mut() {
             // A full queue: later.
             next.sent = self.flight.autopilot.inner.request(next.request).is_ok();
+            if next.sent {
+                let request = next.request;
+                self.note(ConsoleInput::Asked(request.into()));
+            }
         }
     }
 
@@ -256,19 +283,28 @@ impl Session {
     fn kill(&mut self) {
         self.asked.retain(|asked| asked.sent);
         self.flight.autopilot.inner.kill();
+        self.note(ConsoleInput::Asked(commander::Asked::Kill));
         self.say(Tone::Good, "kill: accepted".to_owned());
     }
 
     /// Executes a line, and answers at once or when the commander has decided. An invalid line only gets an answer.
     pub fn enter(&mut self, line: &str) -> Option<Control> {
-        let done = parse::parse(line, self.flight.next_tick());
-        match done.and_then(|command| command.map_or(Ok(None), |command| self.carry_out(&command))) {
+        match self.read_and_carry_out(line) {
             Ok(control) => control,
             Err(error) => {
                 self.say(Tone::Refused, format!("{error:#}").replace('\n', " "));
                 None
             }
         }
+    }
+
+    fn read_and_carry_out(&mut self, line: &str) -> Result<Option<Control>> {
+        let Some(command) = parse::parse(line, self.flight.next_tick())? else { return Ok(None) };
+        let control = self.carry_out(&command)?;
+        if matches!(command, Command::SetWind(_) | Command::Fault(_) | Command::Clear(_)) {
+            self.note(ConsoleInput::World(line.trim().to_owned()));
+        }
+        Ok(control)
     }
 
     fn carry_out(&mut self, command: &Command) -> Result<Option<Control>> {

@@ -1,7 +1,11 @@
+use firmware::failure::Failure;
+
 use super::*;
 use crate::flight;
 use crate::scenario::Scenario;
+use crate::sensors::faults::{Kind, SLOTS};
 use crate::sil::Lockstep as _;
+use crate::sil::failures::{injectable, of};
 
 fn read(line: &str) -> Result<Fault> {
     parse(line.split_whitespace(), 1500)

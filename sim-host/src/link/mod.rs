@@ -13,7 +13,7 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener, UdpSocket};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, bail, ensure};
-use firmware::mavlink::port::{LINKS, Ports, Profile, SENT_CAPACITY};
+use firmware::mavlink::port::{LINKS, LinkEvent, Ports, Profile, SENT_CAPACITY};
 
 use self::address::{cannot_listen, elsewhere, is_own};
 use self::tcp::Connection;
@@ -262,23 +262,30 @@ impl Links {
         longest.filter(|(silent, _)| *silent > YIELD_AFTER).map(|(_, number)| number)
     }
 
-    /// Hands on what has arrived, as much as the vehicle takes, and tells it which links are open.
-    pub fn deliver(&mut self, ports: &Ports) {
-        for (slot, port) in self.slots.iter_mut().zip(ports) {
+    /// Hands on what has arrived, as much as the vehicle takes, and tells it which links are open. Of each link's events
+    /// `note` is told too, with its number.
+    pub fn deliver(&mut self, ports: &Ports, mut note: impl FnMut(usize, LinkEvent)) {
+        for (number, (slot, port)) in self.slots.iter_mut().zip(ports).enumerate() {
+            let mut hand_on = |event: LinkEvent| {
+                port.take_in(event);
+                note(number, event);
+            };
             let Some(peer) = &mut slot.peer else {
                 if port.is_open() {
-                    port.close();
+                    hand_on(LinkEvent::Close);
                 }
                 continue;
             };
             if !peer.opened {
                 peer.opened = true;
-                port.open(peer.profile);
+                hand_on(LinkEvent::Open(peer.profile));
             }
-            port.lose(core::mem::take(&mut slot.lost));
-            if !slot.inbox.is_empty() {
-                let count = slot.inbox.len().min(port.room());
-                port.receive(&slot.inbox[..count]);
+            if slot.lost > 0 {
+                hand_on(LinkEvent::Lost(core::mem::take(&mut slot.lost)));
+            }
+            let count = slot.inbox.len().min(port.room());
+            if count > 0 {
+                hand_on(LinkEvent::Received(&slot.inbox[..count]));
                 slot.inbox.drain(..count);
             }
         }

@@ -56,7 +56,7 @@ impl Bench {
         let start = Instant::now();
         while port.received().held() == 0 && start.elapsed() < Duration::from_secs(5) {
             self.links.receive();
-            self.links.deliver(&self.ports);
+            self.links.deliver(&self.ports, |_, _| {});
         }
         self.ports.release();
         let mut bytes = [0; 2048];
@@ -67,7 +67,7 @@ impl Bench {
 
     /// What the ground partition would write to every open link.
     fn say(&mut self, bytes: &[u8]) {
-        self.links.deliver(&self.ports);
+        self.links.deliver(&self.ports, |_, _| {});
         for port in self.ports.iter().filter(|port| port.is_open()) {
             port.sent().write(bytes);
         }
@@ -188,7 +188,7 @@ fn a_silent_guest_gives_way_and_one_that_speaks_stays() {
     assert_eq!([1, 2, 3, 4, 5, 6].map(|port| is_guest(&bench, port)), [false, true, true, true, true, false]);
     bench.links.forget_at(at(15));
     assert!((1..=6).all(|port| !is_guest(&bench, port)));
-    bench.links.deliver(&bench.ports);
+    bench.links.deliver(&bench.ports, |_, _| {});
     assert!(bench.ports.iter().all(|port| !port.is_open()));
 }
 
@@ -212,7 +212,7 @@ fn a_station_that_connects_over_tcp_has_a_link_until_it_leaves() {
     let start = Instant::now();
     while bench.ports.first().is_open() && start.elapsed() < Duration::from_secs(5) {
         bench.links.receive();
-        bench.links.deliver(&bench.ports);
+        bench.links.deliver(&bench.ports, |_, _| {});
     }
     assert!(!bench.ports.first().is_open());
 }

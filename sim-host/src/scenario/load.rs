@@ -230,7 +230,7 @@ impl Scenario {
             }
             _ => bail!(BOTH),
         };
-        let scenario = Self { name: name.to_owned(), file, airframe, controller };
+        let scenario = Self { name: name.to_owned(), file, airframe, controller, replay: None };
         scenario.validate()?;
         Ok(scenario)
     }

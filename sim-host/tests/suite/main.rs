@@ -26,6 +26,7 @@ mod paper_command;
 mod physics;
 #[cfg(unix)]
 mod pil;
+mod replay;
 mod sensor_flights;
 mod sensor_streams;
 mod telemetry;

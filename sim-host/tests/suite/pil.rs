@@ -5,17 +5,24 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use firmware::autopilot::Autopilot;
+use firmware::commander::Mode;
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
-use firmware::pil::Cause;
+use firmware::mavlink::port::LinkEvent;
+use firmware::pil::{AllSent, Cause};
 use firmware::signals::{NavState, SensorFrame, TICK_S};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use sim_host::pil::{BusyWait, Difference, Fault, Overrun, Pil, PilOptions, Stopped, compare};
+use sim_host::flight;
+use sim_host::pil::{
+    BusyWait, Difference, Fault, Overrun, Pil, PilOptions, SentDiffers, Stopped, compare, compare_sent,
+};
 use sim_host::plant::Motion;
 use sim_host::scenario::Scenario;
 use sim_host::sensors::{BatteryTruth, Suite, Truth};
+use sim_host::sil::replay::{Input, OnLink};
 
 use crate::common::image::image;
+use crate::common::station::flight_by_two;
 
 const TICKS: u32 = 20_000;
 
@@ -132,6 +139,65 @@ fn navigation_on_sensors_is_the_same_bit_for_bit() {
         assert!(sil.inner.nav_health().attitude, "{name}: it was a flight on sensors");
         pil.finish().expect("ends");
     }
+}
+
+/// Flies a scenario by two ground stations on both sides. `disturb` changes what the image hears.
+fn by_stations(name: &str, ready_s: f64, ticks: u32, disturb: fn(&mut Vec<u8>)) -> anyhow::Result<AllSent> {
+    let mut scenario = Scenario::load(name, &[]).expect("valid");
+    scenario.replay = Some(flight_by_two(ready_s).into());
+    let config = scenario.flight_config();
+    let mut sil = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("flies");
+    let options = PilOptions { injectable: sil.injectable(), ..PilOptions::new(image("mps2-pil"), &config) };
+    let mut pil = Pil::start(&options)?;
+    let mut modes = Vec::new();
+    for tick in 0..ticks {
+        for entry in sil.hear_replayed() {
+            match &entry.input {
+                Input::Link { link, event: OnLink::Received(bytes) } => {
+                    let mut bytes = bytes.clone();
+                    disturb(&mut bytes);
+                    pil.link(*link, LinkEvent::Received(&bytes))?;
+                }
+                Input::Link { link, event } => pil.link(*link, event.event())?,
+                Input::Ask(asked) => pil.ask(*asked)?,
+            }
+        }
+        let sample = sil.sense();
+        sil.autopilot.tick(Some(&sample));
+        sil.send_replayed();
+        let output = pil.tick(&sample)?;
+        compare(&sil.autopilot.inner, &output)?;
+        compare_sent(tick, &sil.sent(), &output.sent)?;
+        modes.push(sil.autopilot.inner.commander_output().mode);
+        sil.actuate(&output.motors, output.saturated);
+    }
+    pil.finish()?;
+    for mode in [Mode::TakeOff, Mode::Hold, Mode::Return, Mode::Land, Mode::Idle] {
+        assert!(modes.contains(&mode), "{name}: {mode:?}");
+    }
+    Ok(sil.sent())
+}
+
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_flight_by_mavlink_alone_and_all_that_is_sent_are_the_same_bit_for_bit() {
+    for (name, ready_s) in [("pad", 0.4), ("field", 3.0)] {
+        let sent = by_stations(name, ready_s, 24_000, |_| {}).unwrap_or_else(|error| panic!("{name}: {error:#}"));
+        assert!(sent[0].bytes > 20_000 && sent[1].bytes > 60_000, "{name}: {sent:?}");
+    }
+}
+
+/// Or the test above could not fail.
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_byte_that_a_station_sends_to_one_side_only_is_found_in_what_is_sent_back() {
+    let error = by_stations("pad", 0.4, 3_000, |bytes| {
+        if let Some(last) = bytes.last_mut() {
+            *last ^= 1;
+        }
+    });
+    let error = error.expect_err("heard differently");
+    assert!(error.is::<SentDiffers>() || error.is::<Difference>(), "{error:#}");
 }
 
 /// Or the tests above could not fail.

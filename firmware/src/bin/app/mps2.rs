@@ -95,24 +95,27 @@ mod app {
         autopilot: Autopilot,
     }
 
-    fn boot() -> Result<Boot, StartError> {
+    fn boot(ports: &'static Ports) -> Result<Boot, StartError> {
         let Peripherals { tick, clock, uart, pwm } = Peripherals::take().ok_or(StartError::Peripherals)?;
-        let start = drivers::start(pwm, clock)?;
-        let autopilot = Autopilot::new(&start.config).map_err(StartError::Config)?;
+        let start = drivers::start(pwm, clock, ports)?;
+        let mut autopilot = Autopilot::new(&start.config).map_err(StartError::Config)?;
+        autopilot.inner.allow_failures(start.injectable);
         Ok(Boot { tick, clock, uart, start, autopilot })
     }
 
     #[init(local = [links: Ports = Ports::new()])]
     fn init(cx: init::Context) -> (Shared, Local) {
-        let Boot { mut tick, clock, uart, start, autopilot } = match boot() {
+        let ports: &'static Ports = cx.local.links;
+        let Boot { mut tick, clock, uart, start, autopilot } = match boot(ports) {
             Ok(boot) => boot,
             Err(error) => super::refuse(error),
         };
         drivers::answer(Ok(()));
         defmt::info!("glissade {=str} is up", env!("CARGO_PKG_VERSION"));
-        let ports: &'static Ports = cx.local.links;
         let port = ports.first();
-        port.open(Profile::Normal);
+        if drivers::STANDS_ALONE {
+            port.open(Profile::Normal);
+        }
         let (uart_rx, uart) = uart.start();
         let Start { imu, rotors, diagnostics, .. } = start;
         let Autopilot { inner: flight, filter, outer, commander, ground, mail, .. } = autopilot;
@@ -145,17 +148,19 @@ mod app {
         let sample = top.imu.sample();
         let outer_jobs = cx.shared.outer_jobs.lock(core::mem::take);
         if let Some(timing) = top.meter.activation(top.clock.now(), outer_jobs) {
-            top.flight.report_timing(timing);
+            if drivers::STANDS_ALONE {
+                top.flight.report_timing(timing);
+            }
             cx.shared.timing.lock(|shared| *shared = Some(timing));
         }
-        if let Some(asked) = top.imu.asked() {
+        while let Some(asked) = top.imu.asked() {
             // A full queue drops a request, like a ground station's.
             let _ = top.flight.ask(asked);
         }
         let (released, overruns) =
             cx.shared.mail.lock(|mail| (top.flight.tick(mail, top.ports, sample.as_ref()), mail.overruns()));
         top.rotors.drive(&top.flight, overruns);
-        if top.ports.first().has_output() {
+        if drivers::STANDS_ALONE && top.ports.first().has_output() {
             rtic::pend(Interrupt::UARTTX0);
         }
         if released.filter || released.outer {
@@ -177,8 +182,9 @@ mod app {
         while let Ok(true) = uart.read_ready() {
             let mut byte = [0];
             if uart.read(&mut byte).is_ok() {
-                let [byte] = byte;
-                received.receive(&[byte]);
+                if drivers::STANDS_ALONE {
+                    received.receive(&byte);
+                }
             }
         }
     }
@@ -216,7 +222,7 @@ mod app {
     fn transmit(cx: transmit::Context) {
         let line = cx.local.line;
         line.uart.acknowledge();
-        while line.port.has_output() && line.uart.write_ready().unwrap_or(false) {
+        while drivers::STANDS_ALONE && line.port.has_output() && line.uart.write_ready().unwrap_or(false) {
             if let Some(byte) = line.port.next_byte() {
                 let _ = line.uart.write(&[byte]);
             }

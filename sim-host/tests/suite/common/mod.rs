@@ -5,3 +5,4 @@ pub(crate) mod fingerprint;
 pub(crate) mod folder;
 pub(crate) mod image;
 pub(crate) mod load;
+pub(crate) mod station;

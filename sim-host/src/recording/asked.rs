@@ -1,0 +1,75 @@
+//! What a vehicle is asked, as words: a kind, and its numbers in SI units. A number is written in the shortest form that
+//! reads back as the same bits.
+
+use anyhow::{Result, bail, ensure};
+use firmware::commander::{Asked, Request};
+
+/// The kinds, each with how many numbers it has.
+const KINDS: [(&str, usize); 13] = [
+    ("arm", 0),
+    ("arm-force", 0),
+    ("disarm", 0),
+    ("takeoff", 1),
+    ("hold", 0),
+    ("goto", 4),
+    ("velocity", 4),
+    ("land", 0),
+    ("return", 0),
+    ("trajectory", 0),
+    ("home", 3),
+    ("home-here", 0),
+    ("kill", 0),
+];
+
+/// As words.
+pub(super) fn text(asked: &Asked) -> String {
+    match *asked {
+        Asked::Kill => "kill".to_owned(),
+        Asked::Request(request) => match request {
+            Request::Arm { force: false } => "arm".to_owned(),
+            Request::Arm { force: true } => "arm-force".to_owned(),
+            Request::Disarm => "disarm".to_owned(),
+            Request::TakeOff { height_m } => format!("takeoff {height_m}"),
+            Request::Hold => "hold".to_owned(),
+            Request::GoTo { position_m: [x, y, z], yaw_rad } => format!("goto {x} {y} {z} {yaw_rad}"),
+            Request::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s } => {
+                format!("velocity {x} {y} {z} {yaw_rate_rad_s}")
+            }
+            Request::Land => "land".to_owned(),
+            Request::Return => "return".to_owned(),
+            Request::Follow => "trajectory".to_owned(),
+            Request::SetHome { position_m: Some([x, y, z]) } => format!("home {x} {y} {z}"),
+            Request::SetHome { position_m: None } => "home-here".to_owned(),
+        },
+    }
+}
+
+/// From words.
+///
+/// # Errors
+/// In one line, what is expected in place of them.
+pub(super) fn read(words: &[&str]) -> Result<Asked> {
+    let kind = words.first().copied().unwrap_or_default();
+    let Some((_, count)) = KINDS.into_iter().find(|(name, _)| *name == kind) else {
+        let names: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
+        bail!("`ask` must be followed by one of {}, not by `{kind}`", names.join(", "))
+    };
+    let numbers: Vec<f32> = words.iter().skip(1).filter_map(|word| word.parse().ok()).collect();
+    ensure!(numbers.len() == count && words.len() == count + 1, "`ask {kind}` must be followed by {count} numbers");
+    let request = match (kind, numbers.as_slice()) {
+        ("arm", _) => Request::Arm { force: false },
+        ("arm-force", _) => Request::Arm { force: true },
+        ("disarm", _) => Request::Disarm,
+        ("takeoff", [height_m]) => Request::TakeOff { height_m: *height_m },
+        ("hold", _) => Request::Hold,
+        ("goto", [x, y, z, yaw_rad]) => Request::GoTo { position_m: [*x, *y, *z], yaw_rad: *yaw_rad },
+        ("velocity", [x, y, z, rate]) => Request::Velocity { velocity_m_s: [*x, *y, *z], yaw_rate_rad_s: *rate },
+        ("land", _) => Request::Land,
+        ("return", _) => Request::Return,
+        ("trajectory", _) => Request::Follow,
+        ("home", [x, y, z]) => Request::SetHome { position_m: Some([*x, *y, *z]) },
+        ("home-here", _) => Request::SetHome { position_m: None },
+        _ => return Ok(Asked::Kill),
+    };
+    Ok(request.into())
+}
