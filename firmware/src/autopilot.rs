@@ -5,6 +5,10 @@
 //! the other in [`Autopilot::tick`]. Each tick, in this order (see `schedule`): due outputs are published, partitions
 //! are released with a snapshot of their inputs, the inner loop runs, then the released partitions.
 
+mod partitions;
+
+pub use partitions::Partitions;
+
 use crate::commander::{
     Answers, Asked, Command, Commander, CommanderInput, CommanderOutput, Commands, Directive, Event, Events, Known,
     Origin, Outcome, Refusal, Reply, Request,
@@ -514,8 +518,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
     }
 }
 
-/// Everything that flies, for one configuration: the inner task, the partitions below it, and the mailboxes between
-/// them. A board takes it apart and gives each field to its task; the desktop calls [`tick`](Autopilot::tick).
+/// Everything that flies, for one configuration: the [`Partitions`] with the links to ground stations. The desktop calls
+/// [`tick`](Autopilot::tick).
 #[derive(Clone, Debug)]
 pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
     /// Runs every tick.
@@ -540,10 +544,7 @@ impl Autopilot {
     /// # Errors
     /// The first field of the configuration that is out of range.
     pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
-        config.validate()?;
-        let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
-        let position = SlidingPosition::new(&config.airframe, &config.position);
-        Self::with_laws(config, attitude, position)
+        Partitions::new(config).map(Self::of)
     }
 }
 
@@ -553,19 +554,12 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
     /// # Errors
     /// The first field of the configuration that is out of range.
     pub fn with_laws(config: &FlightConfig, attitude: A, position: P) -> Result<Self, ConfigError> {
-        config.validate()?;
-        let commander = Commander::new(config);
-        let mut outer = Outer::new(config, position)?;
-        let inner = Inner::new(config, attitude)?;
-        Ok(Self {
-            inner: InnerTask::new(config, inner, &mut outer, &commander),
-            filter: filter(config),
-            outer,
-            commander,
-            ground: Ground::new(Settings::of(config)),
-            mail: Mailboxes::new(),
-            ports: Ports::new(),
-        })
+        Partitions::with_laws(config, attitude, position).map(Self::of)
+    }
+
+    fn of(partitions: Partitions<A, P>) -> Self {
+        let Partitions { inner, filter, outer, commander, ground, mail } = partitions;
+        Self { inner, filter, outer, commander, ground, mail, ports: Ports::new() }
     }
 
     /// The same vehicle with the settings of which its configuration was made: with what stands in the settings alone,
@@ -603,12 +597,4 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
         }
         self.inner.inner_output()
     }
-}
-
-/// The filter of a configuration; unused on ideal state.
-fn filter(config: &FlightConfig) -> Filter {
-    let airframe = &config.airframe;
-    let [k, _, _] = airframe.drag_n_s_m;
-    let settings = config.estimator.unwrap_or_default();
-    Filter::new(&settings, airframe.gravity_m_s2, k / airframe.mass_kg, config.start_position())
 }

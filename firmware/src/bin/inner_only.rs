@@ -7,7 +7,7 @@
 mod image {
     use core::hint::black_box;
 
-    use firmware::autopilot::Autopilot;
+    use firmware::autopilot::Partitions;
     use firmware::config::FlightConfig;
     use firmware::estimator::EstimatorSettings;
     use firmware::mavlink::port::Ports;
@@ -19,7 +19,7 @@ mod image {
     #[cortex_m_rt::entry]
     fn main() -> ! {
         let config = FlightConfig { estimator: Some(EstimatorSettings::default()), ..FlightConfig::default() };
-        let Ok(Autopilot { mut inner, mut mail, .. }) = Autopilot::new(&black_box(config)) else { end() };
+        let Ok(Partitions { mut inner, mut mail, .. }) = Partitions::new(&black_box(config)) else { end() };
         let motion = SensorFrame::Motion(NavState::at_rest());
         let measured = SensorFrame::Measured(Measurements::default());
         loop {
