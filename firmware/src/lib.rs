@@ -15,7 +15,7 @@
 //!
 //! Each partition is a struct that owns its state and has one step function: plain data in, plain data out, no clock,
 //! no I/O. [`schedule`] defines when its inputs are read and its outputs take effect, [`autopilot`] puts the partitions
-//! together, and `board` gives them tasks, sensors and rotors.
+//! together, and [`board`] gives them tasks, sensors and rotors.
 //!
 //! World frame NWU (north, west, up), body frame FLU (forward, left, up), SI units. Only [`frames`] converts to
 //! MAVLink's NED and FRD.
@@ -56,7 +56,6 @@
 
 pub mod airframe;
 pub mod autopilot;
-#[cfg(all(target_arch = "arm", target_os = "none"))]
 pub mod board;
 pub mod commander;
 pub mod config;

@@ -4,7 +4,7 @@
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 mod image {
-    use firmware::board::fault;
+    use firmware::board::mps2;
 
     #[cortex_m_rt::entry]
     fn main() -> ! {
@@ -14,7 +14,7 @@ mod image {
 
     #[panic_handler]
     fn panic(_: &core::panic::PanicInfo) -> ! {
-        fault::end()
+        mps2::end()
     }
 }
 

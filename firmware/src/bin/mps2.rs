@@ -3,7 +3,7 @@
 #![cfg_attr(all(target_arch = "arm", target_os = "none"), no_std, no_main)]
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
-use firmware::board::pad as drivers;
+use firmware::board::mps2::pad as drivers;
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 #[path = "app/mps2.rs"]

@@ -3,7 +3,7 @@
 #![cfg_attr(all(target_arch = "arm", target_os = "none"), no_std, no_main)]
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
-use firmware::board::host as drivers;
+use firmware::board::mps2::host as drivers;
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 #[path = "app/mps2.rs"]

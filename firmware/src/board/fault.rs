@@ -2,20 +2,13 @@
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use super::mps2;
-
-/// Stops the rotors and everything that could start them again. Returns true the first time; false means a fault during
-/// fault handling, after which only [`end`] remains.
-pub fn stop_rotors() -> bool {
+/// Stops everything that could start the rotors again, and the rotors by the board's function. Returns true the first time;
+/// false means a fault during fault handling, after which only an end remains.
+pub fn stop_rotors(stop_all: fn()) -> bool {
     static STOPPED: AtomicBool = AtomicBool::new(false);
     cortex_m::interrupt::disable();
-    mps2::stop_all();
+    stop_all();
     !STOPPED.swap(true, Ordering::Relaxed)
-}
-
-/// Ends the emulation with a failure.
-pub fn end() -> ! {
-    semihosting::process::exit(1)
 }
 
 /// Defines the handlers of hard faults and unexpected interrupts. Both call the given function, an `extern "C" fn() ->

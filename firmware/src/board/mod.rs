@@ -1,59 +1,115 @@
-//! Board support, compiled for the target only.
+//! What a board gives the firmware, as traits, and the bodies of the tasks that are generic over them.
 //!
-//! [`mps2`] is the chip of QEMU's mps2-an386: interrupts, timers, serial port, and PWM outputs that only record their
-//! duty cycle. An application takes its IMU and rotors from a drivers module: [`pad`] for a board without sensors that
-//! stands still, `host` for processor in the loop. Each drivers module has the same items: the functions `start`,
-//! `answer` and `stopped`, the types `Imu`, `Rotors` and `Diagnostics`, and `STANDS_ALONE`. [`fault`] stops the rotors after a panic or
-//! hard fault.
+//! ```text
+//! Ticker ─► inner:    Sensors, flight, Rotors, Companion     Clock measures it
+//! serial ─► receive ──► Ports ──► ground ──► Ports ──► transmit ─► serial
+//! ```
 //!
-//! Apart from the square root instruction in `math`, this is the only module of the crate with `unsafe` code; each
-//! block states why it is sound.
+//! [`tasks`] has a struct for each task, with what is its own, and a method that the task calls. An application binds them
+//! to interrupts and priorities, and is little else. Both know no chip, so they are compiled and tested on the desktop too.
+//! What a chip is made of stands in a module of its own behind a feature: `mps2`, QEMU's mps2-an386, behind `board-mps2`.
+//! [`fault`] stops the rotors after a panic or a hard fault.
+//!
+//! Apart from the square root instruction in `math`, the chips' modules and [`fault`] are the only ones of the crate with
+//! `unsafe` code; each block states why it is sound.
 
-#[cfg(feature = "pil")]
-pub mod counter;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
 pub mod fault;
-#[cfg(feature = "pil")]
-pub mod host;
+#[cfg(all(feature = "board-mps2", target_arch = "arm", target_os = "none"))]
 pub mod mps2;
-pub mod pad;
+pub mod tasks;
+
+use embedded_io::{Read, ReadReady, Write, WriteReady};
 
 use crate::autopilot::InnerTask;
 use crate::commander::Asked;
 use crate::config::FlightConfig;
 use crate::failure::Injectable;
-use crate::signals::SensorFrame;
+use crate::mavlink::port::Ports;
+use crate::signals::{MotorCommand, SensorFrame, Tick};
 use crate::validate::ConfigError;
 
 /// The source of the inner loop's samples.
-pub trait Imu {
-    /// The sample of the tick that has just begun; `None` if it is missing. Called once per tick by the inner task,
-    /// which waits for it.
-    fn sample(&mut self) -> Option<SensorFrame>;
-
-    /// The next request since the last tick that did not come by MAVLink. Called after the sample until there is none.
-    fn asked(&mut self) -> Option<Asked> {
-        None
-    }
+pub trait Sensors {
+    /// The sample of a tick; `None` if it is missing. Called by the inner task, once at the beginning of every tick, which
+    /// waits for it: a driver that has none yet returns `None` rather than take a part of the tick.
+    fn sample(&mut self, tick: Tick) -> Option<SensorFrame>;
 }
 
 /// The sink of the inner loop's motor commands.
 pub trait Rotors {
-    /// Outputs the inner loop's motor commands of this tick. Called once per tick by the inner task, after its step;
-    /// must not wait for the rotors.
-    fn drive(&mut self, flight: &InnerTask, overruns: [u32; 3]);
+    /// Outputs the commands of a tick. Called by the inner task, once per tick, after its step; must not wait for the
+    /// rotors. If one output fails, the others are set nevertheless.
+    fn drive(&mut self, command: &MotorCommand);
 }
 
-/// What a drivers module returns to the application at boot.
-pub struct Start<I, R, D> {
+/// Whoever takes part in the flight besides the schedule: a computer on board that asks without MAVLink, or the host of
+/// processor in the loop. Most boards have none, and implement nothing.
+pub trait Companion {
+    /// Whether it is at the other end of every link, and compares what is sent: then the serial ports carry none, and
+    /// nothing is sent that a clock has measured.
+    const HAS_ALL_LINKS: bool = false;
+
+    /// The next request since the last tick. Called by the inner task after the sample, until there is none.
+    fn asked(&mut self) -> Option<Asked> {
+        None
+    }
+
+    /// The inner task has finished its tick. `overruns` are those of outer, commander and ground since boot.
+    fn see(&mut self, _flight: &InnerTask, _overruns: [u32; 3], _ports: &Ports) {}
+}
+
+/// A clock that does not depend on the tick: the tick is measured by it.
+pub trait Clock {
+    /// How fast it counts.
+    const COUNTS_PER_US: u32;
+
+    /// Counts since its start, modulo 2³².
+    fn now(&self) -> u32;
+}
+
+/// The source of the inner task's interrupt: a timer, or the sensor's own.
+pub trait Ticker {
+    /// The first interrupt comes one period from now.
+    fn start(&mut self, period_us: u32);
+
+    /// Called once per interrupt, first of all.
+    fn acknowledge(&mut self);
+}
+
+/// The receiving half of a serial port, which interrupts when it has a byte.
+pub trait SerialReceiver: Read + ReadReady {
+    /// Called once per interrupt, before reading: a byte that arrives later interrupts again.
+    fn acknowledge(&mut self);
+}
+
+/// The sending half of a serial port, which interrupts when it has room.
+pub trait SerialSender: Write + WriteReady {
+    /// Called once per interrupt, before writing.
+    fn acknowledge(&mut self);
+}
+
+/// What is added to the partitions' jobs, for tests of what a late or faulty one does. Nothing, for `()`.
+pub trait Diagnostics {
+    /// In the outer partition's job, which was released at this tick.
+    fn outer(&mut self, _released: Tick) {}
+    /// In the commander's job.
+    fn commander(&mut self) {}
+    /// In the ground partition's job.
+    fn ground(&mut self) {}
+}
+
+impl Diagnostics for () {}
+
+/// What a board begins a flight with.
+pub struct Start<B, D> {
     /// Configuration of the flight.
     pub config: FlightConfig,
     /// Failures that can be injected.
     pub injectable: Injectable,
-    /// Source of samples.
-    pub imu: I,
-    /// Sink of commands.
-    pub rotors: R,
-    /// Additions to the partitions' jobs, for tests.
+    /// The drivers of the inner task.
+    pub board: B,
+    /// Additions to the partitions' jobs.
     pub diagnostics: D,
 }
 

@@ -1,18 +1,38 @@
 //! QEMU's mps2-an386 (Cortex-M4F at 25 MHz): the device in the form that RTIC needs, and drivers of its peripherals.
+//!
+//! The chip has no sensors, and its PWM outputs only record their duty cycle. So an application takes the inner task's
+//! drivers from [`pad`], which stands still, or from `host`, processor in the loop. Both have the same items: the functions
+//! `start`, `answer` and `stopped`, and the types `Board` and `Diagnostics`.
 
+#[cfg(feature = "pil")]
+pub mod counter;
 mod device;
+#[cfg(feature = "pil")]
+pub mod host;
+pub mod pad;
 mod pwm;
 mod timer;
 mod uart;
 
 pub use device::{Interrupt, NVIC_PRIO_BITS, interrupt};
-pub use pwm::{RecordingPwm, stop_all};
-pub use timer::{COUNTS_PER_US, FreeRunning, PeriodicTimer};
+pub use pwm::RecordingPwm;
+pub use timer::{FreeRunning, PeriodicTimer};
 pub use uart::{Uart, UartRx, UartTx};
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
+use super::fault;
 use crate::airframe::ROTORS;
+
+/// Stops the rotors for good. Returns true the first time; see [`fault::stop_rotors`].
+pub fn stop_rotors() -> bool {
+    fault::stop_rotors(pwm::stop_all)
+}
+
+/// Ends the emulation with a failure.
+pub fn end() -> ! {
+    semihosting::process::exit(1)
+}
 
 /// The peripherals that the application uses; there is one of each.
 pub struct Peripherals {

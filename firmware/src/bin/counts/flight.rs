@@ -3,7 +3,7 @@
 use core::hint::black_box;
 
 use firmware::airframe::{Airframe, ROTORS, RotorGeometry};
-use firmware::board::counter::{self, Counter, Mark};
+use firmware::board::mps2::counter::{self, Counter, Mark};
 use firmware::commander::Directive;
 use firmware::config::{FlightConfig, ModeSettings, Start};
 use firmware::control::attitude::{AttitudeForm, AttitudeGains, SlidingAttitude};

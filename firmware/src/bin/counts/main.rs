@@ -16,9 +16,8 @@ mod tally;
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 mod image {
-    use firmware::board::counter::Counter;
-    use firmware::board::fault;
-    use firmware::board::mps2::Peripherals;
+    use firmware::board::mps2::counter::Counter;
+    use firmware::board::mps2::{self, Peripherals};
     use semihosting::println;
 
     use crate::flight::{Counts, Flight};
@@ -46,7 +45,7 @@ mod image {
 
     #[cortex_m_rt::entry]
     fn main() -> ! {
-        let Some(board) = Peripherals::take() else { fault::end() };
+        let Some(board) = Peripherals::take() else { mps2::end() };
         let counter = Counter::new(board.clock);
         match Flight::new(counter).map(Flight::fly) {
             // Flies nevertheless, for tools that count by the marks.
@@ -55,7 +54,7 @@ mod image {
             Ok(_) => {}
             Err(error) => println!("the flight cannot start: {error}"),
         }
-        fault::end()
+        mps2::end()
     }
 
     /// Prints the counts of a flight. True if the flight was valid and within its budgets.
@@ -100,7 +99,7 @@ mod image {
 
     #[panic_handler]
     fn panic(_: &core::panic::PanicInfo) -> ! {
-        fault::end()
+        mps2::end()
     }
 }
 

@@ -3,7 +3,7 @@
 use core::hint::black_box;
 
 use firmware::airframe::ROTORS;
-use firmware::board::counter::{self, Counter, Mark};
+use firmware::board::mps2::counter::{self, Counter, Mark};
 use firmware::config::FlightConfig;
 use firmware::control::gyro::GyroFilter;
 use firmware::estimator::covariance::{Covariance, ErrorState, Motion, Row, StepNoise, index};

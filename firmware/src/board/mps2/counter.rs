@@ -4,7 +4,8 @@
 //! Two empty functions, `mark_begin_NAME` and `mark_end`, are called around each counted section, so that a QEMU plugin
 //! or a debugger can find the same sections by their addresses.
 
-use super::mps2::FreeRunning;
+use super::FreeRunning;
+use crate::board::Clock as _;
 
 /// Counts of the timer in five instructions: 5 · 1,024 ns / 40 ns.
 const COUNTS_IN_FIVE: u32 = 128;

@@ -1,4 +1,4 @@
-//! Drivers for processor in the loop: the host is IMU and rotors, over two semihosting FIFOs.
+//! Drivers for processor in the loop: the host is sensors and rotors, over two semihosting FIFOs.
 //!
 //! A read blocks the emulated machine until the host answers, and takes no time on its clock. The board's own rotor
 //! outputs are driven too. The host is at the other end of every link: the serial port carries none. See `pil` for the
@@ -12,45 +12,46 @@ use heapless::Deque;
 use semihosting::fs::File;
 use semihosting::io::{Read, Write};
 
-use super::{Start, StartError, fault};
+use super::{FreeRunning, RecordingPwm, end, stop_rotors};
 use crate::airframe::ROTORS;
 use crate::autopilot::InnerTask;
-use crate::board::mps2::{FreeRunning, RecordingPwm};
+use crate::board::{self, Companion, Rotors, Sensors, Start, StartError};
 use crate::commander::Asked;
 use crate::mavlink::port::Ports;
 use crate::pil::{
     AllSent, Answer, BusyWait, Cause, Fault, HELLO_BYTES, Hello, REPLY_BYTES, REQUEST_BYTES, Reply, Request, take_sent,
 };
 use crate::rotors::PwmRotors;
-use crate::signals::{SensorFrame, Tick};
+use crate::signals::{MotorCommand, SensorFrame, Tick};
 
 /// Longest path of the FIFOs' directory.
 const PATH_MAX: usize = 256;
 /// What a pilot may ask between two ticks.
 const ASKED_MAX: usize = 8;
 
-/// The links are the host's, and what is sent on them depends on ticks alone: no rates measured by the clock.
-pub const STANDS_ALONE: bool = false;
-
 /// The FIFO to the host, once it is open: used by the inner task and by the fault handlers.
 static TO_HOST: Mutex<RefCell<Option<File>>> = Mutex::new(RefCell::new(None));
 
-/// An IMU whose samples come from the host.
-pub struct Imu {
+/// Sensors whose samples come from the host, rotors whose commands go to it and to the chip's own outputs, and the host at
+/// the other end of every link.
+pub struct Board {
     from_host: File,
+    pwm: PwmRotors<RecordingPwm>,
     ports: &'static Ports,
     asked: Deque<Asked, ASKED_MAX>,
+    sent: AllSent,
 }
 
-impl Imu {
+impl Board {
     fn request(&mut self) -> Option<Request> {
         let mut bytes = [0; REQUEST_BYTES];
         self.from_host.read_exact(&mut bytes).ok().and_then(|()| Request::decode(&bytes))
     }
 }
 
-impl super::Imu for Imu {
-    fn sample(&mut self) -> Option<SensorFrame> {
+impl Sensors for Board {
+    /// Takes in what the host says before the sample, too.
+    fn sample(&mut self, _tick: Tick) -> Option<SensorFrame> {
         loop {
             match self.request() {
                 Some(Request::Sample(sample)) => return Some(sample),
@@ -62,35 +63,35 @@ impl super::Imu for Imu {
                     }
                 }
                 Some(Request::Exit) => {
-                    fault::stop_rotors();
+                    stop_rotors();
                     semihosting::process::exit(0)
                 }
                 // The host has gone, or has asked too much of a tick.
                 _ => {
-                    fault::stop_rotors();
-                    fault::end()
+                    stop_rotors();
+                    end()
                 }
             }
         }
     }
+}
+
+impl Rotors for Board {
+    fn drive(&mut self, command: &MotorCommand) {
+        // These outputs cannot fail.
+        let _ = self.pwm.set(command);
+    }
+}
+
+impl Companion for Board {
+    const HAS_ALL_LINKS: bool = true;
 
     fn asked(&mut self) -> Option<Asked> {
         self.asked.pop_front()
     }
-}
 
-/// Rotors whose commands go to the host and to the board's own outputs.
-pub struct Rotors {
-    pwm: PwmRotors<RecordingPwm>,
-    ports: &'static Ports,
-    sent: AllSent,
-}
-
-impl super::Rotors for Rotors {
-    fn drive(&mut self, flight: &InnerTask, overruns: [u32; 3]) {
-        // These outputs cannot fail.
-        let _ = self.pwm.set(&flight.inner_output().motors);
-        take_sent(self.ports, &mut self.sent);
+    fn see(&mut self, flight: &InnerTask, overruns: [u32; 3], ports: &Ports) {
+        take_sent(ports, &mut self.sent);
         send(&Reply::of(flight, overruns, self.sent).encode());
     }
 }
@@ -103,24 +104,21 @@ pub struct Diagnostics {
     fault: Option<(Tick, Fault)>,
 }
 
-impl Diagnostics {
-    /// In the outer partition's job.
-    pub fn outer(self, tick: Tick) {
+impl board::Diagnostics for Diagnostics {
+    fn outer(&mut self, released: Tick) {
         self.clock.busy_wait(self.busy.outer_us);
         if let Some((at, fault)) = self.fault
-            && tick >= at
+            && released >= at
         {
             provoke(fault);
         }
     }
 
-    /// In the commander's job.
-    pub fn commander(self) {
+    fn commander(&mut self) {
         self.clock.busy_wait(self.busy.commander_us);
     }
 
-    /// In the ground partition's job.
-    pub fn ground(self) {
+    fn ground(&mut self) {
         self.clock.busy_wait(self.busy.ground_us);
     }
 }
@@ -133,7 +131,7 @@ pub fn start(
     pwm: [RecordingPwm; ROTORS],
     clock: FreeRunning,
     ports: &'static Ports,
-) -> Result<Start<Imu, Rotors, Diagnostics>, StartError> {
+) -> Result<Start<Board, Diagnostics>, StartError> {
     let arguments = semihosting::experimental::env::args::<PATH_MAX>().map_err(|_| StartError::NoHost)?;
     let directory = (&arguments).next().and_then(Result::ok).ok_or(StartError::NoHost)?;
     let to_host = open(directory, "from-image", |path| File::create(path))?;
@@ -147,8 +145,7 @@ pub fn start(
     Ok(Start {
         config,
         injectable,
-        imu: Imu { from_host, ports, asked: Deque::new() },
-        rotors: Rotors { pwm, ports, sent: AllSent::default() },
+        board: Board { from_host, pwm, ports, asked: Deque::new(), sent: AllSent::default() },
         diagnostics: Diagnostics { clock, busy, fault },
     })
 }

@@ -1,54 +1,38 @@
 //! Drivers of a board without sensors: it reports standing at its start position, level and at rest.
 
-use super::{Start, StartError};
+use super::{FreeRunning, RecordingPwm};
 use crate::airframe::ROTORS;
-use crate::autopilot::InnerTask;
-use crate::board::mps2::{FreeRunning, RecordingPwm};
+use crate::board::{Companion, Rotors, Sensors, Start, StartError};
 use crate::config::FlightConfig;
 use crate::failure::Injectable;
 use crate::mavlink::port::Ports;
 use crate::pil::Cause;
 use crate::rotors::PwmRotors;
-use crate::signals::{NavState, SensorFrame, Tick};
+use crate::signals::{MotorCommand, NavState, SensorFrame, Tick};
 
-/// The serial port carries a link, and the loops' measured rates are sent.
-pub const STANDS_ALONE: bool = true;
-
-/// An IMU that always returns the same sample.
-pub struct Imu {
+/// A sensor that always returns the same sample, and the chip's own outputs.
+pub struct Board {
     sample: SensorFrame,
+    pwm: PwmRotors<RecordingPwm>,
 }
 
-impl super::Imu for Imu {
-    fn sample(&mut self) -> Option<SensorFrame> {
+impl Sensors for Board {
+    fn sample(&mut self, _tick: Tick) -> Option<SensorFrame> {
         Some(self.sample)
     }
 }
 
-/// The board's own outputs.
-pub struct Rotors {
-    pwm: PwmRotors<RecordingPwm>,
-}
-
-impl super::Rotors for Rotors {
-    fn drive(&mut self, flight: &InnerTask, _overruns: [u32; 3]) {
+impl Rotors for Board {
+    fn drive(&mut self, command: &MotorCommand) {
         // These outputs cannot fail.
-        let _ = self.pwm.set(&flight.inner_output().motors);
+        let _ = self.pwm.set(command);
     }
 }
 
-/// No additions to the partitions' jobs.
-#[derive(Clone, Copy)]
-pub struct Diagnostics;
+impl Companion for Board {}
 
-impl Diagnostics {
-    /// In the outer partition's job.
-    pub fn outer(self, _tick: Tick) {}
-    /// In the commander's job.
-    pub fn commander(self) {}
-    /// In the ground partition's job.
-    pub fn ground(self) {}
-}
+/// No additions to the partitions' jobs.
+pub type Diagnostics = ();
 
 /// The default flight.
 ///
@@ -58,13 +42,13 @@ pub fn start(
     pwm: [RecordingPwm; ROTORS],
     _clock: FreeRunning,
     _ports: &'static Ports,
-) -> Result<Start<Imu, Rotors, Diagnostics>, StartError> {
+) -> Result<Start<Board, Diagnostics>, StartError> {
     let config = FlightConfig::default();
     let mut nav = NavState::at_rest();
     nav.position = config.start_position();
-    let rotors = Rotors { pwm: PwmRotors::new(pwm, config.airframe.omega_max_rad_s) };
-    let imu = Imu { sample: SensorFrame::Motion(nav) };
-    Ok(Start { config, injectable: Injectable::NONE, imu, rotors, diagnostics: Diagnostics })
+    let pwm = PwmRotors::new(pwm, config.airframe.omega_max_rad_s);
+    let board = Board { sample: SensorFrame::Motion(nav), pwm };
+    Ok(Start { config, injectable: Injectable::NONE, board, diagnostics: () })
 }
 
 /// Does nothing: there is no host.

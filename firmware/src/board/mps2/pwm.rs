@@ -20,7 +20,7 @@ pub(super) fn channels() -> [RecordingPwm; ROTORS] {
 }
 
 /// Sets every output to zero; callable from anywhere.
-pub fn stop_all() {
+pub(super) fn stop_all() {
     for duty in &DUTY {
         duty.store(0, Ordering::Relaxed);
     }

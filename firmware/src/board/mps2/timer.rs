@@ -1,9 +1,10 @@
 //! CMSDK APB timers: they count down from a reload value, at the core's clock.
 
 use super::Registers;
+use crate::board::{Clock, Ticker};
 
 /// Both timers run at 25 MHz.
-pub const COUNTS_PER_US: u32 = 25;
+const COUNTS_PER_US: u32 = 25;
 
 const TIMER0: usize = 0x4000_0000;
 const TIMER1: usize = 0x4000_1000;
@@ -33,19 +34,19 @@ impl PeriodicTimer {
     pub(super) fn new(clock: FreeRunning) -> Self {
         Self { registers: Registers { base: TIMER0 }, clock, period: 0, due: 0 }
     }
+}
 
-    /// The first interrupt comes one period from now.
-    pub fn start(&mut self, period_us: u32) {
+impl Ticker for PeriodicTimer {
+    fn start(&mut self, period_us: u32) {
         self.period = period_us.saturating_mul(COUNTS_PER_US);
         self.due = self.clock.now();
         self.registers.write(RELOAD, 0);
-        self.next();
+        self.acknowledge();
         self.registers.write(CTRL, ENABLE_WITH_INTERRUPT);
     }
 
-    /// Call once per interrupt. A late call does not shift later interrupts; if it is late by a whole period, that
-    /// interrupt is skipped.
-    pub fn next(&mut self) {
+    /// A late call does not shift later interrupts; if it is late by a whole period, that interrupt is skipped.
+    fn acknowledge(&mut self) {
         self.registers.write(INTERRUPT, 1);
         let now = self.clock.now();
         self.due = self.due.wrapping_add(self.period);
@@ -73,11 +74,6 @@ impl FreeRunning {
         Self { registers }
     }
 
-    /// Counts since the start, modulo 2³².
-    pub fn now(&self) -> u32 {
-        !self.registers.read(VALUE)
-    }
-
     /// Keeps the core busy for this time, including the time of tasks with higher priority.
     pub fn busy_wait(&self, us: u32) {
         let (start, counts) = (self.now(), us.saturating_mul(COUNTS_PER_US));
@@ -85,5 +81,13 @@ impl FreeRunning {
             // Reading the timer is slow under QEMU: once every few microseconds is enough.
             cortex_m::asm::delay(500);
         }
+    }
+}
+
+impl Clock for FreeRunning {
+    const COUNTS_PER_US: u32 = COUNTS_PER_US;
+
+    fn now(&self) -> u32 {
+        !self.registers.read(VALUE)
     }
 }

@@ -5,6 +5,7 @@ use core::convert::Infallible;
 use embedded_io::{ErrorType, Read, ReadReady, Write, WriteReady};
 
 use super::Registers;
+use crate::board::{SerialReceiver, SerialSender};
 
 const UART0: usize = 0x4000_4000;
 
@@ -51,16 +52,14 @@ impl Uart {
     }
 }
 
-impl UartRx {
-    /// Call once per interrupt, before reading: a byte that arrives later interrupts again.
-    pub fn acknowledge(&mut self) {
+impl SerialReceiver for UartRx {
+    fn acknowledge(&mut self) {
         self.registers.write(INTERRUPT, RX_INTERRUPT);
     }
 }
 
-impl UartTx {
-    /// Call once per interrupt, before writing.
-    pub fn acknowledge(&mut self) {
+impl SerialSender for UartTx {
+    fn acknowledge(&mut self) {
         self.registers.write(INTERRUPT, TX_INTERRUPT);
     }
 }
