@@ -244,7 +244,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         }
         if let Some(output) = mail.commander.publish(tick) {
             for reply in &output.replies {
-                self.reply(*reply);
+                self.reply(reply);
             }
             if let Some(event) = output.event {
                 self.report(event);
@@ -258,7 +258,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             }
             for command in &output.commands {
                 if let Err(command) = self.commands.push(*command) {
-                    self.reply(Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) });
+                    self.reply(&Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) });
                 }
             }
             ports.publish();
@@ -289,10 +289,12 @@ impl<A: AttitudeLaw> InnerTask<A> {
         if waits { self.changes.clone() } else { Changes::new() }
     }
 
-    fn reply(&mut self, reply: Reply) {
+    fn reply(&mut self, reply: &Reply) {
         // Never full: a job of the commander has as many replies as commands, and one of the ground partition, which runs
         // twice as often, refuses no more.
-        let _ = self.replies.push(reply);
+        if let Some(reply) = reply.to_station() {
+            let _ = self.replies.push(reply);
+        }
     }
 
     /// Stops the rotors at once, until the commander has disarmed. It is not replied to.

@@ -28,7 +28,7 @@ pub use directive::{Directive, Known, Mode};
 pub use intent::{Intent, Override};
 pub use request::{
     Answers, Asked, Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies,
-    Reply, Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
+    Reply, Request, StationReply, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
 };
 pub use state::State;
 

@@ -174,6 +174,30 @@ pub struct Reply {
     pub outcome: Outcome,
 }
 
+impl Reply {
+    /// For the ground partition; `None` if the command came from on board.
+    pub fn to_station(&self) -> Option<StationReply> {
+        let Origin::Station { link, sender, command } = self.command.origin else { return None };
+        Some(StationReply { link, sender, command, request: self.command.request.name(), outcome: self.outcome })
+    }
+}
+
+/// The reply to a ground station: no more of the command than there is to say, as it is copied under the lock that the
+/// inner task waits for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StationReply {
+    /// The link on which the command came.
+    pub link: u8,
+    /// MAVLink system and component of its sender.
+    pub sender: (u8, u8),
+    /// The `MAV_CMD` that it sent.
+    pub command: u16,
+    /// What was requested.
+    pub request: &'static str,
+    /// Its result.
+    pub outcome: Outcome,
+}
+
 /// A failsafe event, to be reported to the pilot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
@@ -210,6 +234,6 @@ pub type Commands = heapless::Vec<Command, 4>;
 /// Replies of one job.
 pub type Replies = heapless::Vec<Reply, 4>;
 /// Replies between two jobs of the ground partition: those of a commander's job, and those to commands that did not fit.
-pub type Answers = heapless::Vec<Reply, 8>;
+pub type Answers = heapless::Vec<StationReply, 8>;
 /// Events between two jobs of the ground partition.
 pub type Events = heapless::Vec<Event, 4>;

@@ -12,7 +12,7 @@ use super::port::{Port, Profile};
 use super::telemetry::{Telemetry, View};
 use super::writer::Writer;
 use super::{GroundOutput, command, mode, place};
-use crate::commander::{self, Command, Event, Outcome, Refusal, Reply};
+use crate::commander::{self, Command, Event, Outcome, Refusal, Reply, StationReply};
 use crate::frames::Origin;
 use crate::settings::{Marks, Settings};
 use crate::signals::{TICK_S, TICK_US, Tick};
@@ -113,7 +113,7 @@ impl Link {
                     // The commander will answer.
                     Ok(()) => return,
                     Err(command) => {
-                        self.outbox.answer(Answer::Refusal(command.request, Refusal::Busy));
+                        self.outbox.answer(Answer::Refusal(command.request.name(), Refusal::Busy));
                         MavResult::MAV_RESULT_TEMPORARILY_REJECTED
                     }
                 }
@@ -149,16 +149,18 @@ impl Link {
     /// Refuses what is still waiting for the commander: a kill came after it.
     pub(super) fn refuse_waiting(&mut self) {
         while let Some(command) = self.waiting.pop_front() {
-            self.reply(&Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) });
+            let reply = Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) };
+            if let Some(reply) = reply.to_station() {
+                self.reply(&reply);
+            }
         }
     }
 
     /// Passes on a reply of the commander.
-    pub(super) fn reply(&mut self, reply: &Reply) {
-        let commander::Origin::Station { sender, command, .. } = reply.command.origin else { return };
-        self.outbox.acknowledge(command, command::result_of(reply.outcome), sender);
+    pub(super) fn reply(&mut self, reply: &StationReply) {
+        self.outbox.acknowledge(reply.command, command::result_of(reply.outcome), reply.sender);
         if let Outcome::TemporarilyRejected(refusal) = reply.outcome {
-            self.outbox.answer(Answer::Refusal(reply.command.request, refusal));
+            self.outbox.answer(Answer::Refusal(reply.request, refusal));
         }
     }
 

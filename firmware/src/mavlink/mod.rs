@@ -61,7 +61,7 @@ use self::link::{Job, Link};
 use self::port::{LINKS, Ports};
 use self::report::{ControlReport, SensorReport};
 use self::telemetry::View;
-use crate::commander::{Answers, Commands, Events, Mode, Origin};
+use crate::commander::{Answers, Commands, Events, Mode};
 use crate::estimator::status::Status;
 use crate::failure::{Failures, Injectable};
 use crate::frames::Origin as MapOrigin;
@@ -231,9 +231,7 @@ impl Ground {
         }
         self.pass_on_commands(&mut output);
         for reply in &input.replies {
-            if let Origin::Station { link, .. } = reply.command.origin
-                && let Some(link) = self.links.get_mut(usize::from(link))
-            {
+            if let Some(link) = self.links.get_mut(usize::from(reply.link)) {
                 link.reply(reply);
             }
         }

@@ -12,7 +12,7 @@ use super::port::SENT_CAPACITY;
 use super::telemetry::{self, Report, View};
 use super::writer::Writer;
 use super::{services, text};
-use crate::commander::{Event, Refusal, Request};
+use crate::commander::{Event, Refusal};
 
 /// Greatest number of bytes that may be waiting to be sent when an answer is added.
 pub(super) const ANSWERS_SHARE: usize = SENT_CAPACITY / 2;
@@ -33,8 +33,8 @@ pub(super) struct Ack {
 /// Any other answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Answer {
-    /// Why a command was refused, as a text for the pilot.
-    Refusal(Request, Refusal),
+    /// Why a command was refused, which is named, as a text for the pilot.
+    Refusal(&'static str, Refusal),
     /// A requested message.
     Report(Report),
     /// To a message of the mission protocol.
@@ -105,7 +105,7 @@ fn write_ack(ack: Ack, out: &mut Writer) -> bool {
 
 fn write_answer(answer: &Answer, view: &View, out: &mut Writer) -> bool {
     match *answer {
-        Answer::Refusal(request, refusal) => text::write_refusal(&request, refusal, out),
+        Answer::Refusal(request, refusal) => text::write_refusal(request, refusal, out),
         Answer::Report(report) => telemetry::write(report, view, out),
         Answer::Mission { request, mission_type, to } => services::write_mission(request, mission_type, to, out),
         Answer::File { request, to } => services::write_file(request, to, out),

@@ -87,6 +87,11 @@ struct Bench {
 }
 
 impl Bench {
+    /// A reply of the commander, for the next job.
+    fn hear_reply(&mut self, reply: Reply) {
+        let _ = reply.to_station().map(|reply| self.input.replies.push(reply));
+    }
+
     fn new() -> Self {
         let input = GroundInput {
             nav: NavState::at_rest(),
@@ -271,7 +276,7 @@ fn arming_goes_to_the_commander_and_its_reply_back_to_the_sender() {
         assert_eq!(bench.commands.pop(), Some(from_station(ARM, request)));
     }
     let command = from_station(ARM, Request::Disarm);
-    let _ = bench.input.replies.push(Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::InAir) });
+    bench.hear_reply(Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::InAir) });
     let messages = bench.job(&[]);
     let [MavMessage::COMMAND_ACK(ack), MavMessage::STATUSTEXT(text)] = messages.as_slice() else {
         panic!("{messages:?}")

@@ -126,13 +126,10 @@ fn modes_that_cannot_be_set_are_denied() {
 fn requests_of_programs_on_board_are_not_acknowledged_and_invalid_parameters_are_denied() {
     let mut bench = Bench::silent();
     let outcome = Outcome::TemporarilyRejected(Refusal::OnGround);
-    let _ = bench
-        .input
-        .replies
-        .push(Reply { command: Command { request: Request::Hold, origin: Origin::OnBoard }, outcome });
+    bench.hear_reply(Reply { command: Command { request: Request::Hold, origin: Origin::OnBoard }, outcome });
     assert!(bench.job(&[]).is_empty());
     let command = from_station(TAKEOFF, Request::TakeOff { height_m: -1.0 });
-    let _ = bench.input.replies.push(Reply { command, outcome: Outcome::Denied });
+    bench.hear_reply(Reply { command, outcome: Outcome::Denied });
     let messages = bench.job(&[]);
     let [MavMessage::COMMAND_ACK(ack)] = messages.as_slice() else { panic!("{messages:?}") };
     assert_eq!((ack.command, ack.result), (TAKEOFF, MavResult::MAV_RESULT_DENIED));
