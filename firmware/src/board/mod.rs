@@ -8,9 +8,9 @@
 //! [`tasks`] has a struct for each task, with what is its own, and a method that the task calls. An application binds them
 //! to interrupts and priorities, and is little else. Both know no chip, so they are compiled and tested on the desktop too.
 //! What a chip is made of stands in a module of its own behind a feature: `mps2`, QEMU's mps2-an386, behind `board-mps2`.
-//! [`fault`] stops the rotors after a panic or a hard fault.
+//! `fault` stops the rotors after a panic or a hard fault.
 //!
-//! Apart from the square root instruction in `math`, the chips' modules and [`fault`] are the only ones of the crate with
+//! Apart from the square root instruction in `math`, the chips' modules and `fault` are the only ones of the crate with
 //! `unsafe` code; each block states why it is sound.
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
