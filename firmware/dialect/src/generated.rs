@@ -309,7 +309,7 @@ impl Default for MavState {
         Self::DEFAULT
     }
 }
-bitflags! { # [cfg_attr (feature = "ts-rs" , derive (TS))] # [cfg_attr (feature = "ts-rs" , ts (export , type = "number"))] # [cfg_attr (feature = "serde" , derive (Serialize , Deserialize))] # [cfg_attr (feature = "arbitrary" , derive (Arbitrary))] # [derive (Debug , Copy , Clone , PartialEq)] pub struct MavSysStatusSensor : u32 { # [doc = "Gyroscope."] const MAV_SYS_STATUS_SENSOR_3D_GYRO = 1 ; # [doc = "Accelerometer."] const MAV_SYS_STATUS_SENSOR_3D_ACCEL = 2 ; # [doc = "Magnetometer."] const MAV_SYS_STATUS_SENSOR_3D_MAG = 4 ; # [doc = "Barometer."] const MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE = 8 ; # [doc = "Satellite receiver."] const MAV_SYS_STATUS_SENSOR_GPS = 32 ; # [doc = "The motion itself, measured from outside."] const MAV_SYS_STATUS_SENSOR_EXTERNAL_GROUND_TRUTH = 512 ; # [doc = "Rate control."] const MAV_SYS_STATUS_SENSOR_ANGULAR_RATE_CONTROL = 1024 ; # [doc = "Attitude control."] const MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION = 2048 ; # [doc = "Heading control."] const MAV_SYS_STATUS_SENSOR_YAW_POSITION = 4096 ; # [doc = "Height control."] const MAV_SYS_STATUS_SENSOR_Z_ALTITUDE_CONTROL = 8192 ; # [doc = "Position control."] const MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL = 16384 ; # [doc = "Motor outputs."] const MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS = 32768 ; # [doc = "Not breached."] const MAV_SYS_STATUS_GEOFENCE = 1048576 ; # [doc = "Attitude and position are known."] const MAV_SYS_STATUS_AHRS = 2097152 ; # [doc = "Battery monitor."] const MAV_SYS_STATUS_SENSOR_BATTERY = 33554432 ; # [doc = "An arm request would be accepted."] const MAV_SYS_STATUS_PREARM_CHECK = 268435456 ; } }
+bitflags! { # [cfg_attr (feature = "ts-rs" , derive (TS))] # [cfg_attr (feature = "ts-rs" , ts (export , type = "number"))] # [cfg_attr (feature = "serde" , derive (Serialize , Deserialize))] # [cfg_attr (feature = "arbitrary" , derive (Arbitrary))] # [derive (Debug , Copy , Clone , PartialEq)] pub struct MavSysStatusSensor : u32 { # [doc = "Gyroscope."] const MAV_SYS_STATUS_SENSOR_3D_GYRO = 1 ; # [doc = "Accelerometer."] const MAV_SYS_STATUS_SENSOR_3D_ACCEL = 2 ; # [doc = "Magnetometer."] const MAV_SYS_STATUS_SENSOR_3D_MAG = 4 ; # [doc = "Barometer."] const MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE = 8 ; # [doc = "Satellite receiver."] const MAV_SYS_STATUS_SENSOR_GPS = 32 ; # [doc = "The motion itself, measured from outside."] const MAV_SYS_STATUS_SENSOR_EXTERNAL_GROUND_TRUTH = 512 ; # [doc = "Rate control."] const MAV_SYS_STATUS_SENSOR_ANGULAR_RATE_CONTROL = 1024 ; # [doc = "Attitude control."] const MAV_SYS_STATUS_SENSOR_ATTITUDE_STABILIZATION = 2048 ; # [doc = "Heading control."] const MAV_SYS_STATUS_SENSOR_YAW_POSITION = 4096 ; # [doc = "Height control."] const MAV_SYS_STATUS_SENSOR_Z_ALTITUDE_CONTROL = 8192 ; # [doc = "Position control."] const MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL = 16384 ; # [doc = "Motor outputs."] const MAV_SYS_STATUS_SENSOR_MOTOR_OUTPUTS = 32768 ; # [doc = "Sticks, of a radio or a ground station."] const MAV_SYS_STATUS_SENSOR_RC_RECEIVER = 65536 ; # [doc = "Not breached."] const MAV_SYS_STATUS_GEOFENCE = 1048576 ; # [doc = "Attitude and position are known."] const MAV_SYS_STATUS_AHRS = 2097152 ; # [doc = "Battery monitor."] const MAV_SYS_STATUS_SENSOR_BATTERY = 33554432 ; # [doc = "An arm request would be accepted."] const MAV_SYS_STATUS_PREARM_CHECK = 268435456 ; } }
 impl MavSysStatusSensor {
     pub const DEFAULT: Self = Self::MAV_SYS_STATUS_SENSOR_3D_GYRO;
 }
@@ -5875,9 +5875,39 @@ pub struct RC_CHANNELS_OVERRIDE_DATA {
     pub target_system: u8,
     #[doc = "Component."]
     pub target_component: u8,
+    #[doc = "Chan9 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan9_raw: u16,
+    #[doc = "Chan10 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan10_raw: u16,
+    #[doc = "Chan11 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan11_raw: u16,
+    #[doc = "Chan12 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan12_raw: u16,
+    #[doc = "Chan13 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan13_raw: u16,
+    #[doc = "Chan14 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan14_raw: u16,
+    #[doc = "Chan15 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan15_raw: u16,
+    #[doc = "Chan16 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan16_raw: u16,
+    #[doc = "Chan17 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan17_raw: u16,
+    #[doc = "Chan18 raw."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub chan18_raw: u16,
 }
 impl RC_CHANNELS_OVERRIDE_DATA {
-    pub const ENCODED_LEN: usize = 18usize;
+    pub const ENCODED_LEN: usize = 38usize;
     pub const DEFAULT: Self = Self {
         chan1_raw: 0_u16,
         chan2_raw: 0_u16,
@@ -5889,6 +5919,16 @@ impl RC_CHANNELS_OVERRIDE_DATA {
         chan8_raw: 0_u16,
         target_system: 0_u8,
         target_component: 0_u8,
+        chan9_raw: 0_u16,
+        chan10_raw: 0_u16,
+        chan11_raw: 0_u16,
+        chan12_raw: 0_u16,
+        chan13_raw: 0_u16,
+        chan14_raw: 0_u16,
+        chan15_raw: 0_u16,
+        chan16_raw: 0_u16,
+        chan17_raw: 0_u16,
+        chan18_raw: 0_u16,
     };
     #[cfg(feature = "arbitrary")]
     pub fn random<R: rand::Rng>(rng: &mut R) -> Self {
@@ -5909,7 +5949,7 @@ impl MessageData for RC_CHANNELS_OVERRIDE_DATA {
     const ID: u32 = 70u32;
     const NAME: &'static str = "RC_CHANNELS_OVERRIDE";
     const EXTRA_CRC: u8 = 124u8;
-    const ENCODED_LEN: usize = 18usize;
+    const ENCODED_LEN: usize = 38usize;
     fn deser(_version: MavlinkVersion, __input: &[u8]) -> Result<Self, ::mavlink_core::error::ParserError> {
         let avail_len = __input.len();
         let mut payload_buf;
@@ -5931,6 +5971,16 @@ impl MessageData for RC_CHANNELS_OVERRIDE_DATA {
         __struct.chan8_raw = buf.get_u16_le()?;
         __struct.target_system = buf.get_u8()?;
         __struct.target_component = buf.get_u8()?;
+        __struct.chan9_raw = buf.get_u16_le()?;
+        __struct.chan10_raw = buf.get_u16_le()?;
+        __struct.chan11_raw = buf.get_u16_le()?;
+        __struct.chan12_raw = buf.get_u16_le()?;
+        __struct.chan13_raw = buf.get_u16_le()?;
+        __struct.chan14_raw = buf.get_u16_le()?;
+        __struct.chan15_raw = buf.get_u16_le()?;
+        __struct.chan16_raw = buf.get_u16_le()?;
+        __struct.chan17_raw = buf.get_u16_le()?;
+        __struct.chan18_raw = buf.get_u16_le()?;
         Ok(__struct)
     }
     fn ser(&self, version: MavlinkVersion, bytes: &mut [u8]) -> usize {
@@ -5949,6 +5999,16 @@ impl MessageData for RC_CHANNELS_OVERRIDE_DATA {
         __tmp.put_u8(self.target_system);
         __tmp.put_u8(self.target_component);
         if matches!(version, MavlinkVersion::V2) {
+            __tmp.put_u16_le(self.chan9_raw);
+            __tmp.put_u16_le(self.chan10_raw);
+            __tmp.put_u16_le(self.chan11_raw);
+            __tmp.put_u16_le(self.chan12_raw);
+            __tmp.put_u16_le(self.chan13_raw);
+            __tmp.put_u16_le(self.chan14_raw);
+            __tmp.put_u16_le(self.chan15_raw);
+            __tmp.put_u16_le(self.chan16_raw);
+            __tmp.put_u16_le(self.chan17_raw);
+            __tmp.put_u16_le(self.chan18_raw);
             let len = __tmp.len();
             ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
         } else {
