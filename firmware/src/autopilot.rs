@@ -21,6 +21,7 @@ use crate::estimator::status::{Fusion, Status};
 use crate::estimator::{Filter, FilterInput, FilterOutput};
 use crate::failure::{Failures, Injectable};
 use crate::inner::{Inner, InnerOutput};
+use crate::latest::Latest;
 use crate::mavlink::port::Ports;
 use crate::mavlink::report::{Aim, ControlReport, LawReport, SensorReport};
 use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming};
@@ -104,6 +105,8 @@ pub struct InnerTask<A = SlidingAttitude> {
     replies: Answers,
     /// Failsafe events for the ground's next job.
     events: Events,
+    /// Sticks, and when a ground station was last heard, as the ground partition has read them.
+    latest: Latest,
     timing: Option<LoopTiming>,
     /// Changed settings, and who has not taken them over yet.
     changes: Changes,
@@ -131,6 +134,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             nav: *inner.nav(),
             thrust_n: config.airframe.weight_n(),
             directive: commander.directive,
+            latest: Latest::default(),
             changes: Changes::new(),
         };
         let first = outer.step(0_u32.wrapping_sub(OUTER.offset), &before);
@@ -147,6 +151,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             commands: Commands::new(),
             replies: Answers::new(),
             events: Events::new(),
+            latest: Latest::default(),
             timing: None,
             changes: Changes::new(),
             waiting: Waiting::default(),
@@ -261,6 +266,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                     self.reply(&Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) });
                 }
             }
+            self.latest = output.latest;
             ports.publish();
             if !output.failures.is_empty() {
                 self.failures = output.failures;
@@ -323,6 +329,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 nav: *self.inner.nav(),
                 thrust_n: self.inner.thrust_n(),
                 directive: self.directive(tick),
+                latest: self.latest,
                 changes: self.changes_for(|waiting| &mut waiting.outer),
             };
             mail.outer.release(tick, input);
@@ -337,6 +344,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 failed_rotor: self.inner.failed_rotor(),
                 outer_hung: self.watchdog.is_outer_hung(tick),
                 kills: self.kills,
+                latest: self.latest,
                 commands: core::mem::take(&mut self.commands),
                 changes: self.changes_for(|waiting| &mut waiting.commander),
             };
@@ -509,6 +517,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
         }
     }
 
+    /// Sticks, and when a ground station was last heard, as outer and commander are handed them.
+    pub fn latest(&self) -> &Latest {
+        &self.latest
+    }
+
     /// The commander's output now in effect.
     pub fn commander_output(&self) -> &CommanderOutput {
         &self.commander
@@ -568,7 +581,7 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
     /// and unable to arm if it was never configured.
     #[must_use]
     pub fn with_settings(mut self, settings: Settings) -> Self {
-        self.commander.set_configured(settings.is_configured());
+        self.commander.configure(&settings);
         self.ground = Ground::new(settings);
         self
     }

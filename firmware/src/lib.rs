@@ -65,6 +65,7 @@ pub mod failure;
 pub mod frames;
 pub mod guidance;
 pub mod inner;
+pub mod latest;
 pub mod math;
 pub mod mavlink;
 pub mod meter;

@@ -15,6 +15,7 @@ use crate::control::law::{LawState, PositionDemand, PositionInput, PositionLaw};
 use crate::control::position::{ForceLimits, SlidingPosition, Translation};
 use crate::guidance::Guidance;
 use crate::guidance::setpoint::{Setpoint, Target};
+use crate::latest::Latest;
 use crate::math;
 use crate::schedule::{OUTER, OUTER_AHEAD_S};
 use crate::settings::{self, Change, Changes, Place};
@@ -30,6 +31,8 @@ pub struct OuterInput {
     pub thrust_n: f32,
     /// The directive of the commander.
     pub directive: Directive,
+    /// Sticks, and what else counts by its latest value.
+    pub latest: Latest,
     /// Settings to take over before the job.
     pub changes: Changes,
 }

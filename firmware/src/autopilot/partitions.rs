@@ -51,7 +51,9 @@ impl<A: AttitudeLaw, P: PositionLaw> Partitions<A, P> {
     /// The first field of the configuration that is out of range.
     pub fn with_laws(config: &FlightConfig, attitude: A, position: P) -> Result<Self, ConfigError> {
         config.validate()?;
-        let commander = Commander::new(config);
+        let settings = Settings::of(config);
+        let mut commander = Commander::new(config);
+        commander.configure(&settings);
         let mut outer = Outer::new(config, position)?;
         let inner = Inner::new(config, attitude)?;
         Ok(Self {
@@ -59,7 +61,7 @@ impl<A: AttitudeLaw, P: PositionLaw> Partitions<A, P> {
             filter: filter(config),
             outer,
             commander,
-            ground: Ground::new(Settings::of(config)),
+            ground: Ground::new(settings),
             mail: Mailboxes::new(),
         })
     }

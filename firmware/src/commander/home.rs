@@ -28,6 +28,7 @@ mod tests {
     use super::*;
     use crate::commander::{Command, Commands, Origin, Outcome, Request};
     use crate::config::{FlightConfig, Start};
+    use crate::latest::Latest;
     use crate::settings::Changes;
     use crate::signals::{NavHealth, NavState};
 
@@ -42,6 +43,7 @@ mod tests {
             failed_rotor: None,
             outer_hung: false,
             kills: 0,
+            latest: Latest::default(),
             commands: commands
                 .iter()
                 .map(|request| Command { request: *request, origin: Origin::OnBoard })

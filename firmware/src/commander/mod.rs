@@ -38,10 +38,11 @@ use self::checks::is_slow;
 use self::watch::{BatteryWatch, Charge, GroundWatch, NavWatch};
 use crate::config::{FlightConfig, ModeSettings, Start};
 use crate::guidance::Guidance;
+use crate::latest::Latest;
 use crate::math;
 use crate::schedule::COMMANDER;
 use crate::sensors::BatterySample;
-use crate::settings::{self, Change, Changes, Place};
+use crate::settings::{self, Change, Changes, Place, Settings};
 use crate::signals::{NavHealth, NavState, TICK_S, Tick};
 
 /// Snapshot for the commander.
@@ -63,6 +64,8 @@ pub struct CommanderInput {
     pub outer_hung: bool,
     /// Kills since boot, wrapping.
     pub kills: u8,
+    /// Sticks, and when a ground station was last heard.
+    pub latest: Latest,
     /// Commands since the last job.
     pub commands: Commands,
     /// Settings to take over before the job.
@@ -191,15 +194,16 @@ impl Commander {
         }
     }
 
-    /// Whether the vehicle was ever configured; one that is built from a configuration was.
-    pub fn set_configured(&mut self, configured: bool) {
-        self.configured = configured;
+    /// Takes over what stands in the settings alone. A vehicle that is built from a configuration was configured.
+    pub fn configure(&mut self, settings: &Settings) {
+        self.configured = settings.is_configured();
     }
 
     /// Takes over a setting.
     pub fn apply(&mut self, change: &Change) {
         change.apply_to(&mut self.settings, Place::modes);
-        if usize::from(change.index) == settings::SYS_AUTOSTART {
+        let index = usize::from(change.index);
+        if index == settings::SYS_AUTOSTART {
             self.configured = change.value.int() != 0;
         }
     }

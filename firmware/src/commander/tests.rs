@@ -28,6 +28,7 @@ fn standing() -> CommanderInput {
         failed_rotor: None,
         outer_hung: false,
         kills: 0,
+        latest: Latest::default(),
         commands: Commands::new(),
         changes: Changes::new(),
     }

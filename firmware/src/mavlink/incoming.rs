@@ -3,15 +3,16 @@
 use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData, consts};
 use glissade_dialect::{
     COMMAND_INT_DATA, COMMAND_LONG_DATA, FILE_TRANSFER_PROTOCOL_DATA, HEARTBEAT_DATA, LOG_REQUEST_DATA_DATA,
-    LOG_REQUEST_LIST_DATA, MISSION_CLEAR_ALL_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA, MISSION_ITEM_INT_DATA,
-    MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MISSION_REQUEST_LIST_DATA, MISSION_SET_CURRENT_DATA,
-    MISSION_WRITE_PARTIAL_LIST_DATA, MavType, PARAM_EXT_REQUEST_LIST_DATA, PARAM_REQUEST_LIST_DATA,
-    PARAM_REQUEST_READ_DATA, PARAM_SET_DATA, PING_DATA, SERIAL_CONTROL_DATA, SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA,
-    TIMESYNC_DATA,
+    LOG_REQUEST_LIST_DATA, MANUAL_CONTROL_DATA, MISSION_CLEAR_ALL_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA,
+    MISSION_ITEM_INT_DATA, MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MISSION_REQUEST_LIST_DATA,
+    MISSION_SET_CURRENT_DATA, MISSION_WRITE_PARTIAL_LIST_DATA, MavType, PARAM_EXT_REQUEST_LIST_DATA,
+    PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA, PING_DATA, RC_CHANNELS_OVERRIDE_DATA,
+    SERIAL_CONTROL_DATA, SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA, TIMESYNC_DATA,
 };
 
 use super::params::ParamRequest;
 use super::services;
+use super::sticks::{self, StickMessage};
 use super::telemetry::Place;
 use super::{COMPONENT_ID, Identity};
 
@@ -100,6 +101,8 @@ pub(super) enum Incoming {
     Timesync { ts1: i64 },
     /// `SET_GPS_GLOBAL_ORIGIN`.
     SetOrigin(Place),
+    /// `MANUAL_CONTROL` or `RC_CHANNELS_OVERRIDE`.
+    Sticks(StickMessage),
     /// A request of `PING`.
     Ping { time_usec: u64, seq: u32 },
 }
@@ -165,6 +168,8 @@ pub(super) fn known(id: u32) -> Option<Known> {
         MISSION_CLEAR_ALL_DATA::ID => Known::of::<MISSION_CLEAR_ALL_DATA>(mission_clear),
         MISSION_REQUEST_INT_DATA::ID => Known::of::<MISSION_REQUEST_INT_DATA>(item_request),
         MISSION_ITEM_INT_DATA::ID => Known::of::<MISSION_ITEM_INT_DATA>(item),
+        MANUAL_CONTROL_DATA::ID => Known::of::<MANUAL_CONTROL_DATA>(manual_control),
+        RC_CHANNELS_OVERRIDE_DATA::ID => Known::of::<RC_CHANNELS_OVERRIDE_DATA>(channels_override),
         SET_GPS_GLOBAL_ORIGIN_DATA::ID => Known::of::<SET_GPS_GLOBAL_ORIGIN_DATA>(set_origin),
         COMMAND_INT_DATA::ID => Known::of::<COMMAND_INT_DATA>(command_int),
         COMMAND_LONG_DATA::ID => Known::of::<COMMAND_LONG_DATA>(command_long),
@@ -295,6 +300,20 @@ fn set_origin(raw: &Raw) -> Option<Incoming> {
     let m: SET_GPS_GLOBAL_ORIGIN_DATA = raw.read()?;
     let place = Place { latitude_e7: m.latitude, longitude_e7: m.longitude, height_msl_mm: m.altitude };
     raw.is_for_us(m.target_system, 0).then_some(Incoming::SetOrigin(place))
+}
+
+fn manual_control(raw: &Raw) -> Option<Incoming> {
+    let m: MANUAL_CONTROL_DATA = raw.read()?;
+    // Sticks move one vehicle: they cannot be for everyone.
+    let message = sticks::of_joystick(&m).filter(|_| m.target == raw.us.system)?;
+    Some(Incoming::Sticks(message))
+}
+
+fn channels_override(raw: &Raw) -> Option<Incoming> {
+    let m: RC_CHANNELS_OVERRIDE_DATA = raw.read()?;
+    let ours = m.target_system == raw.us.system && raw.is_for_us(m.target_system, m.target_component);
+    let message = sticks::of_channels(&m).filter(|_| ours)?;
+    Some(Incoming::Sticks(message))
 }
 
 fn file(raw: &Raw) -> Option<Incoming> {

@@ -11,9 +11,10 @@ use super::parser::Parser;
 use super::port::{Port, Profile};
 use super::telemetry::{Telemetry, View};
 use super::writer::Writer;
-use super::{GroundOutput, command, mode, place};
+use super::{GroundOutput, command, mode, place, sticks};
 use crate::commander::{self, Command, Event, Outcome, Refusal, Reply, StationReply};
 use crate::frames::Origin;
+use crate::latest::Latest;
 use crate::settings::{Marks, Settings};
 use crate::signals::{TICK_S, TICK_US, Tick};
 
@@ -32,6 +33,8 @@ pub(super) struct Job<'a> {
     pub(super) changed: &'a mut Marks,
     /// An origin of the local frame that a ground station has set.
     pub(super) set_origin: &'a mut Option<Origin>,
+    /// What was read last, on whatever link.
+    pub(super) latest: &'a mut Latest,
     /// Its output.
     pub(super) output: &'a mut GroundOutput,
 }
@@ -76,7 +79,12 @@ impl Link {
 
     fn handle(&mut self, number: u8, sender: Sender, message: Incoming, job: &mut Job) {
         match message {
-            Incoming::Heartbeat { .. } => {}
+            Incoming::Heartbeat { station } => {
+                if station {
+                    job.latest.station = Some(job.view.now);
+                }
+            }
+            Incoming::Sticks(sticks) => sticks::take(&sticks, job.view.now, job.view.stick_loss_s, job.latest),
             Incoming::Command(command) => self.handle_command(number, sender, &command, job),
             Incoming::SetMode { base_mode, custom_mode } => {
                 let command = mode::as_command(base_mode, custom_mode);

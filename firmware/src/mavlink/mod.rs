@@ -3,7 +3,7 @@
 //! Bytes in, bytes out; the board or the host only carries them, through [`port`]: a pair of rings for each link. A
 //! `link` has its own parser, answers and rates: `parser` finds frames, `incoming` decodes messages, `command` carries
 //! out commands, `place` those that carry places on Earth, `params` serves the settings, `services` answers for what
-//! there is not, `mode` encodes modes as PX4 does, `text` sends texts to pilots, `telemetry` schedules and fills in the
+//! there is not, `sticks` reads those of ground stations, `mode` encodes modes as PX4 does, `text` sends texts to pilots, `telemetry` schedules and fills in the
 //! messages about the vehicle, of which [`report`] tells the part that is gathered for it, `outbox` keeps what is still to
 //! be said, and `writer` encodes messages. NED/FRD is converted in `frames` only.
 //!
@@ -49,6 +49,7 @@ mod place;
 pub mod port;
 pub mod report;
 mod services;
+mod sticks;
 mod telemetry;
 #[cfg(test)]
 mod tests;
@@ -65,6 +66,7 @@ use crate::commander::{Answers, Commands, Events, Mode};
 use crate::estimator::status::Status;
 use crate::failure::{Failures, Injectable};
 use crate::frames::Origin as MapOrigin;
+use crate::latest::Latest;
 use crate::sensors::BatterySample;
 use crate::settings::{Changes, Marks, Settings};
 use crate::signals::{NavState, Tick};
@@ -170,6 +172,8 @@ pub struct GroundOutput {
     pub kill: bool,
     /// Accepted failure injections, for the board.
     pub failures: Failures,
+    /// Sticks, and when a ground station was last heard.
+    pub latest: Latest,
     /// Settings that the other partitions are to take over.
     pub changes: Changes,
 }
@@ -187,6 +191,8 @@ pub struct Ground {
     settings: Settings,
     /// An origin of the local frame that a ground station has set; GNSS overrules it.
     set_origin: Option<MapOrigin>,
+    /// What was read last, on whatever link.
+    latest: Latest,
 }
 
 impl Default for Ground {
@@ -198,7 +204,8 @@ impl Default for Ground {
 impl Ground {
     /// The owner of these settings.
     pub fn new(settings: Settings) -> Self {
-        Self { us: Identity::of(&settings), links: Default::default(), first: 0, settings, set_origin: None }
+        let (us, latest) = (Identity::of(&settings), Latest::default());
+        Self { us, links: Default::default(), first: 0, settings, set_origin: None, latest }
     }
 
     /// The settings, for whoever saves them.
@@ -215,12 +222,14 @@ impl Ground {
     pub fn step(&mut self, released: Tick, input: &GroundInput, ports: &Ports) -> GroundOutput {
         let (mut output, mut changed) = (GroundOutput::default(), Marks::default());
         let view = View::new(released, input, self.us, &self.settings, self.set_origin.as_ref());
+        self.latest.forget_old(released);
+        let view = View { latest: self.latest, ..view };
         for ((number, link), port) in (0..).zip(&mut self.links).zip(ports) {
             let Some((session, profile)) = port.session() else { continue };
             link.begin(session, profile);
             let (settings, changed) = (&mut self.settings, &mut changed);
-            let set_origin = &mut self.set_origin;
-            link.read(number, port, &mut Job { view, settings, changed, set_origin, output: &mut output });
+            let (set_origin, latest) = (&mut self.set_origin, &mut self.latest);
+            link.read(number, port, &mut Job { view, settings, changed, set_origin, latest, output: &mut output });
         }
         while let Some(index) = changed.first() {
             changed.clear(index);
@@ -238,6 +247,8 @@ impl Ground {
         if input.changes_taken {
             output.changes = self.settings.take_changes();
         }
+        output.latest = self.latest;
+        let view = View { latest: self.latest, ..view };
         for (link, port) in self.links.iter_mut().zip(ports) {
             if port.session().is_some() {
                 input.events.iter().for_each(|event| link.report(*event));

@@ -8,6 +8,7 @@ mod places;
 mod requests;
 mod services;
 mod status;
+mod sticks;
 
 use glissade_dialect::mavlink_core::{
     MAVLinkV1MessageRaw, MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message, MessageData, calculate_crc,

@@ -49,6 +49,8 @@ pub const BAT1_V_CHARGED: usize = rows::index_of("BAT1_V_CHARGED");
 pub const BAT1_R_INTERNAL: usize = rows::index_of("BAT1_R_INTERNAL");
 /// Index of the height of a take-off for which none is given.
 pub const MIS_TAKEOFF_ALT: usize = rows::index_of("MIS_TAKEOFF_ALT");
+/// Index of the silence after which sticks are lost.
+pub const COM_RC_LOSS_T: usize = rows::index_of("COM_RC_LOSS_T");
 /// Index of the greatest tilt.
 pub(crate) const TILT_MAX: usize = rows::index_of("MPC_TILTMAX_AIR");
 /// Index of the first axis' first row.
@@ -361,6 +363,11 @@ impl Settings {
         let (empty, full) = (real(BAT1_V_EMPTY)?, real(BAT1_V_CHARGED)?);
         let at_rest = battery.voltage_v / cells + battery.current_a * real(BAT1_R_INTERNAL)?;
         (full > empty && at_rest.is_finite()).then(|| math::clamp((at_rest - empty) / (full - empty), 0.0, 1.0))
+    }
+
+    /// Age at which sticks are lost, s.
+    pub fn stick_loss_s(&self) -> f32 {
+        self.get(COM_RC_LOSS_T).map_or(0.0, Value::real)
     }
 
     /// Height of a take-off for which none is given, m.

@@ -4,6 +4,7 @@
 
 mod autopilot;
 mod hung;
+mod latest;
 mod mixer;
 mod modes;
 mod moving_start;

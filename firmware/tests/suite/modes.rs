@@ -11,6 +11,7 @@ use firmware::control::attitude::{self, SlidingAttitude};
 use firmware::control::position::SlidingPosition;
 use firmware::guidance::Trajectory;
 use firmware::inner::Inner;
+use firmware::latest::Latest;
 use firmware::outer::{Authority, Outer, OuterInput, OuterOutput};
 use firmware::schedule::{COMMANDER, OUTER};
 use firmware::settings::Changes;
@@ -82,7 +83,7 @@ impl Vehicle {
         let told = commander.initial_output();
         let mut outer = Outer::new(config, SlidingPosition::new(&airframe, &config.position)).expect("valid");
         let (directive, changes) = (told.directive, Changes::new());
-        let input = OuterInput { nav, thrust_n: airframe.weight_n(), directive, changes };
+        let input = OuterInput { nav, thrust_n: airframe.weight_n(), directive, latest: Latest::default(), changes };
         Self {
             body: Body { airframe, nav },
             inner: Inner::new(config, SlidingAttitude::new(&airframe, &config.attitude)).expect("valid"),
@@ -114,6 +115,7 @@ impl Vehicle {
                 failed_rotor: None,
                 outer_hung: false,
                 kills: 0,
+                latest: Latest::default(),
                 commands: core::mem::take(&mut self.commands),
                 changes: Changes::new(),
             };
@@ -122,7 +124,8 @@ impl Vehicle {
         }
         if self.tick.is_multiple_of(OUTER.period) {
             let (directive, changes) = (self.told.directive, Changes::new());
-            let input = OuterInput { nav, thrust_n: self.inner.thrust_n(), directive, changes };
+            let input =
+                OuterInput { nav, thrust_n: self.inner.thrust_n(), directive, latest: Latest::default(), changes };
             self.reference = self.outer.step(self.tick, &input);
         }
         let output = if self.told.armed && self.reference.authority == Authority::Idle {

@@ -44,8 +44,8 @@ fn decode(mut bytes: &[u8]) -> Vec<MavMessage> {
     messages
 }
 
-/// A flight that a ground station has taken off 10 m, with a look at every message. A message is published a job after its
-/// time: 10 ms.
+/// A flight that a ground station has taken off 10 m, with a look at every message. A message is published 6 ms after its
+/// time.
 fn fly(scenario: &str, ticks: u32, mut look: impl FnMut(&Flight<RigidBody>, MavMessage)) {
     // The ellipsoid is 47 m below the sea, as in Zurich.
     let scenario = load(scenario, &["home.height_m=535.0", "home.geoid_m=47.0"]);

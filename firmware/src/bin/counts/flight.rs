@@ -13,6 +13,7 @@ use firmware::control::position::{PositionGains, SlidingPosition};
 use firmware::control::sliding::{AxisGains, ReachingLaw};
 use firmware::guidance::{Guidance, JoinPlan, Trajectory};
 use firmware::inner::Inner;
+use firmware::latest::Latest;
 use firmware::math;
 use firmware::outer::{Outer, OuterInput};
 use firmware::schedule::{FILTER, OUTER};
@@ -200,6 +201,7 @@ impl Flight {
             nav: self.plant.nav,
             thrust_n: self.inner.thrust_n(),
             directive: Directive::Follow { since: 0 },
+            latest: Latest::default(),
             changes: Changes::new(),
         };
         let (instructions, reference) =

@@ -29,15 +29,16 @@ use glissade_dialect::{
     AVAILABLE_MODES_DATA, BATTERY_STATUS_DATA, CURRENT_MODE_DATA, DEBUG_FLOAT_ARRAY_DATA, ESC_STATUS_DATA,
     ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, GPS_RAW_INT_DATA,
     HEARTBEAT_DATA, HIGHRES_IMU_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA, MESSAGE_INTERVAL_DATA,
-    NAMED_VALUE_INT_DATA, ODOMETRY_DATA, POSITION_TARGET_LOCAL_NED_DATA, PROTOCOL_VERSION_DATA, SCALED_IMU_DATA,
-    SCALED_PRESSURE_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA, VIBRATION_DATA,
-    WIND_COV_DATA,
+    NAMED_VALUE_INT_DATA, ODOMETRY_DATA, POSITION_TARGET_LOCAL_NED_DATA, PROTOCOL_VERSION_DATA, RC_CHANNELS_DATA,
+    SCALED_IMU_DATA, SCALED_PRESSURE_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA,
+    VIBRATION_DATA, WIND_COV_DATA,
 };
 
 pub(super) use self::identity::MODES;
 pub(super) use self::view::{Place, View};
 use super::outbox::TELEMETRY_SHARE;
 use super::port::{Profile, SENT_CAPACITY};
+use super::sticks;
 use super::writer::Writer;
 use crate::schedule::GROUND;
 use crate::signals::{TICK_US, Tick};
@@ -71,6 +72,7 @@ pub(super) enum Report {
     Wind,
     Vibration,
     CurrentMode,
+    RcChannels,
     LoopTiming,
     SlidingMode,
     AutopilotVersion,
@@ -120,7 +122,7 @@ const fn stream<D: MessageData>(report: Report, periods: [Tick; 2], phase: Tick)
     }
 }
 
-const STREAM_COUNT: usize = 32;
+const STREAM_COUNT: usize = 33;
 
 /// Every message that can be sent, its default periods and first tick, in the order in which due messages are sent. Rates
 /// follow PX4's `normal` and `onboard` modes. A link's test holds the sum of `normal` below 60 % of 57,600 baud.
@@ -151,6 +153,7 @@ const STREAMS: [Stream; STREAM_COUNT] = [
     stream::<ESTIMATOR_STATUS_DATA>(Report::EstimatorStatus, [1000, 200], 350),
     stream::<WIND_COV_DATA>(Report::Wind, [2000, 500], 220),
     stream::<VIBRATION_DATA>(Report::Vibration, [2000, 500], 230),
+    stream::<RC_CHANNELS_DATA>(Report::RcChannels, [500, 50], 240),
     stream::<NAMED_VALUE_INT_DATA>(Report::LoopTiming, [1000, 1000], 250),
     stream::<DEBUG_FLOAT_ARRAY_DATA>(Report::SlidingMode, [0, 0], 0),
     stream::<AUTOPILOT_VERSION_DATA>(Report::AutopilotVersion, [0, 0], 0),
@@ -350,6 +353,7 @@ pub(super) fn write(report: Report, view: &View, out: &mut Writer) -> bool {
         Report::ScaledPressure => known(sensors::scaled_pressure(view), out),
         Report::Wind => known(sensors::wind(view), out),
         Report::Vibration => known(sensors::vibration(view), out),
+        Report::RcChannels => known(sticks::rc_channels(view), out),
         Report::CurrentMode => out.write(&identity::current_mode(view)),
         Report::AutopilotVersion => out.write(&identity::autopilot_version(view)),
         Report::ProtocolVersion => out.write(&identity::protocol_version()),
@@ -388,6 +392,7 @@ pub(super) fn is_available(report: Report, view: &View) -> bool {
         Report::ScaledPressure => sensors::scaled_pressure(view).is_some(),
         Report::Wind => sensors::wind(view).is_some(),
         Report::Vibration => sensors::vibration(view).is_some(),
+        Report::RcChannels => sticks::rc_channels(view).is_some(),
         _ => true,
     }
 }

@@ -26,16 +26,20 @@ const GUIDED: MavSysStatusSensor = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_YAW
     .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_Z_ALTITUDE_CONTROL)
     .union(MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_XY_POSITION_CONTROL);
 
+const STICKS: MavSysStatusSensor = MavSysStatusSensor::MAV_SYS_STATUS_SENSOR_RC_RECEIVER;
+
 /// Fills in `SYS_STATUS`.
 pub(super) fn sys_status(view: &View) -> SYS_STATUS_DATA {
     let input = view.input;
     let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
     let (sensors, healthy) = sensors(input);
-    let present = CONTROLLERS | prearm | sensors;
+    let mut present = CONTROLLERS | prearm | sensors;
+    present.set(STICKS, view.latest.sticks.is_some());
     // There is no geofence, but a ground station takes a missing health bit for a breach.
     let mut health = CONTROLLERS | healthy | MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE;
     // Armed it has passed: scripts wait for this bit whatever the vehicle is doing.
     health.set(prearm, (input.armable || input.armed) && !input.health.hung.commander);
+    health.set(STICKS, view.sticks().is_some());
     health.set(GUIDED, !input.health.hung.outer);
     let sample = input.battery();
     let [outer, commander, ground] = input.health.overruns.map(saturate);

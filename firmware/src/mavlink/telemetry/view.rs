@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::frames::{LocalFrame, Origin, flip_vector};
+use crate::latest::{Latest, Sticks};
 use crate::mavlink::{GroundInput, Identity};
 use crate::settings::Settings;
 use crate::signals::{NavHealth, TICK_US, Tick};
@@ -68,6 +69,10 @@ pub(in crate::mavlink) struct View<'a> {
     pub(in crate::mavlink) battery_percent: i8,
     /// Height of a take-off that names none, m.
     pub(in crate::mavlink) take_off_m: f32,
+    /// What was read last, on whatever link.
+    pub(in crate::mavlink) latest: Latest,
+    /// Age at which sticks are lost, s.
+    pub(in crate::mavlink) stick_loss_s: f32,
     /// Bytes that this link has lost and frames whose checksum was wrong, since boot.
     pub(in crate::mavlink) errors: u32,
 }
@@ -90,6 +95,8 @@ impl<'a> View<'a> {
             battery_percent: charge.map_or(-1, |charge| (charge * 100.0 + 0.5) as i8),
             take_off_m: settings.take_off_height_m(),
             map,
+            latest: Latest::default(),
+            stick_loss_s: settings.stick_loss_s(),
             errors: 0,
         }
     }
@@ -103,6 +110,11 @@ impl<'a> View<'a> {
     pub(in crate::mavlink) fn boot_ms(&self) -> u32 {
         // A tick is a millisecond now; this holds for other lengths too.
         (self.boot_us() / 1000) as u32
+    }
+
+    /// The sticks, unless they are lost.
+    pub(in crate::mavlink) fn sticks(&self) -> Option<&Sticks> {
+        self.latest.sticks_within(self.now, self.stick_loss_s)
     }
 
     /// What is known of the motion.
