@@ -44,6 +44,7 @@ impl Commander {
             self.home = input.nav.position;
         }
         self.battery_answered = super::Charge::Good;
+        self.station.rearm();
         self.state = State::Idle { disarm_at: None };
         if intent.leaves_ground() && launch.is_ok() {
             self.engage(intent, effective, input);
@@ -156,6 +157,7 @@ impl Commander {
             Override::RotorFailed => State::MotorOut,
             Override::BatteryLow => self.state_for(&Intent::Return, effective, height),
             Override::BatteryCritical => State::Land,
+            Override::StationLost { action } => self.state_for(&action.pursues(), effective, height),
             Override::SensorsGone => State::Disarmed,
         };
         self.overridden = Some(failure);

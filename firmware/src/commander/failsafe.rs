@@ -1,6 +1,7 @@
 //! Responses to failures: what overrides the intent of the pilot.
 
 use super::{Charge, Commander, CommanderInput, Event, Known, Override, State};
+use crate::schedule::COMMANDER;
 use crate::signals::Tick;
 
 impl Commander {
@@ -27,7 +28,9 @@ impl Commander {
         if input.outer_hung && self.state != State::Descent {
             self.override_by(Override::OuterHung, effective, height);
         }
-        event.or_else(|| self.answer_battery(effective, height))
+        event
+            .or_else(|| self.answer_battery(effective, height))
+            .or_else(|| self.answer_silence(effective.wrapping_sub(COMMANDER.offset), effective, input))
     }
 
     fn answer_loss(&mut self, effective: Tick, input: &CommanderInput) -> Option<Event> {

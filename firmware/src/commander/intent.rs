@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Known, Mode, Request};
+use super::{Known, Mode, Request, StationAction};
 
 /// What the pilot wants: the last request to fly that was accepted. It is kept while a failure overrides it. A landing
 /// and a disarming end it; then it is [`Hold`](Self::Hold), as before the first request.
@@ -90,6 +90,11 @@ pub enum Override {
     BatteryLow,
     /// The battery is critical.
     BatteryCritical,
+    /// No ground station is heard any more.
+    StationLost {
+        /// What is done without it.
+        action: StationAction,
+    },
     /// No sensor samples: the rotors are stopped.
     SensorsGone,
 }
@@ -100,6 +105,7 @@ impl Override {
         match self {
             Self::BatteryLow => Some(Intent::Return),
             Self::BatteryCritical => Some(Intent::Land),
+            Self::StationLost { action } => Some(action.pursues()),
             Self::Loss { .. } | Self::RotorFailed | Self::OuterHung | Self::SensorsGone => None,
         }
     }

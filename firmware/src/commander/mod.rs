@@ -17,6 +17,7 @@ mod home;
 mod intent;
 mod request;
 mod state;
+mod station;
 mod text;
 mod watch;
 
@@ -31,10 +32,12 @@ pub use request::{
     Reply, Request, StationReply, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
 };
 pub use state::State;
+pub use station::StationAction;
 
 use nalgebra::Vector3;
 
 use self::checks::is_slow;
+use self::station::StationLoss;
 use self::watch::{BatteryWatch, Charge, GroundWatch, NavWatch};
 use crate::config::{FlightConfig, ModeSettings, Start};
 use crate::guidance::Guidance;
@@ -138,6 +141,8 @@ pub struct Commander {
     navigation: NavWatch,
     battery: BatteryWatch,
     ground: GroundWatch,
+    /// The answer to the loss of the ground station.
+    station: StationLoss,
     /// The charge level whose failsafe has already acted. It acts once, so that the pilot can override it.
     battery_answered: Charge,
 }
@@ -190,6 +195,7 @@ impl Commander {
             navigation: NavWatch::default(),
             battery: BatteryWatch::default(),
             ground: GroundWatch::new(flies, start.z),
+            station: StationLoss::default(),
             battery_answered: Charge::Good,
         }
     }
@@ -197,6 +203,11 @@ impl Commander {
     /// Takes over what stands in the settings alone. A vehicle that is built from a configuration was configured.
     pub fn configure(&mut self, settings: &Settings) {
         self.configured = settings.is_configured();
+        for index in [settings::NAV_DLL_ACT, settings::COM_DL_LOSS_T] {
+            if let Some(value) = settings.get(index) {
+                self.station.set(index, value);
+            }
+        }
     }
 
     /// Takes over a setting.
@@ -206,6 +217,7 @@ impl Commander {
         if index == settings::SYS_AUTOSTART {
             self.configured = change.value.int() != 0;
         }
+        self.station.set(index, change.value);
     }
 
     /// How it flies by itself.

@@ -2,6 +2,7 @@
 
 use core::ops::RangeInclusive;
 
+use super::StationAction;
 use crate::math;
 
 /// Default height of a take-off, m.
@@ -218,6 +219,11 @@ pub enum Event {
     BatteryLow,
     /// Battery critical: lands at once.
     BatteryCritical,
+    /// No ground station is heard any more.
+    StationLost {
+        /// What is done without it.
+        action: StationAction,
+    },
     /// A rotor has failed: descends at once, without yaw control.
     RotorFailed {
         /// Which, from 0.

@@ -23,6 +23,9 @@
 //!
 //! Cruise, TakeOff              ─ battery critical ─► Land by BatteryCritical
 //! Hold, GoTo, Velocity, Join, Follow, TakeOff ─ battery low ► Return by BatteryLow
+//! GoTo, Velocity, Join, Follow, TakeOff ─ station lost: hold ► Hold by StationLost
+//! Hold, GoTo, Velocity, Join, Follow, TakeOff ─ station lost: return ► Return by StationLost
+//! Hold, GoTo, Velocity, Join, Follow, TakeOff ─ station lost: land ► Land by StationLost
 //! Cruise, TakeOff, Land        ─ loss ─────────────► Descent by Loss
 //! Cruise, TakeOff, Land        ─ hung ─────────────► Descent by OuterHung
 //! Cruise, TakeOff, Land, Descent ─ rotor failed ───► MotorOut by RotorFailed

@@ -3,6 +3,7 @@
 mod any;
 mod battery;
 mod intents;
+mod station;
 
 use std::collections::BTreeSet;
 
@@ -162,6 +163,9 @@ fn outcomes(state: State) -> Vec<(&'static str, String)> {
         ("hung", last(0.1, CommanderInput { outer_hung: true, ..quiet.clone() })),
         ("battery low", last(2.1, volts(13.5, &quiet))),
         ("battery critical", last(2.1, volts(12.5, &quiet))),
+        ("station lost: hold", end(&|bench| station::is_lost(bench, StationAction::Hold, &quiet))),
+        ("station lost: return", end(&|bench| station::is_lost(bench, StationAction::Return, &quiet))),
+        ("station lost: land", end(&|bench| station::is_lost(bench, StationAction::Land, &quiet))),
         ("touchdown", last(0.6, CommanderInput { thrust_n: 0.0, ..quiet.clone() })),
         ("rested", rested(state)),
         ("arrived", arrived(state)),

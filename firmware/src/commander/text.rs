@@ -1,7 +1,7 @@
 //! Texts of the commander: the names of modes, requests, refusals and events, over MAVLink, on the console and in
 //! files.
 
-use super::{Event, Mode, Refusal, Request};
+use super::{Event, Mode, Refusal, Request, StationAction};
 
 impl Mode {
     /// The name of the mode, in lower case and without spaces.
@@ -76,6 +76,9 @@ impl Event {
             Self::PositionLost => "Position estimate lost: descending",
             Self::BatteryLow => "Battery low: returning home",
             Self::BatteryCritical => "Battery critical: landing",
+            Self::StationLost { action: StationAction::Hold } => "Ground station lost: holding",
+            Self::StationLost { action: StationAction::Return } => "Ground station lost: returning home",
+            Self::StationLost { action: StationAction::Land } => "Ground station lost: landing",
             // Pilots count motors from 1.
             Self::RotorFailed { rotor: 0 } => "Motor 1 failed: descending without yaw control",
             Self::RotorFailed { rotor: 1 } => "Motor 2 failed: descending without yaw control",
@@ -142,6 +145,9 @@ mod tests {
             Event::PositionLost,
             Event::BatteryLow,
             Event::BatteryCritical,
+            Event::StationLost { action: StationAction::Hold },
+            Event::StationLost { action: StationAction::Return },
+            Event::StationLost { action: StationAction::Land },
             Event::RotorFailed { rotor: 0 },
             Event::OuterHung,
             Event::CommanderHung,

@@ -49,8 +49,14 @@ pub const BAT1_V_CHARGED: usize = rows::index_of("BAT1_V_CHARGED");
 pub const BAT1_R_INTERNAL: usize = rows::index_of("BAT1_R_INTERNAL");
 /// Index of the height of a take-off for which none is given.
 pub const MIS_TAKEOFF_ALT: usize = rows::index_of("MIS_TAKEOFF_ALT");
+/// Index of what is done when the ground station is lost.
+pub const NAV_DLL_ACT: usize = rows::index_of("NAV_DLL_ACT");
+/// Index of the silence after which it is lost.
+pub const COM_DL_LOSS_T: usize = rows::index_of("COM_DL_LOSS_T");
 /// Index of the silence after which sticks are lost.
 pub const COM_RC_LOSS_T: usize = rows::index_of("COM_RC_LOSS_T");
+/// Rows that stand in the settings alone, and concern the commander.
+const OF_COMMANDER: [usize; 3] = [SYS_AUTOSTART, NAV_DLL_ACT, COM_DL_LOSS_T];
 /// Index of the greatest tilt.
 pub(crate) const TILT_MAX: usize = rows::index_of("MPC_TILTMAX_AIR");
 /// Index of the first axis' first row.
@@ -277,7 +283,7 @@ impl Settings {
     fn mark(&mut self, index: usize) {
         self.unsaved.set(index);
         let Some(setting) = SETTINGS.get(index) else { return };
-        let stays_here = matches!(setting.place, Place::Settings) && index != SYS_AUTOSTART;
+        let stays_here = matches!(setting.place, Place::Settings) && !OF_COMMANDER.contains(&index);
         if setting.class == Class::Boot || stays_here || !self.is_in_use(index) {
             return;
         }

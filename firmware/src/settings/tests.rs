@@ -283,12 +283,14 @@ struct Owners {
 }
 
 impl Owners {
-    fn of(config: &FlightConfig) -> Self {
+    fn of(config: &FlightConfig, settings: &Settings) -> Self {
         let estimator = config.estimator.expect("a whole configuration");
+        let mut commander = Commander::new(config);
+        commander.configure(settings);
         Self {
             attitude: SlidingAttitude::new(&config.airframe, &config.attitude),
             outer: Outer::new(config, SlidingPosition::new(&config.airframe, &config.position)).expect("valid"),
-            commander: Commander::new(config),
+            commander,
             filter: Filter::new(&estimator, 9.81, 0.1, config.start_position()),
         }
     }
@@ -318,10 +320,10 @@ fn whoever_takes_a_change_over_is_as_if_built_with_it() {
         for (index, setting) in SETTINGS.iter().enumerate() {
             let mut settings = Settings::of(&config);
             let value = other(&settings, index);
+            let mut owners = Owners::of(&config, &settings);
             if settings.set(index, value, setting.class == Class::InFlight).is_err() {
                 continue;
             }
-            let mut owners = Owners::of(&config);
             let before = owners.texts();
             let changes = settings.take_changes();
             for change in &changes {
@@ -331,6 +333,10 @@ fn whoever_takes_a_change_over_is_as_if_built_with_it() {
             settings.write_to(&mut changed);
             let name = setting.name;
             match setting.place {
+                Place::Settings if [NAV_DLL_ACT, COM_DL_LOSS_T].contains(&index) => {
+                    assert_ne!(owners.texts(), before, "{name} has no effect");
+                    assert_eq!(owners.texts(), Owners::of(&changed, &settings).texts(), "{name}");
+                }
                 Place::Settings | Place::Airframe(_) => assert_eq!(owners.texts(), before, "{name}"),
                 _ if changes.is_empty() => {
                     assert!(setting.class == Class::Boot || !settings.is_in_use(index), "{name}");
@@ -338,7 +344,7 @@ fn whoever_takes_a_change_over_is_as_if_built_with_it() {
                 }
                 _ => {
                     assert_ne!(owners.texts(), before, "{name} of law {law} has no effect");
-                    assert_eq!(owners.texts(), Owners::of(&changed).texts(), "{name} of law {law}");
+                    assert_eq!(owners.texts(), Owners::of(&changed, &settings).texts(), "{name} of law {law}");
                 }
             }
         }

@@ -1,19 +1,21 @@
-//! Latest values on their way through the whole autopilot: how soon sticks arrive, and that nothing old replaces
-//! what is newer.
+//! Latest values on their way through the whole autopilot: how soon sticks arrive, that nothing old replaces what is
+//! newer, and the answer to a ground station that is lost.
 
 use firmware::autopilot::Autopilot;
+use firmware::commander::{Mode, Override, Request, StationAction};
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
 use firmware::latest::Latest;
 use firmware::mavlink::port::Profile;
 use firmware::schedule::{GROUND, OUTER};
+use firmware::settings::{COM_DL_LOSS_T, NAV_DLL_ACT, Settings, Value};
 use firmware::signals::{NavState, SensorFrame, Tick};
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MessageData};
 use glissade_dialect::{HEARTBEAT_DATA, MANUAL_CONTROL_DATA};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-use crate::modes::config;
+use crate::modes::{Body, config};
 
 fn frame(message: &impl MessageData) -> Vec<u8> {
     let mut frame = MAVLinkV2MessageRaw::new();
@@ -26,12 +28,13 @@ fn sticks(number: u16) -> Vec<u8> {
     frame(&MANUAL_CONTROL_DATA { target: 1, buttons: number, ..MANUAL_CONTROL_DATA::DEFAULT })
 }
 
-/// A heartbeat.
+/// The heartbeat of a ground station, or of a vehicle.
 fn heartbeat(mavtype: u8) -> Vec<u8> {
     frame(&HEARTBEAT_DATA { mavtype, ..HEARTBEAT_DATA::DEFAULT })
 }
 
 const STATION: u8 = 6;
+const QUADROTOR: u8 = 2;
 
 fn hovering() -> FlightConfig {
     let start = [0.0, 0.0, 20.0];
@@ -165,4 +168,110 @@ proptest! {
         let at = |number: u16| number.checked_sub(1).map_or(0, |index| sent_at[usize::from(index)]);
         prop_assert!(at(number) - at(arrived) < 2 * GROUND.period, "{} of {}", arrived, number);
     }
+}
+
+/// A vehicle in the air, and the ground stations that it hears.
+struct Flight {
+    pilot: Autopilot,
+    body: Body,
+    tick: Tick,
+    sent: Vec<u8>,
+}
+
+impl Flight {
+    /// Hovering at 20 m; the ground station is lost after 5 s.
+    fn new(action: i32) -> Self {
+        let config = hovering();
+        let mut settings = Settings::of(&config);
+        settings.restore(NAV_DLL_ACT, Value::Int(action)).expect("in range");
+        settings.restore(COM_DL_LOSS_T, Value::Int(5)).expect("in range");
+        let pilot = Autopilot::new(&config).expect("valid").with_settings(settings);
+        pilot.ports.first().open(Profile::Normal);
+        let nav = NavState { position: config.start_position(), ..NavState::at_rest() };
+        Self { pilot, body: Body { airframe: config.airframe, nav }, tick: 0, sent: Vec::new() }
+    }
+
+    /// Flies, with a heartbeat of these types each second.
+    fn fly(&mut self, seconds: u32, beats: &[u8]) -> &mut Self {
+        for _ in 0..seconds * 1000 {
+            if self.tick.is_multiple_of(1000) {
+                for mavtype in beats {
+                    self.pilot.ports.first().receive(&heartbeat(*mavtype));
+                }
+            }
+            let motors = self.pilot.tick(Some(&SensorFrame::Motion(self.body.nav))).motors;
+            self.body.step(&motors);
+            self.sent.extend_from_slice(self.pilot.ports.first().take(&mut [0; 2048]));
+            self.tick += 1;
+        }
+        self
+    }
+
+    /// On the way to a place 60 m away, with a ground station for 3 s.
+    fn on_the_way(action: i32) -> Self {
+        let mut flight = Self::new(action);
+        flight.fly(1, &[STATION]);
+        let place = Request::GoTo { position_m: [60.0, 0.0, 20.0], yaw_rad: 0.0 };
+        flight.pilot.inner.request(place).expect("room");
+        flight.fly(2, &[STATION]);
+        assert_eq!(flight.mode(), Mode::GoTo);
+        flight
+    }
+
+    fn mode(&self) -> Mode {
+        self.pilot.inner.commander_output().mode
+    }
+
+    fn says(&self, text: &str) -> bool {
+        self.sent.windows(text.len()).any(|bytes| bytes == text.as_bytes())
+    }
+
+    fn off_home_m(&self) -> f32 {
+        self.body.nav.position.xy().norm()
+    }
+}
+
+#[test]
+fn a_vehicle_that_loses_its_station_on_the_way_returns_home_and_lands() {
+    let mut flight = Flight::on_the_way(2);
+    flight.fly(4, &[]);
+    assert_eq!(flight.mode(), Mode::GoTo, "not yet");
+    assert!(flight.off_home_m() > 10.0);
+    flight.fly(3, &[QUADROTOR]);
+    assert_eq!(flight.mode(), Mode::Return);
+    let overridden = flight.pilot.inner.commander_output().overridden;
+    assert_eq!(overridden, Some(Override::StationLost { action: StationAction::Return }));
+    assert!(flight.says("Ground station lost: returning home"));
+    flight.fly(90, &[]);
+    assert_eq!(flight.mode(), Mode::Disarmed);
+    assert!(flight.off_home_m() < 0.5 && flight.body.nav.position.z < 0.1);
+}
+
+#[test]
+fn the_other_answers_are_to_land_where_it_is_and_to_hold() {
+    let mut flight = Flight::on_the_way(3);
+    flight.fly(6, &[]);
+    assert_eq!(flight.mode(), Mode::Land);
+    assert!(flight.says("Ground station lost: landing"));
+    flight.fly(60, &[]);
+    assert_eq!(flight.mode(), Mode::Disarmed);
+    assert!((15.0..60.0).contains(&flight.off_home_m()) && flight.body.nav.position.z < 0.1);
+
+    let mut flight = Flight::on_the_way(1);
+    flight.fly(6, &[]);
+    assert_eq!(flight.mode(), Mode::Hold);
+    assert!(flight.says("Ground station lost: holding"));
+    let nav = flight.fly(10, &[]).body.nav;
+    assert!(nav.velocity.norm() < 0.05 && nav.position.x < 59.0 && nav.position.z > 19.0);
+}
+
+#[test]
+fn heartbeats_prevent_it_and_so_does_a_station_that_was_never_there() {
+    let mut flight = Flight::on_the_way(2);
+    flight.fly(40, &[STATION, QUADROTOR]);
+    assert!(flight.mode() == Mode::GoTo && (flight.off_home_m() - 60.0).abs() < 0.3);
+    let mut flight = Flight::new(2);
+    flight.fly(20, &[QUADROTOR]);
+    assert_eq!(flight.mode(), Mode::Follow);
+    assert!(!flight.says("Ground station lost"));
 }
