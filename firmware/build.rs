@@ -8,8 +8,14 @@ use std::{env, fs, io};
 
 const BOARD: &str = "src/board/mps2";
 /// The images of the board, and whether they log by defmt.
-const IMAGES: [(&str, bool); 5] =
-    [("mps2", true), ("mps2-pil", true), ("math-hash", false), ("inner-only", false), ("counts", false)];
+const IMAGES: [(&str, bool); 6] = [
+    ("mps2", true),
+    ("mps2-pil", true),
+    ("math-hash", false),
+    ("inner-only", false),
+    ("counts", false),
+    ("counts-tick", false),
+];
 
 fn main() -> io::Result<()> {
     println!("cargo:rerun-if-changed=build.rs");

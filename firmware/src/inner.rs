@@ -53,31 +53,33 @@ impl InnerOutput {
     };
 }
 
-/// The inner partition, with an attitude law.
+/// The inner partition, with an attitude law. The fields stand in memory as here, with what every tick uses first and the
+/// largest last: the target reaches only the first kilobyte of a structure by a load of its own.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct Inner<A = SlidingAttitude> {
+    nav: NavState,
+    output: InnerOutput,
     airframe: Airframe,
-    law: A,
     mixer: Mixer<ROTORS>,
     rotors: RotorModel,
     believed: RotorTorque,
     /// Torque and spin at the estimated rotor speeds.
     effect: RotorEffect,
     yaw: YawInversion,
-    /// `None` on ideal state.
-    navigator: Option<Navigator>,
     idle_rad_s: f32,
     /// Greatest torque per unit of thrust in a descent, m.
     gentle_arm_m: f32,
+    stale_ticks: u32,
+    refused_samples: u32,
+    /// Whether the vehicle was armed in the tick before.
+    was_armed: bool,
+    law: A,
     monitor: RotorMonitor,
     /// Replaces the law once a rotor has failed.
     motor_out: Option<MotorOut>,
-    /// Whether the vehicle was armed in the tick before.
-    was_armed: bool,
-    nav: NavState,
-    stale_ticks: u32,
-    refused_samples: u32,
-    output: InnerOutput,
+    /// `None` on ideal state.
+    navigator: Option<Navigator>,
 }
 
 impl<A: AttitudeLaw> Inner<A> {
@@ -330,7 +332,7 @@ impl<A: AttitudeLaw> Inner<A> {
 
     /// What the attitude law keeps inside.
     pub fn law_state(&self) -> LawState {
-        self.law.state(&self.output.s)
+        self.law.state()
     }
 
     /// Estimated thrust of the rotors, N.

@@ -86,22 +86,24 @@ enum Source {
     Setpoint,
 }
 
-/// The outer partition, with a position law.
+/// The outer partition, with a position law. The fields stand in memory as here, the largest last (see
+/// [`Inner`](crate::inner::Inner)).
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct Outer<P = SlidingPosition> {
     mass_kg: f32,
     model: Translation,
     limits: ForceLimits,
-    guidance: Guidance,
-    setpoint: Setpoint,
-    source: Source,
-    law: P,
     limited: bool,
     /// Specific force of a blind descent, m/s², and the thrust effectiveness held since that descent began.
     blind_force: f32,
     blind_effectiveness: Option<f32>,
+    law: P,
     /// What limits and blind descents were built from, to be changed in flight.
     modes: ModeSettings,
+    source: Source,
+    setpoint: Setpoint,
+    guidance: Guidance,
 }
 
 /// A descending reference is at most this far below the vehicle, m: on the ground it must not run away.
@@ -410,7 +412,7 @@ impl<P: PositionLaw> Outer<P> {
             wanted_velocity: reference.velocity,
             wanted_acceleration: reference.acceleration,
             wanted_yaw_rate: reference.yaw_rate,
-            law: self.law.state(&s),
+            law: self.law.state(),
         }
     }
 

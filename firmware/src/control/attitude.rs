@@ -76,6 +76,7 @@ impl AttitudeGains {
 
 /// Sliding mode control of the attitude, in the loop.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct SlidingAttitude {
     airframe: Airframe,
     inverse_inertia: Vector3<f32>,
@@ -155,10 +156,10 @@ impl AttitudeLaw for SlidingAttitude {
         AttitudeDemand { s, torque: holding + inertia.component_mul(&acceleration) }
     }
 
-    fn state(&self, s: &Vector3<f32>) -> LawState {
+    fn state(&self) -> LawState {
         let [x, y, z] = &self.axes;
         LawState {
-            reaching: Vector3::new(x.reaching(s.x), y.reaching(s.y), z.reaching(s.z)),
+            reaching: Vector3::new(x.reaching(), y.reaching(), z.reaching()),
             disturbance: self.observer.as_ref().map_or_else(Vector3::zeros, DisturbanceObserver::disturbance),
         }
     }

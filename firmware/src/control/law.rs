@@ -63,8 +63,8 @@ pub trait AttitudeLaw {
     /// Torque for this tick.
     fn step(&mut self, input: &AttitudeInput) -> AttitudeDemand;
 
-    /// The state behind the sliding variables `s` of the last step.
-    fn state(&self, _s: &Vector3<f32>) -> LawState {
+    /// The state behind the sliding variables of the last step.
+    fn state(&self) -> LawState {
         LawState::default()
     }
 
@@ -108,8 +108,8 @@ pub trait PositionLaw {
     /// Force for this job.
     fn step(&mut self, input: &PositionInput) -> PositionDemand;
 
-    /// The state behind the sliding variables `s` of the last step.
-    fn state(&self, _s: &Vector3<f32>) -> LawState {
+    /// The state behind the sliding variables of the last step.
+    fn state(&self) -> LawState {
         LawState::default()
     }
 

@@ -87,6 +87,7 @@ impl Translation {
 
 /// Sliding mode control of the position, in the loop.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct SlidingPosition {
     axes: [SlidingAxis; 3],
     model: Translation,
@@ -159,10 +160,10 @@ impl PositionLaw for SlidingPosition {
         self.effectiveness.value()
     }
 
-    fn state(&self, s: &Vector3<f32>) -> LawState {
+    fn state(&self) -> LawState {
         let [x, y, z] = &self.axes;
         LawState {
-            reaching: Vector3::new(x.reaching(s.x), y.reaching(s.y), z.reaching(s.z)),
+            reaching: Vector3::new(x.reaching(), y.reaching(), z.reaching()),
             disturbance: self.observer.as_ref().map_or_else(Vector3::zeros, DisturbanceObserver::disturbance),
         }
     }

@@ -128,6 +128,8 @@ pub struct SlidingAxis {
     twist: f32,
     /// `λ² ∫e − (ė + 2λ e)(0)` of the integral surface; `None` before the first step.
     integral: Option<f32>,
+    /// `u_r(s)` of the last step.
+    reached: f32,
 }
 
 impl SlidingAxis {
@@ -172,6 +174,7 @@ impl SlidingAxis {
             step_s,
             twist: 0.0,
             integral: None,
+            reached: 0.0,
         }
     }
 
@@ -179,7 +182,7 @@ impl SlidingAxis {
     /// standing disturbance does not jump.
     pub fn retune(&mut self, gains: &AxisGains) {
         let before = *self;
-        *self = Self::new(gains, before.step_s);
+        *self = Self { reached: before.reached, ..Self::new(gains, before.step_s) };
         if self.is_twisting() && before.is_twisting() {
             self.twist = before.twist;
         }
@@ -196,6 +199,7 @@ impl SlidingAxis {
     pub fn reset(&mut self) {
         self.twist = 0.0;
         self.integral = None;
+        self.reached = 0.0;
     }
 
     /// `λ ė + u_r(s)`, the term that every law of the paper adds to its equivalent control, for e and ė.
@@ -212,7 +216,8 @@ impl SlidingAxis {
     pub fn correction_along(&mut self, error: f32, error_rate: f32, velocity_error: f32, hold: bool) -> Correction {
         if let Some(slope) = self.layer {
             let (s, equivalent) = self.linear_surface(error, error_rate, velocity_error);
-            return Correction { s, acceleration: equivalent + math::limit(slope * s, self.gain) };
+            self.reached = math::limit(slope * s, self.gain);
+            return Correction { s, acceleration: equivalent + self.reached };
         }
         self.correction_otherwise(error, error_rate, velocity_error, hold)
     }
@@ -224,7 +229,8 @@ impl SlidingAxis {
             Surface::Linear => self.linear_surface(error, error_rate, velocity_error),
             Surface::Integral => self.integral_surface(error, error_rate, velocity_error, hold),
         };
-        Correction { s, acceleration: equivalent + self.reach(s, hold) }
+        self.reached = self.reach(s, hold);
+        Correction { s, acceleration: equivalent + self.reached }
     }
 
     /// s, and the derivative of its term λ e.
@@ -286,10 +292,10 @@ impl SlidingAxis {
         u
     }
 
-    /// `u_r(s)` with the integrators as they are, which it leaves alone.
-    pub fn reaching(&self, s: f32) -> f32 {
-        let mut axis = *self;
-        axis.reach(s, true)
+    /// `u_r(s)` of the last step.
+    #[inline]
+    pub fn reaching(&self) -> f32 {
+        self.reached
     }
 
     /// Slope `du_r/ds` for feedforward: the gain inside the boundary layer, 0 where the law is constant or jumps.

@@ -254,7 +254,7 @@ fn gains_with_which_a_law_is_not_defined_are_refused() {
 }
 
 #[test]
-fn the_reaching_term_is_told_without_a_step() {
+fn the_reaching_term_of_the_last_step_is_told() {
     let laws = [
         ReachingLaw::Sgn,
         ReachingLaw::Sat { rho: 0.1 },
@@ -268,10 +268,14 @@ fn the_reaching_term_is_told_without_a_step() {
     for law in laws {
         let mut axis = SlidingAxis::new(&axis(4.0, law), H);
         for s in [0.5_f32, 0.03, -0.2] {
-            let (told, again) = (axis.reaching(s), axis.reaching(s));
             // With the error at zero the correction is the reaching term.
             let step = axis.correction_along(0.0, 0.0, s, false);
-            assert_eq!((told, again), (step.acceleration, step.acceleration), "{law:?} at {s}");
+            assert_eq!(axis.reaching(), step.acceleration, "{law:?} at {s}");
         }
+        let before = axis.reaching();
+        axis.retune(&AxisGains::sat(1.0, 1.0, 0.1));
+        assert_eq!(axis.reaching(), before, "until the next step");
+        axis.reset();
+        assert_eq!(axis.reaching(), 0.0);
     }
 }

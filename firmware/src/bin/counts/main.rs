@@ -13,6 +13,8 @@ mod plant;
 mod sensors;
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 mod tally;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod vehicle;
 
 #[cfg(all(target_arch = "arm", target_os = "none"))]
 mod image {
