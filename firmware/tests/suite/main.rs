@@ -3,6 +3,7 @@
 #![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 
 mod autopilot;
+mod flood;
 mod hung;
 mod latest;
 mod mixer;
