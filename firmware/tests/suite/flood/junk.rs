@@ -1,7 +1,7 @@
 //! Bytes that no vehicle may act on: random frames, frames for others, and damaged commands. Whatever is made is checked
 //! by a search of its own that no frame in the stream is an intact one for the vehicle, wherever it begins.
 
-/// Numbers from a seed (SplitMix64).
+/// Numbers from a seed (`SplitMix64`).
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
@@ -180,7 +180,7 @@ fn damaged(random: &mut Random) -> Vec<u8> {
     let at = random.below(checked);
     match random.below(6) {
         0 => frame[at] ^= 1 << random.below(8),
-        1 => (0..1 + random.below(4)).for_each(|_| {
+        1 => (0..=random.below(4)).for_each(|_| {
             let at = random.below(checked);
             frame[at] ^= 1 << random.below(8);
         }),
