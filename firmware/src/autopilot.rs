@@ -31,7 +31,7 @@ use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
 use crate::settings::{Changes, Settings};
 use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
 use crate::validate::ConfigError;
-use crate::watchdog::Watchdog;
+use crate::watchdog::{Fallback, Watchdog};
 
 /// The mailboxes between the partitions: all the data that they share.
 #[derive(Clone, Debug)]
@@ -41,9 +41,9 @@ pub struct Mailboxes {
     /// Inner ⇄ the estimator's filter.
     pub filter: Mailbox<FilterInput, FilterOutput, { FILTER.period }, { FILTER.offset }>,
     /// Inner ⇄ commander.
-    pub commander: Mailbox<CommanderInput, CommanderOutput, { COMMANDER.period }, { COMMANDER.offset }>,
+    pub commander: Mailbox<CommanderInput, CommanderOutput, { COMMANDER.period }, { COMMANDER.offset }, true>,
     /// Inner ⇄ ground.
-    pub ground: Mailbox<GroundInput, GroundOutput, { GROUND.period }, { GROUND.offset }>,
+    pub ground: Mailbox<GroundInput, GroundOutput, { GROUND.period }, { GROUND.offset }, true>,
 }
 
 impl Mailboxes {
@@ -116,13 +116,11 @@ pub struct InnerTask<A = SlidingAttitude> {
     failures: Failures,
     /// Kills since boot, wrapping. The rotors are stopped while the commander has not disarmed for as many: a count
     /// cannot be lost, and an output of before the kill does not undo it.
-    kills: u8,
+    kills: u32,
     /// Acts when the outer partition or the commander hangs.
     watchdog: Watchdog,
-    /// Thrust of a blind descent in place of the outer partition's, N, and rate of a descent in place of the commander's
-    /// directive, m/s.
-    blind_thrust_n: f32,
-    unguided_m_s: f32,
+    /// What is flown in place of a partition that hangs.
+    fallback: Fallback,
 }
 
 impl<A: AttitudeLaw> InnerTask<A> {
@@ -159,8 +157,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             failures: Failures::new(),
             kills: 0,
             watchdog: Watchdog::default(),
-            blind_thrust_n: config.modes.blind_thrust_part * config.airframe.weight_n(),
-            unguided_m_s: config.modes.touchdown_m_s,
+            fallback: Fallback::new(config),
         }
     }
 
@@ -199,7 +196,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             self.inner.idle();
             return;
         }
-        let thrust_n = self.blind_thrust_n / self.outer.thrust_effectiveness;
+        let thrust_n = self.fallback.blind_thrust_n() / self.outer.thrust_effectiveness;
         let (level, is_first) = self.watchdog.level(tick, self.inner.nav(), thrust_n);
         if is_first {
             self.report(Event::OuterHung);
@@ -219,7 +216,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
             return told;
         }
         let (health, heading_free) = (self.nav_health(), self.inner.failed_rotor().is_some());
-        let Some((descent, is_first)) = self.watchdog.descent(&told, self.unguided_m_s, &health, heading_free) else {
+        let Some((descent, is_first)) = self.watchdog.descent(&told, self.fallback.rate_m_s(), &health, heading_free)
+        else {
             return told;
         };
         if is_first {
@@ -283,6 +281,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
     fn hand_on(&mut self, changes: Changes) {
         for change in &changes {
             self.inner.apply(change);
+            self.fallback.apply(change);
         }
         self.changes = changes;
         let filter = self.inner.navigator().is_some();

@@ -2,8 +2,8 @@
 //!
 //! A partition with period T and output offset D, both in ticks, is released at every multiple of T with a snapshot of
 //! its inputs. Its output is published D ticks later, no matter when the job actually finished. So the flight does not
-//! depend on the execution time of a job, as long as that is below D. A longer job is an overrun: it is counted, its
-//! output is dropped, and the old one stays in effect.
+//! depend on the execution time of a job, as long as that is below D. A longer job is an overrun: it is counted, and the
+//! old output stays in effect; the late one is dropped, or published late if it holds what must not be lost.
 //!
 //! ```
 //! use firmware::schedule::Mailbox;
@@ -58,20 +58,23 @@ enum Job<O> {
     Running(Tick),
     /// Released at this tick and finished; to be published.
     Done(Tick, O),
-    /// Overrun: still running; its output will be dropped.
-    Late,
+    /// Overrun: released at this tick and still running.
+    Late(Tick),
 }
 
 /// The mailbox between the inner loop and one partition: one input snapshot in, one output out. Its timing is in its
 /// type, because a division by a constant is cheap.
+///
+/// An output that is late is dropped if it is a value, of which the next one will be as good, and published at the next tick
+/// if it `KEEPS_LATE`: then it has orders and answers in it, which nobody gives again.
 #[derive(Clone, Debug)]
-pub struct Mailbox<I, O, const PERIOD: Tick, const OFFSET: Tick> {
+pub struct Mailbox<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool = false> {
     input: Option<(Tick, I)>,
     job: Job<O>,
     overruns: u32,
 }
 
-impl<I, O, const PERIOD: Tick, const OFFSET: Tick> Mailbox<I, O, PERIOD, OFFSET> {
+impl<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool> Mailbox<I, O, PERIOD, OFFSET, KEEPS_LATE> {
     /// An empty mailbox.
     pub const fn new() -> Self {
         Self { input: None, job: Job::Idle, overruns: 0 }
@@ -81,11 +84,12 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick> Mailbox<I, O, PERIOD, OFFSET>
     #[inline]
     pub fn publish(&mut self, tick: Tick) -> Option<O> {
         let (Job::Running(released) | Job::Done(released, _)) = &self.job else { return None };
-        if tick.wrapping_sub(*released) < OFFSET {
+        let released = *released;
+        if tick.wrapping_sub(released) < OFFSET {
             return None;
         }
         // Moved, not copied: an output may hold hundreds of bytes.
-        if let Job::Done(_, output) = core::mem::replace(&mut self.job, Job::Late) {
+        if let Job::Done(_, output) = core::mem::replace(&mut self.job, Job::Late(released)) {
             self.job = Job::Idle;
             return Some(output);
         }
@@ -112,11 +116,13 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick> Mailbox<I, O, PERIOD, OFFSET>
         self.input.take()
     }
 
-    /// Returns the job's output, to be published when it is due; dropped if the job has overrun.
+    /// Returns the job's output, to be published when it is due, or at the next tick if the job has overrun and its output
+    /// is kept.
     #[inline]
     pub fn finish(&mut self, output: O) {
         self.job = match self.job {
             Job::Running(released) => Job::Done(released, output),
+            Job::Late(released) if KEEPS_LATE => Job::Done(released, output),
             _ => Job::Idle,
         };
     }
@@ -127,7 +133,9 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick> Mailbox<I, O, PERIOD, OFFSET>
     }
 }
 
-impl<I, O, const PERIOD: Tick, const OFFSET: Tick> Default for Mailbox<I, O, PERIOD, OFFSET> {
+impl<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool> Default
+    for Mailbox<I, O, PERIOD, OFFSET, KEEPS_LATE>
+{
     fn default() -> Self {
         Self::new()
     }
@@ -148,6 +156,18 @@ mod tests {
         assert_eq!(mailbox.publish(10), Some(88));
         assert_eq!(mailbox.publish(11), None);
         assert_eq!(mailbox.overruns(), 0);
+    }
+
+    #[test]
+    fn what_must_not_be_lost_is_published_late() {
+        let mut mailbox: Mailbox<u32, u32, 4, 2, true> = Mailbox::new();
+        mailbox.release(0, 1);
+        assert_eq!((mailbox.publish(2), mailbox.publish(3)), (None, None));
+        mailbox.finish(7);
+        assert!(!mailbox.is_due(4), "the next job waits until this one's output is in effect");
+        assert_eq!((mailbox.publish(4), mailbox.publish(5)), (Some(7), None));
+        assert!(mailbox.is_due(8));
+        assert_eq!(mailbox.overruns(), 1);
     }
 
     #[test]

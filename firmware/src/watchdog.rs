@@ -4,7 +4,9 @@
 //! never replaced would be flown for ever.
 
 use crate::commander::{Directive, Known};
+use crate::config::{FlightConfig, ModeSettings};
 use crate::control::flatness::{self, ForceProfile, Heading};
+use crate::settings::{Change, Place};
 use crate::signals::{AttitudeReference, NavHealth, NavState, Tick};
 
 /// The outer partition hangs when its output is older than this, ticks: 25 of its periods. Holding an attitude of 45° for
@@ -32,6 +34,35 @@ pub struct Watchdog {
     level: Option<AttitudeReference>,
     /// Whether a directive has been given in place of the commander's.
     descends: bool,
+}
+
+/// How it is flown in place of a partition that hangs, as the settings say.
+#[derive(Clone, Debug)]
+pub struct Fallback {
+    modes: ModeSettings,
+    weight_n: f32,
+}
+
+impl Fallback {
+    /// For a valid configuration.
+    pub fn new(config: &FlightConfig) -> Self {
+        Self { modes: config.modes, weight_n: config.airframe.weight_n() }
+    }
+
+    /// Takes over a setting.
+    pub fn apply(&mut self, change: &Change) {
+        change.apply_to(&mut self.modes, Place::modes);
+    }
+
+    /// Thrust of a blind descent in place of the outer partition's, N.
+    pub fn blind_thrust_n(&self) -> f32 {
+        self.modes.blind_thrust_part * self.weight_n
+    }
+
+    /// Rate of a descent in place of the commander's, m/s.
+    pub fn rate_m_s(&self) -> f32 {
+        self.modes.touchdown_m_s
+    }
 }
 
 impl Watchdog {

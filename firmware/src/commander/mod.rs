@@ -66,7 +66,7 @@ pub struct CommanderInput {
     /// Whether the outer partition hangs, so that no directive is executed.
     pub outer_hung: bool,
     /// Kills since boot, wrapping.
-    pub kills: u8,
+    pub kills: u32,
     /// Sticks, and when a ground station was last heard.
     pub latest: Latest,
     /// Commands since the last job.
@@ -81,7 +81,7 @@ pub struct CommanderOutput {
     /// Whether the rotors may turn.
     pub armed: bool,
     /// The kills since boot that have disarmed it.
-    pub kills: u8,
+    pub kills: u32,
     /// What the vehicle is doing.
     pub mode: Mode,
     /// The mode that ground stations show: on the ground what the pilot wants, in the air what the vehicle does.
@@ -133,7 +133,7 @@ pub struct Commander {
     /// What the vehicle does.
     state: State,
     /// Kills since boot that it has carried out.
-    kills: u8,
+    kills: u32,
     /// Where a return leads: where the vehicle was armed, unless a pilot has set another place.
     home: Vector3<f32>,
     /// Whether a pilot has set it since the vehicle was last disarmed.

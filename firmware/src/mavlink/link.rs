@@ -56,8 +56,9 @@ pub(super) struct Link {
 
 impl Link {
     /// Forgets the last peer if there is a new one. The sequence goes on: the new one cannot know where it began.
-    pub(super) fn begin(&mut self, session: u32, profile: Profile) {
+    pub(super) fn begin(&mut self, session: u32, profile: Profile, port: &Port) {
         if session != self.session {
+            port.pass_stale_input();
             let telemetry = Telemetry::new(profile);
             *self = Self { session, telemetry, sequence: self.sequence, ..Self::default() };
         }

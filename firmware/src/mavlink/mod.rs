@@ -226,7 +226,7 @@ impl Ground {
         let view = View { latest: self.latest, ..view };
         for ((number, link), port) in (0..).zip(&mut self.links).zip(ports) {
             let Some((session, profile)) = port.session() else { continue };
-            link.begin(session, profile);
+            link.begin(session, profile, port);
             let (settings, changed) = (&mut self.settings, &mut changed);
             let (set_origin, latest) = (&mut self.set_origin, &mut self.latest);
             link.read(number, port, &mut Job { view, settings, changed, set_origin, latest, output: &mut output });

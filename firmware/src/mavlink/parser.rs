@@ -7,7 +7,7 @@
 //! Frames are read where the link's ring holds them. While the stream is synchronised, that is, as long as each frame
 //! begins where the last one ended, a frame that is not known, or is damaged but followed by another, is passed over as
 //! a whole: its payload (a file, for example) may itself look like a command. Once synchronisation is lost, any byte may
-//! begin a frame until a checksum is right. A frame that is not complete within [`PATIENCE_JOBS`] is discarded.
+//! begin a frame, until a checksum is right and another frame, or nothing, follows. A frame that is not complete within [`PATIENCE_JOBS`] is discarded.
 
 use glissade_dialect::mavlink_core::{MavlinkVersion, calculate_crc, consts};
 
@@ -115,12 +115,16 @@ impl Parser {
         let checksum = frame.get(end..)?.first_chunk::<{ consts::CHECKSUM_SIZE }>()?;
         if calculate_crc(covered, known.extra_crc) != u16::from_le_bytes(*checksum) {
             self.bad_checksums = self.bad_checksums.saturating_add(1);
-            let next = bytes.peek(header.length());
-            if self.in_step && next.is_none_or(|byte| matches!(byte, MAGIC_V1 | MAGIC_V2)) {
+            if self.in_step && Self::is_followed(bytes, header) {
                 self.pass(bytes, header.length());
             } else {
                 self.pass_byte(bytes);
             }
+            return None;
+        }
+        if !self.in_step && !Self::is_followed(bytes, header) {
+            // By a checksum alone this may be a piece of a file in a message that was damaged on the way.
+            self.pass_byte(bytes);
             return None;
         }
         self.pass(bytes, header.length());
@@ -129,6 +133,11 @@ impl Parser {
             return None;
         }
         (known.decode)(&Raw { version: header.version, payload: frame.get(header.start..end)?, us })
+    }
+
+    /// Whether what follows a frame is the beginning of another, or nothing yet: its length is probably right.
+    fn is_followed(bytes: &Ring<RECEIVED_CAPACITY>, header: &Header) -> bool {
+        bytes.peek(header.length()).is_none_or(|byte| matches!(byte, MAGIC_V1 | MAGIC_V2))
     }
 
     /// Number of frames with a wrong checksum since boot.

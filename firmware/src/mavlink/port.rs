@@ -119,6 +119,20 @@ impl<const N: usize> Ring<N> {
         into
     }
 
+    /// Where the next byte will be written.
+    fn position(&self) -> u32 {
+        self.written.load(Ordering::Acquire)
+    }
+
+    /// Passes over all that was written before a position; for the reader.
+    fn skip_to(&self, position: u32) {
+        let before = position.wrapping_sub(self.read.load(Ordering::Relaxed)) as usize;
+        // Beyond what is held, the position has been passed already.
+        if before <= self.held() {
+            self.skip(before);
+        }
+    }
+
     /// Passes over the next bytes; for the reader.
     pub fn skip(&self, count: usize) {
         let count = count.min(self.readable()) as u32;
@@ -178,6 +192,9 @@ pub struct Port {
     session: AtomicU32,
     /// The same, as seen by the ground partition.
     seen: AtomicU32,
+    /// Bytes of `received` before this position are the last peer's, and those of `sent` before the other were for it.
+    received_from: AtomicU32,
+    sent_from: AtomicU32,
     /// Bytes of `sent` that waited for the driver when the ground partition was released, and bytes lost of `received`
     /// until then: a job must not see how far a driver has come meanwhile.
     waiting: AtomicU32,
@@ -191,6 +208,8 @@ impl Port {
             sent: Ring::new(),
             session: AtomicU32::new(0),
             seen: AtomicU32::new(0),
+            received_from: AtomicU32::new(0),
+            sent_from: AtomicU32::new(0),
             waiting: AtomicU32::new(0),
             lost: AtomicU32::new(0),
         }
@@ -208,11 +227,13 @@ impl Port {
         }
     }
 
-    /// Opens the link for a new peer: what the last one had asked for is forgotten.
+    /// Opens the link for a new peer. What the last one has asked for is forgotten, what it has sent and was not read yet is
+    /// not carried out, and what was meant for it is not sent.
     pub fn open(&self, profile: Profile) {
         let count = (self.session.load(Ordering::Relaxed) >> 2).wrapping_add(1);
         let onboard = u32::from(profile == Profile::Onboard);
-        self.sent.skip(SENT_CAPACITY);
+        self.received_from.store(self.received.position(), Ordering::Relaxed);
+        self.sent_from.store(self.sent.position(), Ordering::Relaxed);
         self.session.store(count << 2 | onboard << 1 | 1, Ordering::Relaxed);
     }
 
@@ -243,6 +264,7 @@ impl Port {
 
     /// The driver's side: the next byte to send.
     pub fn next_byte(&self) -> Option<u8> {
+        self.pass_stale();
         let byte = self.sent.peek(0)?;
         self.sent.skip(1);
         Some(byte)
@@ -251,6 +273,7 @@ impl Port {
     /// The driver's side: takes bytes to send, as many as there are and as fit. They are whole frames unless `into` is
     /// too short.
     pub fn take<'a>(&self, into: &'a mut [u8]) -> &'a [u8] {
+        self.pass_stale();
         let bytes = self.sent.copy(into);
         self.sent.skip(bytes.len());
         bytes
@@ -258,12 +281,24 @@ impl Port {
 
     /// The driver's side: the bytes to send, which stay.
     pub fn look<'a>(&self, into: &'a mut [u8]) -> &'a [u8] {
+        self.pass_stale();
         self.sent.copy(into)
     }
 
     /// The driver's side: whether there are bytes to send.
     pub fn has_output(&self) -> bool {
+        self.pass_stale();
         self.sent.readable() > 0
+    }
+
+    /// The driver's side: passes over what was meant for the last peer.
+    fn pass_stale(&self) {
+        self.sent.skip_to(self.sent_from.load(Ordering::Relaxed));
+    }
+
+    /// The ground partition's side, once it has seen that there is a new peer: passes over what the last one has sent.
+    pub(super) fn pass_stale_input(&self) {
+        self.received.skip_to(self.received_from.load(Ordering::Relaxed));
     }
 
     /// Which opening of the link the ground partition has to do with: its count and profile; `None` while it is closed.
@@ -281,6 +316,15 @@ impl Port {
     /// The ground partition's side: received bytes lost since boot, until it was released.
     pub(super) fn lost(&self) -> u32 {
         self.lost.load(Ordering::Relaxed)
+    }
+
+    /// When the ground partition's output is published. What it has written without having seen that the peer is a new one
+    /// was meant for the last one.
+    fn publish(&self) {
+        if self.session.load(Ordering::Relaxed) != self.seen.load(Ordering::Relaxed) {
+            self.sent_from.store(self.sent.position(), Ordering::Relaxed);
+        }
+        self.sent.open_gate();
     }
 
     /// At the release of the ground partition.
@@ -310,6 +354,8 @@ impl Clone for Port {
             sent: self.sent.clone(),
             session: copy(&self.session),
             seen: copy(&self.seen),
+            received_from: copy(&self.received_from),
+            sent_from: copy(&self.sent_from),
             waiting: copy(&self.waiting),
             lost: copy(&self.lost),
         }
@@ -350,9 +396,7 @@ impl Ports {
 
     /// When the ground partition's output is published: lets its bytes leave.
     pub fn publish(&self) {
-        for port in self {
-            port.sent.open_gate();
-        }
+        self.iter().for_each(Port::publish);
     }
 }
 
@@ -411,12 +455,40 @@ mod tests {
     fn a_new_peer_gets_nothing_that_was_for_the_last_one() {
         let port = Port::new();
         port.open(Profile::Normal);
-        port.sent.write(b"old");
-        port.sent.open_gate();
-        port.open(Profile::Onboard);
-        assert!(port.is_open() && !port.has_output());
         assert_eq!(port.session(), None, "not before the next release");
+        port.release();
+        port.sent.write(b"sent ");
+        port.publish();
+        // A job that was released before the new peer came, and has not seen it.
+        port.release();
+        port.sent.write(b"written ");
+        port.open(Profile::Onboard);
+        port.sent.write(b"answered ");
+        port.publish();
+        assert!(port.is_open() && !port.has_output());
+        port.release();
+        port.sent.write(b"new");
+        port.publish();
+        assert_eq!(port.take(&mut [0; 99]), b"new");
         port.close();
         assert!(!port.is_open());
+    }
+
+    #[test]
+    fn what_the_last_peer_has_sent_is_passed_over() {
+        let port = Port::new();
+        port.open(Profile::Normal);
+        port.receive(b"old");
+        port.close();
+        port.open(Profile::Normal);
+        port.receive(b"new");
+        port.release();
+        port.pass_stale_input();
+        assert_eq!(port.received.copy(&mut [0; 99]), b"new");
+        port.received.skip(3);
+        port.pass_stale_input();
+        port.receive(b"er");
+        port.release();
+        assert_eq!(port.received.copy(&mut [0; 99]), b"er", "passed over once");
     }
 }

@@ -114,7 +114,7 @@ impl Bench {
         ports.first().open(Profile::Normal);
         let mut ground = Ground::default();
         // As in the first job: what was set before is forgotten when a link is opened.
-        ground.links[0].begin(1, Profile::Normal);
+        ground.links[0].begin(1, Profile::Normal, ports.first());
         Self { ground, ports, tick: 0, sequence: 0, input, commands: Vec::new(), killed: false, largest: 0 }
     }
 

@@ -5,9 +5,14 @@ use firmware::autopilot::Autopilot;
 use firmware::commander::{Mode, Refusal, Request};
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
+use firmware::mavlink::GroundInput;
 use firmware::mavlink::port::Profile;
-use firmware::signals::{MotorCommand, NavState, SensorFrame, TICK_S};
+use firmware::schedule::GROUND;
+use firmware::settings::{Value, find};
+use firmware::signals::{MotorCommand, NavState, SensorFrame, TICK_S, Tick};
 use firmware::watchdog::{COMMANDER_HUNG_AFTER, OUTER_HUNG_AFTER};
+use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
+use glissade_dialect::{COMMAND_LONG_DATA, MavCmd};
 use nalgebra::Vector3;
 
 use crate::modes::{Body, config};
@@ -17,6 +22,8 @@ use crate::modes::{Body, config};
 struct Hangs {
     outer: bool,
     commander: bool,
+    /// Ticks by which the next job of the ground partition is late.
+    ground_late: Tick,
 }
 
 /// The schedule as on a board, where a partition's task takes its snapshot and may never finish.
@@ -25,6 +32,7 @@ struct Vehicle {
     body: Body,
     motors: MotorCommand,
     hangs: Hangs,
+    ground_job: Option<(Tick, GroundInput)>,
     sent: Vec<u8>,
 }
 
@@ -47,6 +55,7 @@ impl Vehicle {
             body: Body { airframe: config.airframe, nav },
             motors: MotorCommand::STOPPED,
             hangs: Hangs::default(),
+            ground_job: None,
             sent: Vec::new(),
         }
     }
@@ -66,10 +75,15 @@ impl Vehicle {
         {
             mail.commander.finish(commander.step(tick, &input));
         }
-        if released.ground
-            && let Some((tick, input)) = mail.ground.take()
-        {
+        // A job runs when it ends: what it works on is its release's.
+        let now = inner.next_tick() - 1;
+        let ends = |tick: Tick, late: Tick| now >= tick + if late > 0 { GROUND.offset + late } else { 0 };
+        if released.ground {
+            self.ground_job = mail.ground.take();
+        }
+        if let Some((tick, input)) = self.ground_job.take_if(|(tick, _)| ends(*tick, self.hangs.ground_late)) {
             mail.ground.finish(ground.step(tick, &input, ports));
+            self.hangs.ground_late = 0;
         }
         self.motors = inner.inner_output().motors;
         self.sent.extend_from_slice(ports.first().take(&mut [0; 2048]));
@@ -150,7 +164,7 @@ fn with_a_hung_commander_it_descends_by_what_is_known_until_it_is_killed() {
 fn with_both_hung_it_comes_down_level_and_a_kill_stops_it_at_once() {
     let mut vehicle = Vehicle::flying(3.0);
     vehicle.run(0.3);
-    vehicle.hangs = Hangs { outer: true, commander: true };
+    vehicle.hangs = Hangs { outer: true, commander: true, ..Hangs::default() };
     let fastest = vehicle.comes_down(10.0);
     assert!(fastest < 2.5 && vehicle.tilt() < 0.02, "{fastest} m/s, {}", vehicle.tilt());
     assert!(vehicle.motors.omega_rad_s.iter().all(|omega| *omega > 0.0), "nobody knows that it has landed");
@@ -165,7 +179,7 @@ fn with_both_hung_it_comes_down_level_and_a_kill_stops_it_at_once() {
 fn a_partition_that_is_late_is_none_that_hangs() {
     let mut vehicle = Vehicle::flying(0.0);
     vehicle.run(0.3);
-    vehicle.hangs = Hangs { outer: true, commander: true };
+    vehicle.hangs = Hangs { outer: true, commander: true, ..Hangs::default() };
     for _ in 0..OUTER_HUNG_AFTER - 4 {
         vehicle.tick();
     }
@@ -193,6 +207,7 @@ fn on_the_ground_a_hung_partition_starts_nothing() {
         pilot: Autopilot::new(&config).expect("valid"),
         body,
         motors: MotorCommand::STOPPED,
+        ground_job: None,
         hangs: Hangs::default(),
         sent: Vec::new(),
     };
@@ -201,8 +216,64 @@ fn on_the_ground_a_hung_partition_starts_nothing() {
     vehicle.run(0.1);
     let idle = vehicle.motors;
     assert!(idle.omega_rad_s[0] > 0.0);
-    vehicle.hangs = Hangs { outer: true, commander: true };
+    vehicle.hangs = Hangs { outer: true, commander: true, ..Hangs::default() };
     vehicle.run(3.0);
     assert_eq!(vehicle.motors, idle);
     assert!(!vehicle.has_said("hung"), "nothing is done about it");
+}
+
+fn kill() -> Vec<u8> {
+    let mut raw = MAVLinkV2MessageRaw::new();
+    let command = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM as u16;
+    let message = COMMAND_LONG_DATA { target_system: 1, command, param2: 21_196.0, ..COMMAND_LONG_DATA::DEFAULT };
+    raw.serialize_message_data(MavHeader { system_id: 255, component_id: 190, sequence: 0 }, &message);
+    raw.raw_bytes().to_vec()
+}
+
+fn turn(motors: &MotorCommand) -> bool {
+    *motors != MotorCommand::STOPPED
+}
+
+#[test]
+fn a_kill_read_by_a_job_that_ends_late_stops_the_rotors_when_it_ends() {
+    let mut vehicle = Vehicle::flying(0.0);
+    vehicle.run(1.0);
+    vehicle.pilot.ports.first().receive(&kill());
+    vehicle.hangs.ground_late = 7;
+    vehicle.run(0.05);
+    assert!(!turn(&vehicle.motors) && !vehicle.pilot.inner.commander_output().armed);
+    assert_eq!(vehicle.pilot.mail.overruns(), [0, 0, 1], "and the overrun is counted");
+}
+
+#[test]
+fn no_number_of_kills_starts_the_rotors_again() {
+    let mut vehicle = Vehicle::flying(0.0);
+    vehicle.run(1.0);
+    vehicle.hangs.commander = true;
+    for number in 0..300 {
+        vehicle.pilot.ports.first().receive(&kill());
+        for _ in 0..10 {
+            vehicle.tick();
+            assert!(number < 2 || !turn(&vehicle.motors), "kill {number}");
+        }
+    }
+}
+
+#[test]
+fn what_is_flown_in_place_of_a_hung_partition_follows_the_settings() {
+    let thrust = |set: Option<f32>| {
+        let mut vehicle = Vehicle::flying(0.0);
+        if let Some(part) = set {
+            let index = find("GL_BLIND_THRUST").expect("a setting");
+            vehicle.pilot.ground.settings_mut().set(index, Value::Real(part), true).expect("in flight");
+        }
+        vehicle.run(1.0);
+        vehicle.hangs.outer = true;
+        vehicle.run(0.2);
+        vehicle.pilot.inner.inner_output().demand.thrust_n
+    };
+    let (weight, default) = (config().airframe.weight_n(), config().modes.blind_thrust_part);
+    for (set, part) in [(None, default), (Some(0.5), 0.5)] {
+        assert!((thrust(set) - part * weight).abs() < 0.02 * weight, "{set:?}: {}", thrust(set));
+    }
 }
