@@ -195,10 +195,12 @@ def test_it_flies(connected):
     mavproxy.status("GLOBAL_POSITION_INT", lambda fields: abs(int(fields["relative_alt"]) - 5_000) < 500)
     airborne = mavproxy.read
     for name in ("LOITER", "RTL", "LAND"):
+        asked = mavproxy.read
         mavproxy.type(f"long MAV_CMD_DO_SET_MODE 1 4 {SUB_MODE[name]} 0 0 0 0")
         mavproxy.says("Got COMMAND_ACK: DO_SET_MODE: ACCEPTED")
         if name != "LOITER":
-            mavproxy.says(f"Mode {name}")
+            # Which of heartbeat and acknowledgement comes first is chance.
+            mavproxy.says(f"Mode {name}", since=asked)
     mavproxy.says(r"\bDISARMED", since=airborne)
 
 
