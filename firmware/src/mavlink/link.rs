@@ -5,7 +5,7 @@ use glissade_dialect::MavResult;
 use heapless::Deque;
 
 use super::incoming::{CommandMessage, Incoming, Sender};
-use super::outbox::{Answer, Outbox, TELEMETRY_SHARE};
+use super::outbox::{Answer, Line, Outbox};
 use super::params::{self, Done, ParamRequest, Params};
 use super::parser::Parser;
 use super::port::{Port, Profile};
@@ -47,6 +47,7 @@ pub(super) struct Link {
     parser: Parser,
     pub(super) telemetry: Telemetry,
     outbox: Outbox,
+    line: Line,
     sequence: u8,
     params: Params,
     waiting: Deque<Command, WAITING>,
@@ -178,14 +179,17 @@ impl Link {
         self.outbox.report(event);
     }
 
-    /// Writes what is to be said and fits: failures, acknowledgements, answers, telemetry, settings.
+    /// Writes what is to be said and fits: failures, acknowledgements, answers, settings, telemetry.
     pub(super) fn write(&mut self, view: &View, settings: &Settings, port: &Port) {
-        let errors = self.parser.bad_checksums().saturating_add(port.lost());
+        let errors = self.parser.bad_checksums().saturating_add(port.lost()).saturating_add(self.outbox.lost());
         let view = View { errors, ..*view };
         let mut out = Writer::new(port, &mut self.sequence, view.us);
+        let share = self.line.share(out.waiting());
         self.outbox.send(&view, &mut out);
-        self.telemetry.send(&view, &mut out);
-        out.set_limit(TELEMETRY_SHARE);
-        self.params.send(settings, &mut out);
+        self.params.send_answers(settings, &mut out);
+        out.set_limit(share);
+        self.params.send_list(settings, &mut out);
+        self.telemetry.send(&view, share, &mut out);
+        self.line.leave(out.waiting());
     }
 }

@@ -2,15 +2,15 @@
 //!
 //! Each kind has a queue of its own, so that none holds up another, and is written as long as less than its share of the
 //! link's ring is waiting to be sent: on a slow line, answers leave room for acknowledgements, and periodic telemetry
-//! for both.
+//! for both. How much telemetry may wait depends on what the [`Line`] is seen to carry.
 
-use glissade_dialect::{COMMAND_ACK_DATA, MavResult, PING_DATA, TIMESYNC_DATA};
+use glissade_dialect::{COMMAND_ACK_DATA, HEARTBEAT_DATA, MavResult, PING_DATA, TIMESYNC_DATA};
 use heapless::Deque;
 
 use super::incoming::{FileRequest, MissionRequest, Sender};
 use super::port::SENT_CAPACITY;
 use super::telemetry::{self, Report, View};
-use super::writer::Writer;
+use super::writer::{Writer, frame_len};
 use super::{services, text};
 use crate::commander::{Event, Refusal};
 
@@ -18,6 +18,38 @@ use crate::commander::{Event, Refusal};
 pub(super) const ANSWERS_SHARE: usize = SENT_CAPACITY / 2;
 /// The same for periodic telemetry: a tenth of a second of a 57,600 baud radio.
 pub(super) const TELEMETRY_SHARE: usize = SENT_CAPACITY / 4;
+/// The same on a fast line, which carries that in 60 ms.
+pub(super) const FAST_SHARE: usize = SENT_CAPACITY / 4 * 3;
+/// A line is fast if it carries this many bytes from one job to the next: 25.6 kB/s.
+const FAST: usize = 256;
+/// Greatest number of bytes that may wait when an acknowledgement is added: a heartbeat still fits.
+const ACKS_SHARE: usize = SENT_CAPACITY - frame_len::<HEARTBEAT_DATA>();
+
+/// What a link's line is seen to carry.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Line {
+    /// Bytes that waited when the last job had written.
+    left: usize,
+    fast: bool,
+}
+
+impl Line {
+    /// Greatest number of bytes of telemetry that may wait now. `waiting` bytes were not sent by the job's release.
+    pub(super) fn share(&mut self, waiting: usize) -> usize {
+        // A line that has sent everything may carry more than there was; nothing is learned from that.
+        if self.left.saturating_sub(waiting) >= FAST {
+            self.fast = true;
+        } else if waiting > 0 {
+            self.fast = false;
+        }
+        if self.fast { FAST_SHARE } else { TELEMETRY_SHARE }
+    }
+
+    /// At the end of a job: `waiting` bytes are still to be sent.
+    pub(super) fn leave(&mut self, waiting: usize) {
+        self.left = waiting;
+    }
+}
 
 /// An acknowledgement of a command.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,9 +89,14 @@ pub(super) enum Answer {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Outbox {
     events: Deque<Event, 8>,
-    acks: Deque<Ack, 32>,
+    acks: Deque<Ack, ACKS>,
     answers: Deque<Answer, 32>,
+    /// Acknowledgements and answers that found their queue full, since the link was opened.
+    lost: u32,
 }
+
+/// Acknowledgements that can wait: more than the commands that one job can read.
+pub(super) const ACKS: usize = 64;
 
 impl Outbox {
     /// A failure, for the pilot. The newest is the most important: if there are too many, the oldest goes.
@@ -70,20 +107,25 @@ impl Outbox {
         let _ = self.events.push_back(event);
     }
 
-    /// An acknowledgement. A link that asks for more than its line can carry loses what is beyond the queue; its peer
-    /// repeats.
+    /// An acknowledgement. A link that asks for more than its line can carry loses what is beyond the queue, which is
+    /// counted; its peer repeats.
     pub(super) fn acknowledge(&mut self, command: u16, result: MavResult, to: Sender) {
-        let _ = self.acks.push_back(Ack { command, result, to });
+        self.lost = self.lost.saturating_add(self.acks.push_back(Ack { command, result, to }).is_err().into());
     }
 
     /// Any other answer; the same holds for it.
     pub(super) fn answer(&mut self, answer: Answer) {
-        let _ = self.answers.push_back(answer);
+        self.lost = self.lost.saturating_add(self.answers.push_back(answer).is_err().into());
+    }
+
+    /// Acknowledgements and answers that were lost since the link was opened.
+    pub(super) fn lost(&self) -> u32 {
+        self.lost
     }
 
     /// Writes what fits.
     pub(super) fn send(&mut self, view: &View, out: &mut Writer) {
-        out.set_limit(SENT_CAPACITY);
+        out.set_limit(ACKS_SHARE);
         send(&mut self.events, |event| text::write_event(*event, out));
         send(&mut self.acks, |ack| write_ack(*ack, out));
         out.set_limit(ANSWERS_SHARE);

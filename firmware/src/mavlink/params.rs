@@ -1,7 +1,9 @@
 //! The parameter protocol: the settings of `settings`, to read and to set.
 //!
 //! [`Params`] is the state of one link: what it is still to be sent. Values are looked up when they are sent, so a value
-//! that changes meanwhile is never sent twice, and a list asked for again begins again. [`set`] changes a value; the
+//! that changes meanwhile is never sent twice. A list that is asked for again while it is sent goes on, past its end to the
+//! value before which it was asked for: whoever asks gets every value once more, and who asks often does not start it
+//! again and again. [`set`] changes a value; the
 //! caller announces it on every link.
 //!
 //! Values are encoded bytewise: the bytes of an integer stand in the float of the message.
@@ -102,15 +104,16 @@ const ERRORS_MAX: usize = 8;
 pub(super) struct Params {
     /// Values that were asked for, set, or changed from another link.
     wanted: Marks,
-    /// Index of the list's next value.
-    listing: Option<usize>,
+    /// Index of the list's next value, and how many values are still to come.
+    listing: Option<(usize, usize)>,
     errors: heapless::Deque<Refusal, ERRORS_MAX>,
 }
 
 impl Params {
-    /// All values, from the first.
+    /// All values: from the first, or from where the list is.
     pub(super) fn request_list(&mut self) {
-        self.listing = Some(0);
+        let next = self.listing.map_or(0, |(next, _)| next);
+        self.listing = Some((next, COUNT));
     }
 
     /// One value; an error if there is none.
@@ -146,28 +149,26 @@ impl Params {
         let _ = self.errors.push_back(refusal);
     }
 
-    /// Sends what fits: errors, then the values that were asked for one by one, then one value of the list, so that a job
-    /// a value leaves two fifths of a 57,600 baud radio to the others. False if something did not fit.
-    pub(super) fn send(&mut self, settings: &Settings, out: &mut Writer) -> bool {
-        while let Some(refusal) = self.errors.front() {
-            if !write_error(refusal, out) {
-                return false;
-            }
+    /// Sends what fits of the answers: errors, then the values that were asked for one by one, set or changed.
+    pub(super) fn send_answers(&mut self, settings: &Settings, out: &mut Writer) {
+        while self.errors.front().is_some_and(|refusal| write_error(refusal, out)) {
             self.errors.pop_front();
         }
         while let Some(index) = self.wanted.first() {
             if !write_value(settings, index, out) {
-                return false;
+                return;
             }
             self.wanted.clear(index);
         }
-        if let Some(index) = self.listing {
-            if !write_value(settings, index, out) {
-                return false;
-            }
-            self.listing = Some(index + 1).filter(|next| *next < COUNT);
+    }
+
+    /// Sends the list's next value, if it fits: one a job leaves two fifths of a 57,600 baud radio to the others.
+    pub(super) fn send_list(&mut self, settings: &Settings, out: &mut Writer) {
+        if let Some((index, left)) = self.listing
+            && write_value(settings, index, out)
+        {
+            self.listing = Some(((index + 1) % COUNT, left - 1)).filter(|(_, left)| *left > 0);
         }
-        true
     }
 }
 

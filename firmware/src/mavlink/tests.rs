@@ -9,6 +9,7 @@ mod requests;
 mod services;
 mod status;
 mod sticks;
+mod turns;
 
 use glissade_dialect::mavlink_core::{
     MAVLinkV1MessageRaw, MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message, MessageData, calculate_crc,

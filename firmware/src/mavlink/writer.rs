@@ -35,6 +35,11 @@ impl<'a> Writer<'a> {
         self.limit = limit;
     }
 
+    /// Bytes that wait to be sent.
+    pub(super) fn waiting(&self) -> usize {
+        self.waiting
+    }
+
     /// True if `count` more bytes fit.
     pub(super) fn has_room(&self, count: usize) -> bool {
         self.waiting + count <= self.limit

@@ -1,8 +1,8 @@
 //! Telemetry of one link: one table of messages and rates, and how each message is filled in.
 //!
 //! [`Telemetry`] owns when each message is next due on its link; a ground station may change the intervals
-//! (`MAV_CMD_SET_MESSAGE_INTERVAL`). A message that does not fit into a job's bytes is sent by a later job. What a
-//! message is made of is the job's [`View`]; the messages themselves are grouped by subject:
+//! (`MAV_CMD_SET_MESSAGE_INTERVAL`). A job begins with the message that did not fit into the last one's bytes, so that
+//! what is due takes turns however much of it there is. What a message is made of is the job's [`View`]; the messages themselves are grouped by subject:
 //!
 //! | module | messages |
 //! |---|---|
@@ -36,7 +36,7 @@ use glissade_dialect::{
 
 pub(super) use self::identity::MODES;
 pub(super) use self::view::{Place, View};
-use super::outbox::TELEMETRY_SHARE;
+use super::outbox::ANSWERS_SHARE;
 use super::port::{Profile, SENT_CAPACITY};
 use super::sticks;
 use super::writer::Writer;
@@ -124,7 +124,7 @@ const fn stream<D: MessageData>(report: Report, periods: [Tick; 2], phase: Tick)
 
 const STREAM_COUNT: usize = 33;
 
-/// Every message that can be sent, its default periods and first tick, in the order in which due messages are sent. Rates
+/// Every message that can be sent, its default periods and first tick. The heartbeat is the first. Rates
 /// follow PX4's `normal` and `onboard` modes. A link's test holds the sum of `normal` below 60 % of 57,600 baud.
 const STREAMS: [Stream; STREAM_COUNT] = [
     stream::<HEARTBEAT_DATA>(Report::Heartbeat, [1000, 1000], 0),
@@ -197,6 +197,16 @@ impl Slot {
             *self = Self { period, next: now };
         }
     }
+
+    fn is_due(&self, now: Tick) -> bool {
+        self.period != 0 && now.wrapping_sub(self.next) <= Tick::MAX / 2
+    }
+
+    /// Keeps the average rate, unless a whole period has been missed.
+    fn sent(&mut self, now: Tick) {
+        let from = if now.wrapping_sub(self.next) < self.period { self.next } else { now };
+        self.next = from.wrapping_add(self.period);
+    }
 }
 
 /// When each message is due on one link.
@@ -205,6 +215,8 @@ pub(super) struct Telemetry {
     profile: Profile,
     /// In the order of [`STREAMS`].
     slots: [Slot; STREAM_COUNT],
+    /// Index of the message whose turn it is.
+    first: usize,
     /// Home and origin as last seen: a change is told at once.
     places: [Option<Place>; 2],
     /// The next of the modes that have been asked for.
@@ -221,7 +233,7 @@ impl Telemetry {
     /// A link with the default rates of a profile.
     pub(super) fn new(profile: Profile) -> Self {
         let slots = STREAMS.map(|stream| Slot { period: stream.period(profile), next: stream.phase });
-        Self { profile, slots, places: [None; 2], next_mode: None }
+        Self { profile, slots, first: 0, places: [None; 2], next_mode: None }
     }
 
     /// The default rates again.
@@ -231,23 +243,31 @@ impl Telemetry {
         }
     }
 
-    /// Sends what is due and fits.
-    pub(super) fn send(&mut self, view: &View, out: &mut Writer) {
+    /// Sends what is due and fits: a heartbeat always, then the modes that have been asked for, then as long as no more
+    /// than `share` bytes wait the rest, in turn.
+    pub(super) fn send(&mut self, view: &View, share: usize, out: &mut Writer) {
         self.note_changes(view);
-        for (slot, stream) in self.slots.iter_mut().zip(&STREAMS) {
-            if slot.period == 0 || view.now.wrapping_sub(slot.next) > Tick::MAX / 2 {
+        // Without a heartbeat the vehicle counts as lost, however much there is to say.
+        out.set_limit(SENT_CAPACITY);
+        let [heartbeat, ..] = &mut self.slots;
+        if heartbeat.is_due(view.now) && write(Report::Heartbeat, view, out) {
+            heartbeat.sent(view.now);
+        }
+        out.set_limit(ANSWERS_SHARE);
+        self.send_modes(view, out);
+        out.set_limit(share);
+        for index in (self.first..STREAM_COUNT).chain(0..self.first) {
+            let (Some(slot), Some(stream)) = (self.slots.get_mut(index), STREAMS.get(index)) else { continue };
+            if stream.report == Report::Heartbeat || !slot.is_due(view.now) {
                 continue;
             }
-            // Without a heartbeat the vehicle counts as lost, however much there is to say.
-            out.set_limit(if stream.report == Report::Heartbeat { SENT_CAPACITY } else { TELEMETRY_SHARE });
-            if write(stream.report, view, out) {
-                let late = view.now.wrapping_sub(slot.next);
-                // Keeps the average rate, unless a whole period has been missed.
-                let from = if late < slot.period { slot.next } else { view.now };
-                slot.next = from.wrapping_add(slot.period);
+            if !write(stream.report, view, out) {
+                // Nor may a shorter one go before it, or a long one would never have room on a slow line.
+                self.first = index;
+                return;
             }
+            slot.sent(view.now);
         }
-        self.send_modes(view, out);
     }
 
     /// Makes what is sent on a change due if it has changed.

@@ -41,7 +41,7 @@ fn estimator() -> Status {
 }
 
 /// A second after boot: 20 m north, 30 m east, 10 m up of the origin, heading west, on its way.
-fn vehicle() -> Bench {
+pub(super) fn vehicle() -> Bench {
     let mut bench = Bench::silent();
     bench.tick = 1_000;
     bench.input.nav = NavState {
@@ -201,7 +201,7 @@ fn wind_and_battery_are_told_with_what_is_unknown_of_them() {
     assert_eq!((told.battery_remaining, told.current_consumed, told.temperature), (-1, -1, i16::MAX));
 }
 
-fn flying() -> ControlReport {
+pub(super) fn flying() -> ControlReport {
     let aim = Aim {
         attitude: UnitQuaternion::identity(),
         rates: Vector3::new(0.1, 0.2, 0.3),
