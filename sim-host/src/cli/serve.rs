@@ -43,6 +43,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
         parameters = Some(file);
     }
     let header = Header::new(&scenario, &set, args.seed)?;
+    let recorder = recorder(args, &header)?;
     let mut fleet = Vec::new();
     for number in 0..args.vehicles {
         fleet.push(member(&scenario, args, number)?);
@@ -50,7 +51,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     if let Some(first) = fleet.first_mut() {
         eprint!("{}", greeting(&scenario, first.links.local_address()?, &peers(args, 0)));
         first.vehicle.keep_parameters(parameters);
-        first.recorder = recorder(args, &header)?;
+        first.recorder = recorder;
     }
     if args.vehicles > 1 {
         eprintln!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles);

@@ -68,6 +68,7 @@ impl Bench {
     /// What the ground partition would write to every open link.
     fn say(&mut self, bytes: &[u8]) {
         self.links.deliver(&self.ports, |_, _| {});
+        self.ports.release();
         for port in self.ports.iter().filter(|port| port.is_open()) {
             port.sent().write(bytes);
         }
