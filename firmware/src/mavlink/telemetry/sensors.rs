@@ -62,12 +62,12 @@ pub(super) fn highres_imu(view: &View) -> Option<HIGHRES_IMU_DATA> {
     })
 }
 
-/// The same in mG, mrad/s and mgauss; 0 for a missing magnetometer and for the temperature means unknown.
+/// The same in mG, mrad/s and mgauss. A field that is not measured has no value there: nothing is sent without it.
 pub(super) fn scaled_imu(view: &View) -> Option<SCALED_IMU_DATA> {
     let imu = view.input.sensors.as_ref()?.imu.filter(|imu| is_new(view, imu.at))?;
     let accel = flip_vector(&imu.accel) * (1e3 / STANDARD_GRAVITY);
     let gyro = flip_vector(&imu.gyro) * 1e3;
-    let field = field_gauss(view).unwrap_or(Vector3::zeros()) * 1e3;
+    let field = field_gauss(view)? * 1e3;
     Some(SCALED_IMU_DATA {
         time_boot_ms: (u64::from(imu.at) * u64::from(TICK_US) / 1000) as u32,
         xacc: limited_i16(accel.x),
@@ -83,14 +83,14 @@ pub(super) fn scaled_imu(view: &View) -> Option<SCALED_IMU_DATA> {
     })
 }
 
-/// Static pressure. The temperature is not measured: out of range.
+/// Static pressure. The temperature is not measured, for which the message has no value: 0, as for other temperatures.
 pub(super) fn scaled_pressure(view: &View) -> Option<SCALED_PRESSURE_DATA> {
     let baro = pressure(view)?;
     Some(SCALED_PRESSURE_DATA {
         time_boot_ms: (u64::from(baro.at) * u64::from(TICK_US) / 1000) as u32,
         press_abs: baro.pressure_pa * 1e-2,
         press_diff: f32::NAN,
-        temperature: i16::MAX,
+        temperature: 0,
         temperature_press_diff: 0,
     })
 }
