@@ -33,6 +33,7 @@ use glissade_dialect::{
     SCALED_IMU_DATA, SCALED_PRESSURE_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA,
     VIBRATION_DATA, WIND_COV_DATA,
 };
+use nalgebra::Vector3;
 
 pub(super) use self::identity::MODES;
 pub(super) use self::view::{Place, View};
@@ -163,11 +164,6 @@ const STREAMS: [Stream; STREAM_COUNT] = [
 ];
 
 impl Report {
-    /// Whether it is also sent as soon as its content changes.
-    fn is_sent_on_change(self) -> bool {
-        matches!(self, Self::HomePosition | Self::GpsGlobalOrigin)
-    }
-
     /// Whether it can be sent at an interval, and not only on request.
     fn is_periodic(self) -> bool {
         !matches!(self, Self::AvailableModes(_) | Self::MessageInterval { .. })
@@ -181,6 +177,29 @@ pub(super) enum IntervalError {
     UnknownMessage,
     /// The interval is invalid, or not allowed for this message.
     Refused,
+}
+
+/// Home and origin when a change of them was last told, which is done at once.
+#[derive(Clone, Copy, Debug, Default)]
+struct Told {
+    /// m.
+    home: Option<Vector3<f32>>,
+    armed: bool,
+    origin: Option<Place>,
+}
+
+impl Told {
+    /// Whether `now` differs. Home follows the estimate, with all its noise, until the vehicle is armed: only what is farther
+    /// away than this counts until then.
+    fn has_other_home(&self, now: &Self) -> bool {
+        /// 1 m, squared.
+        const MOVED_M2: f32 = 1.0;
+        match (self.home, now.home) {
+            _ if self.armed != now.armed || self.origin != now.origin => true,
+            (Some(before), Some(home)) if !now.armed => (home - before).norm_squared() > MOVED_M2,
+            (before, home) => before != home,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -198,7 +217,7 @@ impl Slot {
         }
     }
 
-    fn is_due(&self, now: Tick) -> bool {
+    fn is_due(self, now: Tick) -> bool {
         self.period != 0 && now.wrapping_sub(self.next) <= Tick::MAX / 2
     }
 
@@ -217,8 +236,7 @@ pub(super) struct Telemetry {
     slots: [Slot; STREAM_COUNT],
     /// Index of the message whose turn it is.
     first: usize,
-    /// Home and origin as last seen: a change is told at once.
-    places: [Option<Place>; 2],
+    told: Told,
     /// The next of the modes that have been asked for.
     next_mode: Option<u8>,
 }
@@ -233,7 +251,7 @@ impl Telemetry {
     /// A link with the default rates of a profile.
     pub(super) fn new(profile: Profile) -> Self {
         let slots = STREAMS.map(|stream| Slot { period: stream.period(profile), next: stream.phase });
-        Self { profile, slots, first: 0, places: [None; 2], next_mode: None }
+        Self { profile, slots, first: 0, told: Told::default(), next_mode: None }
     }
 
     /// The default rates again.
@@ -270,16 +288,24 @@ impl Telemetry {
         }
     }
 
-    /// Makes what is sent on a change due if it has changed.
+    /// Makes home and origin due if they have changed.
     fn note_changes(&mut self, view: &View) {
-        let places = [global::home(view), global::origin(view)];
-        if core::mem::replace(&mut self.places, places) == places {
-            return;
+        let origin = global::origin(view);
+        let now = Told { home: view.input.home.filter(|_| origin.is_some()), armed: view.input.armed, origin };
+        if now.origin != self.told.origin {
+            self.make_due(Report::GpsGlobalOrigin, view.now);
         }
-        for (slot, stream) in self.slots.iter_mut().zip(&STREAMS) {
-            if stream.report.is_sent_on_change() && slot.period != 0 {
-                slot.next = view.now;
-            }
+        if self.told.has_other_home(&now) {
+            self.make_due(Report::HomePosition, view.now);
+            self.told = now;
+        }
+    }
+
+    /// Makes a message due, unless it is never sent.
+    fn make_due(&mut self, report: Report, now: Tick) {
+        let found = self.slots.iter_mut().zip(&STREAMS).find(|(slot, s)| s.report == report && slot.period != 0);
+        if let Some((slot, _)) = found {
+            slot.next = now;
         }
     }
 

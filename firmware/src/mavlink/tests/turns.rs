@@ -181,7 +181,7 @@ fn parameters_are_answered_before_telemetry() {
 fn a_list_that_is_asked_for_again_and_again_comes_to_its_end() {
     let mut line = Line::new(SENT_CAPACITY, Profile::Normal);
     let mut all = Vec::new();
-    for _ in 0..(COUNT / 50 + 1) {
+    for _ in 0..=COUNT / 50 {
         line.job(&list());
         line.jobs(49);
         all.extend(indices(&line.messages()));
