@@ -4299,6 +4299,87 @@ impl MessageData for MISSION_REQUEST_LIST_DATA {
         }
     }
 }
+#[doc = "Asks for part of a mission."]
+#[doc = ""]
+#[doc = "ID: 37"]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(Arbitrary))]
+#[cfg_attr(feature = "ts-rs", derive(TS))]
+#[cfg_attr(feature = "ts-rs", ts(export))]
+pub struct MISSION_REQUEST_PARTIAL_LIST_DATA {
+    #[doc = "Start index."]
+    pub start_index: i16,
+    #[doc = "End index."]
+    pub end_index: i16,
+    #[doc = "System."]
+    pub target_system: u8,
+    #[doc = "Component."]
+    pub target_component: u8,
+    #[doc = "Mission type."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub mission_type: u8,
+}
+impl MISSION_REQUEST_PARTIAL_LIST_DATA {
+    pub const ENCODED_LEN: usize = 7usize;
+    pub const DEFAULT: Self =
+        Self { start_index: 0_i16, end_index: 0_i16, target_system: 0_u8, target_component: 0_u8, mission_type: 0_u8 };
+    #[cfg(feature = "arbitrary")]
+    pub fn random<R: rand::Rng>(rng: &mut R) -> Self {
+        use arbitrary::{Arbitrary, Unstructured};
+        let mut buf = [0u8; 1024];
+        rng.fill_bytes(&mut buf);
+        let mut unstructured = Unstructured::new(&buf);
+        Self::arbitrary(&mut unstructured).unwrap_or_default()
+    }
+}
+impl Default for MISSION_REQUEST_PARTIAL_LIST_DATA {
+    fn default() -> Self {
+        Self::DEFAULT.clone()
+    }
+}
+impl MessageData for MISSION_REQUEST_PARTIAL_LIST_DATA {
+    type Message = MavMessage;
+    const ID: u32 = 37u32;
+    const NAME: &'static str = "MISSION_REQUEST_PARTIAL_LIST";
+    const EXTRA_CRC: u8 = 212u8;
+    const ENCODED_LEN: usize = 7usize;
+    fn deser(_version: MavlinkVersion, __input: &[u8]) -> Result<Self, ::mavlink_core::error::ParserError> {
+        let avail_len = __input.len();
+        let mut payload_buf;
+        let mut buf = if avail_len < Self::ENCODED_LEN {
+            payload_buf = [0; Self::ENCODED_LEN];
+            payload_buf[0..avail_len].copy_from_slice(__input);
+            Bytes::new(&payload_buf)
+        } else {
+            Bytes::new(__input)
+        };
+        let mut __struct = Self::default();
+        __struct.start_index = buf.get_i16_le()?;
+        __struct.end_index = buf.get_i16_le()?;
+        __struct.target_system = buf.get_u8()?;
+        __struct.target_component = buf.get_u8()?;
+        __struct.mission_type = buf.get_u8()?;
+        Ok(__struct)
+    }
+    fn ser(&self, version: MavlinkVersion, bytes: &mut [u8]) -> usize {
+        let mut __tmp = BytesMut::new(bytes);
+        if __tmp.remaining() < Self::ENCODED_LEN {
+            panic!("buffer is too small (need {} bytes, but got {})", Self::ENCODED_LEN, __tmp.remaining(),)
+        }
+        __tmp.put_i16_le(self.start_index);
+        __tmp.put_i16_le(self.end_index);
+        __tmp.put_u8(self.target_system);
+        __tmp.put_u8(self.target_component);
+        if matches!(version, MavlinkVersion::V2) {
+            __tmp.put_u8(self.mission_type);
+            let len = __tmp.len();
+            ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
+        } else {
+            __tmp.len()
+        }
+    }
+}
 #[doc = "Asks to go on with an item."]
 #[doc = ""]
 #[doc = "ID: 41"]
@@ -4873,6 +4954,100 @@ impl MessageData for PARAM_ERROR_DATA {
         }
     }
 }
+#[doc = "Answers PARAM_EXT_SET."]
+#[doc = ""]
+#[doc = "ID: 324"]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(Arbitrary))]
+#[cfg_attr(feature = "ts-rs", derive(TS))]
+#[cfg_attr(feature = "ts-rs", ts(export))]
+pub struct PARAM_EXT_ACK_DATA {
+    #[doc = "Name."]
+    #[cfg_attr(feature = "ts-rs", ts(type = "string"))]
+    pub param_id: CharArray<16>,
+    #[doc = "Value."]
+    #[cfg_attr(feature = "ts-rs", ts(type = "string"))]
+    pub param_value: CharArray<128>,
+    #[doc = "Type."]
+    pub param_type: u8,
+    #[doc = "Result."]
+    pub param_result: u8,
+}
+impl PARAM_EXT_ACK_DATA {
+    pub const ENCODED_LEN: usize = 146usize;
+    pub const DEFAULT: Self = Self {
+        param_id: CharArray::new([0_u8; 16usize]),
+        param_value: CharArray::new([0_u8; 128usize]),
+        param_type: 0_u8,
+        param_result: 0_u8,
+    };
+    #[cfg(feature = "arbitrary")]
+    pub fn random<R: rand::Rng>(rng: &mut R) -> Self {
+        use arbitrary::{Arbitrary, Unstructured};
+        let mut buf = [0u8; 1024];
+        rng.fill_bytes(&mut buf);
+        let mut unstructured = Unstructured::new(&buf);
+        Self::arbitrary(&mut unstructured).unwrap_or_default()
+    }
+}
+impl Default for PARAM_EXT_ACK_DATA {
+    fn default() -> Self {
+        Self::DEFAULT.clone()
+    }
+}
+impl MessageData for PARAM_EXT_ACK_DATA {
+    type Message = MavMessage;
+    const ID: u32 = 324u32;
+    const NAME: &'static str = "PARAM_EXT_ACK";
+    const EXTRA_CRC: u8 = 132u8;
+    const ENCODED_LEN: usize = 146usize;
+    fn deser(_version: MavlinkVersion, __input: &[u8]) -> Result<Self, ::mavlink_core::error::ParserError> {
+        let avail_len = __input.len();
+        let mut payload_buf;
+        let mut buf = if avail_len < Self::ENCODED_LEN {
+            payload_buf = [0; Self::ENCODED_LEN];
+            payload_buf[0..avail_len].copy_from_slice(__input);
+            Bytes::new(&payload_buf)
+        } else {
+            Bytes::new(__input)
+        };
+        let mut __struct = Self::default();
+        let mut tmp = [0_u8; 16usize];
+        for v in &mut tmp {
+            *v = buf.get_u8()?;
+        }
+        __struct.param_id = CharArray::new(tmp);
+        let mut tmp = [0_u8; 128usize];
+        for v in &mut tmp {
+            *v = buf.get_u8()?;
+        }
+        __struct.param_value = CharArray::new(tmp);
+        __struct.param_type = buf.get_u8()?;
+        __struct.param_result = buf.get_u8()?;
+        Ok(__struct)
+    }
+    fn ser(&self, version: MavlinkVersion, bytes: &mut [u8]) -> usize {
+        let mut __tmp = BytesMut::new(bytes);
+        if __tmp.remaining() < Self::ENCODED_LEN {
+            panic!("buffer is too small (need {} bytes, but got {})", Self::ENCODED_LEN, __tmp.remaining(),)
+        }
+        for val in &self.param_id {
+            __tmp.put_u8(*val);
+        }
+        for val in &self.param_value {
+            __tmp.put_u8(*val);
+        }
+        __tmp.put_u8(self.param_type);
+        __tmp.put_u8(self.param_result);
+        if matches!(version, MavlinkVersion::V2) {
+            let len = __tmp.len();
+            ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
+        } else {
+            __tmp.len()
+        }
+    }
+}
 #[doc = "Asks for all extended parameters."]
 #[doc = ""]
 #[doc = "ID: 321"]
@@ -4932,6 +5107,192 @@ impl MessageData for PARAM_EXT_REQUEST_LIST_DATA {
         }
         __tmp.put_u8(self.target_system);
         __tmp.put_u8(self.target_component);
+        if matches!(version, MavlinkVersion::V2) {
+            let len = __tmp.len();
+            ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
+        } else {
+            __tmp.len()
+        }
+    }
+}
+#[doc = "Asks for an extended parameter."]
+#[doc = ""]
+#[doc = "ID: 320"]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(Arbitrary))]
+#[cfg_attr(feature = "ts-rs", derive(TS))]
+#[cfg_attr(feature = "ts-rs", ts(export))]
+pub struct PARAM_EXT_REQUEST_READ_DATA {
+    #[doc = "Its number; -1: by name."]
+    pub param_index: i16,
+    #[doc = "System."]
+    pub target_system: u8,
+    #[doc = "Component."]
+    pub target_component: u8,
+    #[doc = "Name."]
+    #[cfg_attr(feature = "ts-rs", ts(type = "string"))]
+    pub param_id: CharArray<16>,
+}
+impl PARAM_EXT_REQUEST_READ_DATA {
+    pub const ENCODED_LEN: usize = 20usize;
+    pub const DEFAULT: Self = Self {
+        param_index: 0_i16,
+        target_system: 0_u8,
+        target_component: 0_u8,
+        param_id: CharArray::new([0_u8; 16usize]),
+    };
+    #[cfg(feature = "arbitrary")]
+    pub fn random<R: rand::Rng>(rng: &mut R) -> Self {
+        use arbitrary::{Arbitrary, Unstructured};
+        let mut buf = [0u8; 1024];
+        rng.fill_bytes(&mut buf);
+        let mut unstructured = Unstructured::new(&buf);
+        Self::arbitrary(&mut unstructured).unwrap_or_default()
+    }
+}
+impl Default for PARAM_EXT_REQUEST_READ_DATA {
+    fn default() -> Self {
+        Self::DEFAULT.clone()
+    }
+}
+impl MessageData for PARAM_EXT_REQUEST_READ_DATA {
+    type Message = MavMessage;
+    const ID: u32 = 320u32;
+    const NAME: &'static str = "PARAM_EXT_REQUEST_READ";
+    const EXTRA_CRC: u8 = 243u8;
+    const ENCODED_LEN: usize = 20usize;
+    fn deser(_version: MavlinkVersion, __input: &[u8]) -> Result<Self, ::mavlink_core::error::ParserError> {
+        let avail_len = __input.len();
+        let mut payload_buf;
+        let mut buf = if avail_len < Self::ENCODED_LEN {
+            payload_buf = [0; Self::ENCODED_LEN];
+            payload_buf[0..avail_len].copy_from_slice(__input);
+            Bytes::new(&payload_buf)
+        } else {
+            Bytes::new(__input)
+        };
+        let mut __struct = Self::default();
+        __struct.param_index = buf.get_i16_le()?;
+        __struct.target_system = buf.get_u8()?;
+        __struct.target_component = buf.get_u8()?;
+        let mut tmp = [0_u8; 16usize];
+        for v in &mut tmp {
+            *v = buf.get_u8()?;
+        }
+        __struct.param_id = CharArray::new(tmp);
+        Ok(__struct)
+    }
+    fn ser(&self, version: MavlinkVersion, bytes: &mut [u8]) -> usize {
+        let mut __tmp = BytesMut::new(bytes);
+        if __tmp.remaining() < Self::ENCODED_LEN {
+            panic!("buffer is too small (need {} bytes, but got {})", Self::ENCODED_LEN, __tmp.remaining(),)
+        }
+        __tmp.put_i16_le(self.param_index);
+        __tmp.put_u8(self.target_system);
+        __tmp.put_u8(self.target_component);
+        for val in &self.param_id {
+            __tmp.put_u8(*val);
+        }
+        if matches!(version, MavlinkVersion::V2) {
+            let len = __tmp.len();
+            ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
+        } else {
+            __tmp.len()
+        }
+    }
+}
+#[doc = "Sets an extended parameter."]
+#[doc = ""]
+#[doc = "ID: 323"]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(Arbitrary))]
+#[cfg_attr(feature = "ts-rs", derive(TS))]
+#[cfg_attr(feature = "ts-rs", ts(export))]
+pub struct PARAM_EXT_SET_DATA {
+    #[doc = "System."]
+    pub target_system: u8,
+    #[doc = "Component."]
+    pub target_component: u8,
+    #[doc = "Name."]
+    #[cfg_attr(feature = "ts-rs", ts(type = "string"))]
+    pub param_id: CharArray<16>,
+    #[doc = "Value."]
+    #[cfg_attr(feature = "ts-rs", ts(type = "string"))]
+    pub param_value: CharArray<128>,
+    #[doc = "Type."]
+    pub param_type: u8,
+}
+impl PARAM_EXT_SET_DATA {
+    pub const ENCODED_LEN: usize = 147usize;
+    pub const DEFAULT: Self = Self {
+        target_system: 0_u8,
+        target_component: 0_u8,
+        param_id: CharArray::new([0_u8; 16usize]),
+        param_value: CharArray::new([0_u8; 128usize]),
+        param_type: 0_u8,
+    };
+    #[cfg(feature = "arbitrary")]
+    pub fn random<R: rand::Rng>(rng: &mut R) -> Self {
+        use arbitrary::{Arbitrary, Unstructured};
+        let mut buf = [0u8; 1024];
+        rng.fill_bytes(&mut buf);
+        let mut unstructured = Unstructured::new(&buf);
+        Self::arbitrary(&mut unstructured).unwrap_or_default()
+    }
+}
+impl Default for PARAM_EXT_SET_DATA {
+    fn default() -> Self {
+        Self::DEFAULT.clone()
+    }
+}
+impl MessageData for PARAM_EXT_SET_DATA {
+    type Message = MavMessage;
+    const ID: u32 = 323u32;
+    const NAME: &'static str = "PARAM_EXT_SET";
+    const EXTRA_CRC: u8 = 78u8;
+    const ENCODED_LEN: usize = 147usize;
+    fn deser(_version: MavlinkVersion, __input: &[u8]) -> Result<Self, ::mavlink_core::error::ParserError> {
+        let avail_len = __input.len();
+        let mut payload_buf;
+        let mut buf = if avail_len < Self::ENCODED_LEN {
+            payload_buf = [0; Self::ENCODED_LEN];
+            payload_buf[0..avail_len].copy_from_slice(__input);
+            Bytes::new(&payload_buf)
+        } else {
+            Bytes::new(__input)
+        };
+        let mut __struct = Self::default();
+        __struct.target_system = buf.get_u8()?;
+        __struct.target_component = buf.get_u8()?;
+        let mut tmp = [0_u8; 16usize];
+        for v in &mut tmp {
+            *v = buf.get_u8()?;
+        }
+        __struct.param_id = CharArray::new(tmp);
+        let mut tmp = [0_u8; 128usize];
+        for v in &mut tmp {
+            *v = buf.get_u8()?;
+        }
+        __struct.param_value = CharArray::new(tmp);
+        __struct.param_type = buf.get_u8()?;
+        Ok(__struct)
+    }
+    fn ser(&self, version: MavlinkVersion, bytes: &mut [u8]) -> usize {
+        let mut __tmp = BytesMut::new(bytes);
+        if __tmp.remaining() < Self::ENCODED_LEN {
+            panic!("buffer is too small (need {} bytes, but got {})", Self::ENCODED_LEN, __tmp.remaining(),)
+        }
+        __tmp.put_u8(self.target_system);
+        __tmp.put_u8(self.target_component);
+        for val in &self.param_id {
+            __tmp.put_u8(*val);
+        }
+        for val in &self.param_value {
+            __tmp.put_u8(*val);
+        }
+        __tmp.put_u8(self.param_type);
         if matches!(version, MavlinkVersion::V2) {
             let len = __tmp.len();
             ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
@@ -8062,6 +8423,10 @@ pub enum MavMessage {
     #[doc = ""]
     #[doc = "ID: 43"]
     MISSION_REQUEST_LIST(MISSION_REQUEST_LIST_DATA),
+    #[doc = "Asks for part of a mission."]
+    #[doc = ""]
+    #[doc = "ID: 37"]
+    MISSION_REQUEST_PARTIAL_LIST(MISSION_REQUEST_PARTIAL_LIST_DATA),
     #[doc = "Asks to go on with an item."]
     #[doc = ""]
     #[doc = "ID: 41"]
@@ -8086,10 +8451,22 @@ pub enum MavMessage {
     #[doc = ""]
     #[doc = "ID: 345"]
     PARAM_ERROR(PARAM_ERROR_DATA),
+    #[doc = "Answers PARAM_EXT_SET."]
+    #[doc = ""]
+    #[doc = "ID: 324"]
+    PARAM_EXT_ACK(PARAM_EXT_ACK_DATA),
     #[doc = "Asks for all extended parameters."]
     #[doc = ""]
     #[doc = "ID: 321"]
     PARAM_EXT_REQUEST_LIST(PARAM_EXT_REQUEST_LIST_DATA),
+    #[doc = "Asks for an extended parameter."]
+    #[doc = ""]
+    #[doc = "ID: 320"]
+    PARAM_EXT_REQUEST_READ(PARAM_EXT_REQUEST_READ_DATA),
+    #[doc = "Sets an extended parameter."]
+    #[doc = ""]
+    #[doc = "ID: 323"]
+    PARAM_EXT_SET(PARAM_EXT_SET_DATA),
     #[doc = "An extended parameter."]
     #[doc = ""]
     #[doc = "ID: 322"]
@@ -8207,11 +8584,11 @@ impl MavMessage {
     pub const fn all_ids() -> &'static [u32] {
         &[
             0u32, 1u32, 2u32, 4u32, 11u32, 20u32, 21u32, 22u32, 23u32, 24u32, 26u32, 29u32, 30u32, 31u32, 32u32, 33u32,
-            36u32, 38u32, 39u32, 40u32, 41u32, 42u32, 43u32, 44u32, 45u32, 47u32, 48u32, 49u32, 51u32, 65u32, 66u32,
-            69u32, 70u32, 73u32, 74u32, 75u32, 76u32, 77u32, 82u32, 83u32, 84u32, 85u32, 86u32, 105u32, 108u32, 110u32,
-            111u32, 115u32, 117u32, 118u32, 119u32, 121u32, 122u32, 126u32, 141u32, 147u32, 148u32, 230u32, 231u32,
-            241u32, 242u32, 244u32, 245u32, 251u32, 252u32, 253u32, 291u32, 300u32, 321u32, 322u32, 331u32, 345u32,
-            350u32, 435u32, 436u32, 437u32,
+            36u32, 37u32, 38u32, 39u32, 40u32, 41u32, 42u32, 43u32, 44u32, 45u32, 47u32, 48u32, 49u32, 51u32, 65u32,
+            66u32, 69u32, 70u32, 73u32, 74u32, 75u32, 76u32, 77u32, 82u32, 83u32, 84u32, 85u32, 86u32, 105u32, 108u32,
+            110u32, 111u32, 115u32, 117u32, 118u32, 119u32, 121u32, 122u32, 126u32, 141u32, 147u32, 148u32, 230u32,
+            231u32, 241u32, 242u32, 244u32, 245u32, 251u32, 252u32, 253u32, 291u32, 300u32, 320u32, 321u32, 322u32,
+            323u32, 324u32, 331u32, 345u32, 350u32, 435u32, 436u32, 437u32,
         ]
     }
     pub const fn all_messages() -> &'static [(&'static str, u32)] {
@@ -8233,6 +8610,7 @@ impl MavMessage {
             (LOCAL_POSITION_NED_DATA::NAME, LOCAL_POSITION_NED_DATA::ID),
             (GLOBAL_POSITION_INT_DATA::NAME, GLOBAL_POSITION_INT_DATA::ID),
             (SERVO_OUTPUT_RAW_DATA::NAME, SERVO_OUTPUT_RAW_DATA::ID),
+            (MISSION_REQUEST_PARTIAL_LIST_DATA::NAME, MISSION_REQUEST_PARTIAL_LIST_DATA::ID),
             (MISSION_WRITE_PARTIAL_LIST_DATA::NAME, MISSION_WRITE_PARTIAL_LIST_DATA::ID),
             (MISSION_ITEM_DATA::NAME, MISSION_ITEM_DATA::ID),
             (MISSION_REQUEST_DATA::NAME, MISSION_REQUEST_DATA::ID),
@@ -8284,8 +8662,11 @@ impl MavMessage {
             (STATUSTEXT_DATA::NAME, STATUSTEXT_DATA::ID),
             (ESC_STATUS_DATA::NAME, ESC_STATUS_DATA::ID),
             (PROTOCOL_VERSION_DATA::NAME, PROTOCOL_VERSION_DATA::ID),
+            (PARAM_EXT_REQUEST_READ_DATA::NAME, PARAM_EXT_REQUEST_READ_DATA::ID),
             (PARAM_EXT_REQUEST_LIST_DATA::NAME, PARAM_EXT_REQUEST_LIST_DATA::ID),
             (PARAM_EXT_VALUE_DATA::NAME, PARAM_EXT_VALUE_DATA::ID),
+            (PARAM_EXT_SET_DATA::NAME, PARAM_EXT_SET_DATA::ID),
+            (PARAM_EXT_ACK_DATA::NAME, PARAM_EXT_ACK_DATA::ID),
             (ODOMETRY_DATA::NAME, ODOMETRY_DATA::ID),
             (PARAM_ERROR_DATA::NAME, PARAM_ERROR_DATA::ID),
             (DEBUG_FLOAT_ARRAY_DATA::NAME, DEBUG_FLOAT_ARRAY_DATA::ID),
@@ -8357,6 +8738,9 @@ impl Message for MavMessage {
             MISSION_REQUEST_LIST_DATA::ID => {
                 MISSION_REQUEST_LIST_DATA::deser(version, payload).map(Self::MISSION_REQUEST_LIST)
             }
+            MISSION_REQUEST_PARTIAL_LIST_DATA::ID => {
+                MISSION_REQUEST_PARTIAL_LIST_DATA::deser(version, payload).map(Self::MISSION_REQUEST_PARTIAL_LIST)
+            }
             MISSION_SET_CURRENT_DATA::ID => {
                 MISSION_SET_CURRENT_DATA::deser(version, payload).map(Self::MISSION_SET_CURRENT)
             }
@@ -8367,9 +8751,14 @@ impl Message for MavMessage {
             NAMED_VALUE_INT_DATA::ID => NAMED_VALUE_INT_DATA::deser(version, payload).map(Self::NAMED_VALUE_INT),
             ODOMETRY_DATA::ID => ODOMETRY_DATA::deser(version, payload).map(Self::ODOMETRY),
             PARAM_ERROR_DATA::ID => PARAM_ERROR_DATA::deser(version, payload).map(Self::PARAM_ERROR),
+            PARAM_EXT_ACK_DATA::ID => PARAM_EXT_ACK_DATA::deser(version, payload).map(Self::PARAM_EXT_ACK),
             PARAM_EXT_REQUEST_LIST_DATA::ID => {
                 PARAM_EXT_REQUEST_LIST_DATA::deser(version, payload).map(Self::PARAM_EXT_REQUEST_LIST)
             }
+            PARAM_EXT_REQUEST_READ_DATA::ID => {
+                PARAM_EXT_REQUEST_READ_DATA::deser(version, payload).map(Self::PARAM_EXT_REQUEST_READ)
+            }
+            PARAM_EXT_SET_DATA::ID => PARAM_EXT_SET_DATA::deser(version, payload).map(Self::PARAM_EXT_SET),
             PARAM_EXT_VALUE_DATA::ID => PARAM_EXT_VALUE_DATA::deser(version, payload).map(Self::PARAM_EXT_VALUE),
             PARAM_REQUEST_LIST_DATA::ID => {
                 PARAM_REQUEST_LIST_DATA::deser(version, payload).map(Self::PARAM_REQUEST_LIST)
@@ -8462,13 +8851,17 @@ impl Message for MavMessage {
             Self::MISSION_REQUEST(..) => MISSION_REQUEST_DATA::NAME,
             Self::MISSION_REQUEST_INT(..) => MISSION_REQUEST_INT_DATA::NAME,
             Self::MISSION_REQUEST_LIST(..) => MISSION_REQUEST_LIST_DATA::NAME,
+            Self::MISSION_REQUEST_PARTIAL_LIST(..) => MISSION_REQUEST_PARTIAL_LIST_DATA::NAME,
             Self::MISSION_SET_CURRENT(..) => MISSION_SET_CURRENT_DATA::NAME,
             Self::MISSION_WRITE_PARTIAL_LIST(..) => MISSION_WRITE_PARTIAL_LIST_DATA::NAME,
             Self::NAMED_VALUE_FLOAT(..) => NAMED_VALUE_FLOAT_DATA::NAME,
             Self::NAMED_VALUE_INT(..) => NAMED_VALUE_INT_DATA::NAME,
             Self::ODOMETRY(..) => ODOMETRY_DATA::NAME,
             Self::PARAM_ERROR(..) => PARAM_ERROR_DATA::NAME,
+            Self::PARAM_EXT_ACK(..) => PARAM_EXT_ACK_DATA::NAME,
             Self::PARAM_EXT_REQUEST_LIST(..) => PARAM_EXT_REQUEST_LIST_DATA::NAME,
+            Self::PARAM_EXT_REQUEST_READ(..) => PARAM_EXT_REQUEST_READ_DATA::NAME,
+            Self::PARAM_EXT_SET(..) => PARAM_EXT_SET_DATA::NAME,
             Self::PARAM_EXT_VALUE(..) => PARAM_EXT_VALUE_DATA::NAME,
             Self::PARAM_REQUEST_LIST(..) => PARAM_REQUEST_LIST_DATA::NAME,
             Self::PARAM_REQUEST_READ(..) => PARAM_REQUEST_READ_DATA::NAME,
@@ -8542,13 +8935,17 @@ impl Message for MavMessage {
             Self::MISSION_REQUEST(..) => MISSION_REQUEST_DATA::ID,
             Self::MISSION_REQUEST_INT(..) => MISSION_REQUEST_INT_DATA::ID,
             Self::MISSION_REQUEST_LIST(..) => MISSION_REQUEST_LIST_DATA::ID,
+            Self::MISSION_REQUEST_PARTIAL_LIST(..) => MISSION_REQUEST_PARTIAL_LIST_DATA::ID,
             Self::MISSION_SET_CURRENT(..) => MISSION_SET_CURRENT_DATA::ID,
             Self::MISSION_WRITE_PARTIAL_LIST(..) => MISSION_WRITE_PARTIAL_LIST_DATA::ID,
             Self::NAMED_VALUE_FLOAT(..) => NAMED_VALUE_FLOAT_DATA::ID,
             Self::NAMED_VALUE_INT(..) => NAMED_VALUE_INT_DATA::ID,
             Self::ODOMETRY(..) => ODOMETRY_DATA::ID,
             Self::PARAM_ERROR(..) => PARAM_ERROR_DATA::ID,
+            Self::PARAM_EXT_ACK(..) => PARAM_EXT_ACK_DATA::ID,
             Self::PARAM_EXT_REQUEST_LIST(..) => PARAM_EXT_REQUEST_LIST_DATA::ID,
+            Self::PARAM_EXT_REQUEST_READ(..) => PARAM_EXT_REQUEST_READ_DATA::ID,
+            Self::PARAM_EXT_SET(..) => PARAM_EXT_SET_DATA::ID,
             Self::PARAM_EXT_VALUE(..) => PARAM_EXT_VALUE_DATA::ID,
             Self::PARAM_REQUEST_LIST(..) => PARAM_REQUEST_LIST_DATA::ID,
             Self::PARAM_REQUEST_READ(..) => PARAM_REQUEST_READ_DATA::ID,
@@ -8622,13 +9019,17 @@ impl Message for MavMessage {
             MISSION_REQUEST_DATA::NAME => Some(MISSION_REQUEST_DATA::ID),
             MISSION_REQUEST_INT_DATA::NAME => Some(MISSION_REQUEST_INT_DATA::ID),
             MISSION_REQUEST_LIST_DATA::NAME => Some(MISSION_REQUEST_LIST_DATA::ID),
+            MISSION_REQUEST_PARTIAL_LIST_DATA::NAME => Some(MISSION_REQUEST_PARTIAL_LIST_DATA::ID),
             MISSION_SET_CURRENT_DATA::NAME => Some(MISSION_SET_CURRENT_DATA::ID),
             MISSION_WRITE_PARTIAL_LIST_DATA::NAME => Some(MISSION_WRITE_PARTIAL_LIST_DATA::ID),
             NAMED_VALUE_FLOAT_DATA::NAME => Some(NAMED_VALUE_FLOAT_DATA::ID),
             NAMED_VALUE_INT_DATA::NAME => Some(NAMED_VALUE_INT_DATA::ID),
             ODOMETRY_DATA::NAME => Some(ODOMETRY_DATA::ID),
             PARAM_ERROR_DATA::NAME => Some(PARAM_ERROR_DATA::ID),
+            PARAM_EXT_ACK_DATA::NAME => Some(PARAM_EXT_ACK_DATA::ID),
             PARAM_EXT_REQUEST_LIST_DATA::NAME => Some(PARAM_EXT_REQUEST_LIST_DATA::ID),
+            PARAM_EXT_REQUEST_READ_DATA::NAME => Some(PARAM_EXT_REQUEST_READ_DATA::ID),
+            PARAM_EXT_SET_DATA::NAME => Some(PARAM_EXT_SET_DATA::ID),
             PARAM_EXT_VALUE_DATA::NAME => Some(PARAM_EXT_VALUE_DATA::ID),
             PARAM_REQUEST_LIST_DATA::NAME => Some(PARAM_REQUEST_LIST_DATA::ID),
             PARAM_REQUEST_READ_DATA::NAME => Some(PARAM_REQUEST_READ_DATA::ID),
@@ -8707,6 +9108,9 @@ impl Message for MavMessage {
             MISSION_REQUEST_DATA::ID => Some(Self::MISSION_REQUEST(MISSION_REQUEST_DATA::default())),
             MISSION_REQUEST_INT_DATA::ID => Some(Self::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA::default())),
             MISSION_REQUEST_LIST_DATA::ID => Some(Self::MISSION_REQUEST_LIST(MISSION_REQUEST_LIST_DATA::default())),
+            MISSION_REQUEST_PARTIAL_LIST_DATA::ID => {
+                Some(Self::MISSION_REQUEST_PARTIAL_LIST(MISSION_REQUEST_PARTIAL_LIST_DATA::default()))
+            }
             MISSION_SET_CURRENT_DATA::ID => Some(Self::MISSION_SET_CURRENT(MISSION_SET_CURRENT_DATA::default())),
             MISSION_WRITE_PARTIAL_LIST_DATA::ID => {
                 Some(Self::MISSION_WRITE_PARTIAL_LIST(MISSION_WRITE_PARTIAL_LIST_DATA::default()))
@@ -8715,9 +9119,14 @@ impl Message for MavMessage {
             NAMED_VALUE_INT_DATA::ID => Some(Self::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA::default())),
             ODOMETRY_DATA::ID => Some(Self::ODOMETRY(ODOMETRY_DATA::default())),
             PARAM_ERROR_DATA::ID => Some(Self::PARAM_ERROR(PARAM_ERROR_DATA::default())),
+            PARAM_EXT_ACK_DATA::ID => Some(Self::PARAM_EXT_ACK(PARAM_EXT_ACK_DATA::default())),
             PARAM_EXT_REQUEST_LIST_DATA::ID => {
                 Some(Self::PARAM_EXT_REQUEST_LIST(PARAM_EXT_REQUEST_LIST_DATA::default()))
             }
+            PARAM_EXT_REQUEST_READ_DATA::ID => {
+                Some(Self::PARAM_EXT_REQUEST_READ(PARAM_EXT_REQUEST_READ_DATA::default()))
+            }
+            PARAM_EXT_SET_DATA::ID => Some(Self::PARAM_EXT_SET(PARAM_EXT_SET_DATA::default())),
             PARAM_EXT_VALUE_DATA::ID => Some(Self::PARAM_EXT_VALUE(PARAM_EXT_VALUE_DATA::default())),
             PARAM_REQUEST_LIST_DATA::ID => Some(Self::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA::default())),
             PARAM_REQUEST_READ_DATA::ID => Some(Self::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA::default())),
@@ -8803,6 +9212,9 @@ impl Message for MavMessage {
             MISSION_REQUEST_DATA::ID => Some(Self::MISSION_REQUEST(MISSION_REQUEST_DATA::random(rng))),
             MISSION_REQUEST_INT_DATA::ID => Some(Self::MISSION_REQUEST_INT(MISSION_REQUEST_INT_DATA::random(rng))),
             MISSION_REQUEST_LIST_DATA::ID => Some(Self::MISSION_REQUEST_LIST(MISSION_REQUEST_LIST_DATA::random(rng))),
+            MISSION_REQUEST_PARTIAL_LIST_DATA::ID => {
+                Some(Self::MISSION_REQUEST_PARTIAL_LIST(MISSION_REQUEST_PARTIAL_LIST_DATA::random(rng)))
+            }
             MISSION_SET_CURRENT_DATA::ID => Some(Self::MISSION_SET_CURRENT(MISSION_SET_CURRENT_DATA::random(rng))),
             MISSION_WRITE_PARTIAL_LIST_DATA::ID => {
                 Some(Self::MISSION_WRITE_PARTIAL_LIST(MISSION_WRITE_PARTIAL_LIST_DATA::random(rng)))
@@ -8811,9 +9223,14 @@ impl Message for MavMessage {
             NAMED_VALUE_INT_DATA::ID => Some(Self::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA::random(rng))),
             ODOMETRY_DATA::ID => Some(Self::ODOMETRY(ODOMETRY_DATA::random(rng))),
             PARAM_ERROR_DATA::ID => Some(Self::PARAM_ERROR(PARAM_ERROR_DATA::random(rng))),
+            PARAM_EXT_ACK_DATA::ID => Some(Self::PARAM_EXT_ACK(PARAM_EXT_ACK_DATA::random(rng))),
             PARAM_EXT_REQUEST_LIST_DATA::ID => {
                 Some(Self::PARAM_EXT_REQUEST_LIST(PARAM_EXT_REQUEST_LIST_DATA::random(rng)))
             }
+            PARAM_EXT_REQUEST_READ_DATA::ID => {
+                Some(Self::PARAM_EXT_REQUEST_READ(PARAM_EXT_REQUEST_READ_DATA::random(rng)))
+            }
+            PARAM_EXT_SET_DATA::ID => Some(Self::PARAM_EXT_SET(PARAM_EXT_SET_DATA::random(rng))),
             PARAM_EXT_VALUE_DATA::ID => Some(Self::PARAM_EXT_VALUE(PARAM_EXT_VALUE_DATA::random(rng))),
             PARAM_REQUEST_LIST_DATA::ID => Some(Self::PARAM_REQUEST_LIST(PARAM_REQUEST_LIST_DATA::random(rng))),
             PARAM_REQUEST_READ_DATA::ID => Some(Self::PARAM_REQUEST_READ(PARAM_REQUEST_READ_DATA::random(rng))),
@@ -8896,13 +9313,17 @@ impl Message for MavMessage {
             Self::MISSION_REQUEST(body) => body.ser(version, bytes),
             Self::MISSION_REQUEST_INT(body) => body.ser(version, bytes),
             Self::MISSION_REQUEST_LIST(body) => body.ser(version, bytes),
+            Self::MISSION_REQUEST_PARTIAL_LIST(body) => body.ser(version, bytes),
             Self::MISSION_SET_CURRENT(body) => body.ser(version, bytes),
             Self::MISSION_WRITE_PARTIAL_LIST(body) => body.ser(version, bytes),
             Self::NAMED_VALUE_FLOAT(body) => body.ser(version, bytes),
             Self::NAMED_VALUE_INT(body) => body.ser(version, bytes),
             Self::ODOMETRY(body) => body.ser(version, bytes),
             Self::PARAM_ERROR(body) => body.ser(version, bytes),
+            Self::PARAM_EXT_ACK(body) => body.ser(version, bytes),
             Self::PARAM_EXT_REQUEST_LIST(body) => body.ser(version, bytes),
+            Self::PARAM_EXT_REQUEST_READ(body) => body.ser(version, bytes),
+            Self::PARAM_EXT_SET(body) => body.ser(version, bytes),
             Self::PARAM_EXT_VALUE(body) => body.ser(version, bytes),
             Self::PARAM_REQUEST_LIST(body) => body.ser(version, bytes),
             Self::PARAM_REQUEST_READ(body) => body.ser(version, bytes),
@@ -8976,13 +9397,17 @@ impl Message for MavMessage {
             MISSION_REQUEST_DATA::ID => MISSION_REQUEST_DATA::EXTRA_CRC,
             MISSION_REQUEST_INT_DATA::ID => MISSION_REQUEST_INT_DATA::EXTRA_CRC,
             MISSION_REQUEST_LIST_DATA::ID => MISSION_REQUEST_LIST_DATA::EXTRA_CRC,
+            MISSION_REQUEST_PARTIAL_LIST_DATA::ID => MISSION_REQUEST_PARTIAL_LIST_DATA::EXTRA_CRC,
             MISSION_SET_CURRENT_DATA::ID => MISSION_SET_CURRENT_DATA::EXTRA_CRC,
             MISSION_WRITE_PARTIAL_LIST_DATA::ID => MISSION_WRITE_PARTIAL_LIST_DATA::EXTRA_CRC,
             NAMED_VALUE_FLOAT_DATA::ID => NAMED_VALUE_FLOAT_DATA::EXTRA_CRC,
             NAMED_VALUE_INT_DATA::ID => NAMED_VALUE_INT_DATA::EXTRA_CRC,
             ODOMETRY_DATA::ID => ODOMETRY_DATA::EXTRA_CRC,
             PARAM_ERROR_DATA::ID => PARAM_ERROR_DATA::EXTRA_CRC,
+            PARAM_EXT_ACK_DATA::ID => PARAM_EXT_ACK_DATA::EXTRA_CRC,
             PARAM_EXT_REQUEST_LIST_DATA::ID => PARAM_EXT_REQUEST_LIST_DATA::EXTRA_CRC,
+            PARAM_EXT_REQUEST_READ_DATA::ID => PARAM_EXT_REQUEST_READ_DATA::EXTRA_CRC,
+            PARAM_EXT_SET_DATA::ID => PARAM_EXT_SET_DATA::EXTRA_CRC,
             PARAM_EXT_VALUE_DATA::ID => PARAM_EXT_VALUE_DATA::EXTRA_CRC,
             PARAM_REQUEST_LIST_DATA::ID => PARAM_REQUEST_LIST_DATA::EXTRA_CRC,
             PARAM_REQUEST_READ_DATA::ID => PARAM_REQUEST_READ_DATA::EXTRA_CRC,
@@ -9033,10 +9458,13 @@ impl Message for MavMessage {
             Self::MISSION_REQUEST(inner) => Some(inner.target_system),
             Self::MISSION_REQUEST_INT(inner) => Some(inner.target_system),
             Self::MISSION_REQUEST_LIST(inner) => Some(inner.target_system),
+            Self::MISSION_REQUEST_PARTIAL_LIST(inner) => Some(inner.target_system),
             Self::MISSION_SET_CURRENT(inner) => Some(inner.target_system),
             Self::MISSION_WRITE_PARTIAL_LIST(inner) => Some(inner.target_system),
             Self::PARAM_ERROR(inner) => Some(inner.target_system),
             Self::PARAM_EXT_REQUEST_LIST(inner) => Some(inner.target_system),
+            Self::PARAM_EXT_REQUEST_READ(inner) => Some(inner.target_system),
+            Self::PARAM_EXT_SET(inner) => Some(inner.target_system),
             Self::PARAM_REQUEST_LIST(inner) => Some(inner.target_system),
             Self::PARAM_REQUEST_READ(inner) => Some(inner.target_system),
             Self::PARAM_SET(inner) => Some(inner.target_system),
@@ -9071,10 +9499,13 @@ impl Message for MavMessage {
             Self::MISSION_REQUEST(inner) => Some(&mut inner.target_system),
             Self::MISSION_REQUEST_INT(inner) => Some(&mut inner.target_system),
             Self::MISSION_REQUEST_LIST(inner) => Some(&mut inner.target_system),
+            Self::MISSION_REQUEST_PARTIAL_LIST(inner) => Some(&mut inner.target_system),
             Self::MISSION_SET_CURRENT(inner) => Some(&mut inner.target_system),
             Self::MISSION_WRITE_PARTIAL_LIST(inner) => Some(&mut inner.target_system),
             Self::PARAM_ERROR(inner) => Some(&mut inner.target_system),
             Self::PARAM_EXT_REQUEST_LIST(inner) => Some(&mut inner.target_system),
+            Self::PARAM_EXT_REQUEST_READ(inner) => Some(&mut inner.target_system),
+            Self::PARAM_EXT_SET(inner) => Some(&mut inner.target_system),
             Self::PARAM_REQUEST_LIST(inner) => Some(&mut inner.target_system),
             Self::PARAM_REQUEST_READ(inner) => Some(&mut inner.target_system),
             Self::PARAM_SET(inner) => Some(&mut inner.target_system),
@@ -9108,10 +9539,13 @@ impl Message for MavMessage {
             Self::MISSION_REQUEST(inner) => Some(inner.target_component),
             Self::MISSION_REQUEST_INT(inner) => Some(inner.target_component),
             Self::MISSION_REQUEST_LIST(inner) => Some(inner.target_component),
+            Self::MISSION_REQUEST_PARTIAL_LIST(inner) => Some(inner.target_component),
             Self::MISSION_SET_CURRENT(inner) => Some(inner.target_component),
             Self::MISSION_WRITE_PARTIAL_LIST(inner) => Some(inner.target_component),
             Self::PARAM_ERROR(inner) => Some(inner.target_component),
             Self::PARAM_EXT_REQUEST_LIST(inner) => Some(inner.target_component),
+            Self::PARAM_EXT_REQUEST_READ(inner) => Some(inner.target_component),
+            Self::PARAM_EXT_SET(inner) => Some(inner.target_component),
             Self::PARAM_REQUEST_LIST(inner) => Some(inner.target_component),
             Self::PARAM_REQUEST_READ(inner) => Some(inner.target_component),
             Self::PARAM_SET(inner) => Some(inner.target_component),
@@ -9143,10 +9577,13 @@ impl Message for MavMessage {
             Self::MISSION_REQUEST(inner) => Some(&mut inner.target_component),
             Self::MISSION_REQUEST_INT(inner) => Some(&mut inner.target_component),
             Self::MISSION_REQUEST_LIST(inner) => Some(&mut inner.target_component),
+            Self::MISSION_REQUEST_PARTIAL_LIST(inner) => Some(&mut inner.target_component),
             Self::MISSION_SET_CURRENT(inner) => Some(&mut inner.target_component),
             Self::MISSION_WRITE_PARTIAL_LIST(inner) => Some(&mut inner.target_component),
             Self::PARAM_ERROR(inner) => Some(&mut inner.target_component),
             Self::PARAM_EXT_REQUEST_LIST(inner) => Some(&mut inner.target_component),
+            Self::PARAM_EXT_REQUEST_READ(inner) => Some(&mut inner.target_component),
+            Self::PARAM_EXT_SET(inner) => Some(&mut inner.target_component),
             Self::PARAM_REQUEST_LIST(inner) => Some(&mut inner.target_component),
             Self::PARAM_REQUEST_READ(inner) => Some(&mut inner.target_component),
             Self::PARAM_SET(inner) => Some(&mut inner.target_component),

@@ -22,6 +22,13 @@ const FORCE_ARMING: f32 = 2_989.0;
 pub(super) enum Effect {
     /// It is done or refused.
     Done(MavResult),
+    /// It is temporarily rejected, which is told to the pilot.
+    Refuse {
+        /// What was asked for.
+        request: &'static str,
+        /// Why not.
+        reason: &'static str,
+    },
     /// It is accepted, and this message sent once.
     Report(Report),
     /// The commander decides.
@@ -34,9 +41,9 @@ impl From<MavResult> for Effect {
     }
 }
 
-impl From<Result<Request, MavResult>> for Effect {
-    fn from(request: Result<Request, MavResult>) -> Self {
-        request.map_or_else(Self::Done, Self::Ask)
+impl From<Result<Request, Self>> for Effect {
+    fn from(request: Result<Request, Self>) -> Self {
+        request.map_or_else(core::convert::identity, Self::Ask)
     }
 }
 

@@ -5,12 +5,13 @@ use glissade_dialect::{
     COMMAND_INT_DATA, COMMAND_LONG_DATA, FILE_TRANSFER_PROTOCOL_DATA, HEARTBEAT_DATA, LOG_REQUEST_DATA_DATA,
     LOG_REQUEST_LIST_DATA, MANUAL_CONTROL_DATA, MISSION_CLEAR_ALL_DATA, MISSION_COUNT_DATA, MISSION_ITEM_DATA,
     MISSION_ITEM_INT_DATA, MISSION_REQUEST_DATA, MISSION_REQUEST_INT_DATA, MISSION_REQUEST_LIST_DATA,
-    MISSION_SET_CURRENT_DATA, MISSION_WRITE_PARTIAL_LIST_DATA, MavType, PARAM_EXT_REQUEST_LIST_DATA,
-    PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA, PING_DATA, RC_CHANNELS_OVERRIDE_DATA,
-    SERIAL_CONTROL_DATA, SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA, TIMESYNC_DATA,
+    MISSION_REQUEST_PARTIAL_LIST_DATA, MISSION_SET_CURRENT_DATA, MISSION_WRITE_PARTIAL_LIST_DATA, MavType,
+    PARAM_EXT_REQUEST_LIST_DATA, PARAM_EXT_REQUEST_READ_DATA, PARAM_EXT_SET_DATA, PARAM_REQUEST_LIST_DATA,
+    PARAM_REQUEST_READ_DATA, PARAM_SET_DATA, PING_DATA, RC_CHANNELS_OVERRIDE_DATA, SERIAL_CONTROL_DATA,
+    SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA, TIMESYNC_DATA,
 };
 
-use super::params::ParamRequest;
+use super::params::{Name, ParamRequest};
 use super::services;
 use super::sticks::{self, StickMessage};
 use super::telemetry::Place;
@@ -57,6 +58,8 @@ pub(super) enum MissionRequest {
     List,
     /// An item.
     Item,
+    /// Some of the items, the old way.
+    Part,
     /// To take items.
     Upload,
     /// To forget all items.
@@ -76,6 +79,17 @@ pub(super) struct FileRequest {
     pub(super) opcode: u8,
 }
 
+/// A request of the extended parameter protocol, with what an answer repeats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ExtendedRequest {
+    /// `PARAM_EXT_REQUEST_LIST`.
+    List,
+    /// `PARAM_EXT_REQUEST_READ`.
+    Read { name: Name },
+    /// `PARAM_EXT_SET`, of a value of this type.
+    Set { name: Name, kind: u8 },
+}
+
 /// A message that is for this vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Incoming {
@@ -93,8 +107,8 @@ pub(super) enum Incoming {
     Param(ParamRequest),
     /// `SERIAL_CONTROL` of this device.
     Serial { device: u8 },
-    /// `PARAM_EXT_REQUEST_LIST`.
-    ExtendedParams,
+    /// A request of the extended parameter protocol.
+    ExtendedParams(ExtendedRequest),
     /// `LOG_REQUEST_LIST` or `LOG_REQUEST_DATA`.
     Logs,
     /// A request of `TIMESYNC`, with the sender's time.
@@ -160,6 +174,7 @@ pub(super) fn known(id: u32) -> Option<Known> {
         PARAM_REQUEST_LIST_DATA::ID => Known::of::<PARAM_REQUEST_LIST_DATA>(param_list),
         PARAM_SET_DATA::ID => Known::of::<PARAM_SET_DATA>(param_set),
         MISSION_WRITE_PARTIAL_LIST_DATA::ID => Known::of::<MISSION_WRITE_PARTIAL_LIST_DATA>(partial_upload),
+        MISSION_REQUEST_PARTIAL_LIST_DATA::ID => Known::of::<MISSION_REQUEST_PARTIAL_LIST_DATA>(partial_list),
         MISSION_ITEM_DATA::ID => Known::of::<MISSION_ITEM_DATA>(old_item),
         MISSION_REQUEST_DATA::ID => Known::of::<MISSION_REQUEST_DATA>(old_item_request),
         MISSION_SET_CURRENT_DATA::ID => Known::of::<MISSION_SET_CURRENT_DATA>(set_current),
@@ -175,6 +190,8 @@ pub(super) fn known(id: u32) -> Option<Known> {
         COMMAND_LONG_DATA::ID => Known::of::<COMMAND_LONG_DATA>(command_long),
         SERIAL_CONTROL_DATA::ID => Known::of::<SERIAL_CONTROL_DATA>(serial),
         PARAM_EXT_REQUEST_LIST_DATA::ID => Known::of::<PARAM_EXT_REQUEST_LIST_DATA>(extended_params),
+        PARAM_EXT_REQUEST_READ_DATA::ID => Known::of::<PARAM_EXT_REQUEST_READ_DATA>(extended_read),
+        PARAM_EXT_SET_DATA::ID => Known::of::<PARAM_EXT_SET_DATA>(extended_set),
         FILE_TRANSFER_PROTOCOL_DATA::ID => Known::of::<FILE_TRANSFER_PROTOCOL_DATA>(file),
         TIMESYNC_DATA::ID => Known::of::<TIMESYNC_DATA>(timesync),
         LOG_REQUEST_LIST_DATA::ID => Known::of::<LOG_REQUEST_LIST_DATA>(log_list),
@@ -230,7 +247,14 @@ fn mission_list(raw: &Raw) -> Option<Incoming> {
 
 fn mission_count(raw: &Raw) -> Option<Incoming> {
     let m: MISSION_COUNT_DATA = raw.read()?;
-    mission(raw, MissionRequest::Upload, (m.target_system, m.target_component), m.mission_type)
+    // Nothing to upload is what a client sends that clears.
+    let request = if m.count == 0 { MissionRequest::Clear } else { MissionRequest::Upload };
+    mission(raw, request, (m.target_system, m.target_component), m.mission_type)
+}
+
+fn partial_list(raw: &Raw) -> Option<Incoming> {
+    let m: MISSION_REQUEST_PARTIAL_LIST_DATA = raw.read()?;
+    mission(raw, MissionRequest::Part, (m.target_system, m.target_component), m.mission_type)
 }
 
 fn partial_upload(raw: &Raw) -> Option<Incoming> {
@@ -331,7 +355,19 @@ fn serial(raw: &Raw) -> Option<Incoming> {
 
 fn extended_params(raw: &Raw) -> Option<Incoming> {
     let m: PARAM_EXT_REQUEST_LIST_DATA = raw.read()?;
-    raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::ExtendedParams)
+    raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::ExtendedParams(ExtendedRequest::List))
+}
+
+fn extended_read(raw: &Raw) -> Option<Incoming> {
+    let m: PARAM_EXT_REQUEST_READ_DATA = raw.read()?;
+    let request = ExtendedRequest::Read { name: m.param_id.into() };
+    raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::ExtendedParams(request))
+}
+
+fn extended_set(raw: &Raw) -> Option<Incoming> {
+    let m: PARAM_EXT_SET_DATA = raw.read()?;
+    let request = ExtendedRequest::Set { name: m.param_id.into(), kind: m.param_type };
+    raw.is_for_us(m.target_system, m.target_component).then_some(Incoming::ExtendedParams(request))
 }
 
 fn log_list(raw: &Raw) -> Option<Incoming> {

@@ -9,7 +9,7 @@ use super::outbox::{Answer, Line, Outbox};
 use super::params::{self, Done, ParamRequest, Params};
 use super::parser::Parser;
 use super::port::{Port, Profile};
-use super::telemetry::{Telemetry, View};
+use super::telemetry::{Place, Report, Telemetry, View};
 use super::writer::Writer;
 use super::{GroundOutput, command, mode, place, sticks};
 use crate::commander::{self, Command, Event, Outcome, Refusal, Reply, StationReply};
@@ -97,9 +97,9 @@ impl Link {
             }
             Incoming::Param(request) => self.handle_param(sender, &request, job),
             Incoming::File(request) => self.outbox.answer(Answer::File { request, to: sender }),
-            Incoming::SetOrigin(place) => place::set_origin(&place, job.view.input, job.set_origin),
+            Incoming::SetOrigin(place) => self.set_origin(&place, job),
             Incoming::Serial { device } => self.outbox.answer(Answer::NoSerial { device }),
-            Incoming::ExtendedParams => self.outbox.answer(Answer::NoExtendedParams),
+            Incoming::ExtendedParams(request) => self.outbox.answer(Answer::ExtendedParams(request)),
             Incoming::Logs => self.outbox.answer(Answer::NoLogs),
             Incoming::Timesync { ts1 } => {
                 let tc1 = i64::from(job.view.now) * i64::from(TICK_US) * 1000;
@@ -117,19 +117,33 @@ impl Link {
                 self.outbox.answer(Answer::Report(report));
                 MavResult::MAV_RESULT_ACCEPTED
             }
+            Effect::Refuse { request, reason } => {
+                self.refuse(request, reason);
+                MavResult::MAV_RESULT_TEMPORARILY_REJECTED
+            }
             Effect::Ask(request) => {
                 let origin = commander::Origin::Station { link, sender, command: message.command };
                 match self.waiting.push_back(Command { request, origin }) {
                     // The commander will answer.
                     Ok(()) => return,
                     Err(command) => {
-                        self.outbox.answer(Answer::Refusal(command.request.name(), Refusal::Busy));
+                        self.refuse(command.request.name(), Refusal::Busy.reason());
                         MavResult::MAV_RESULT_TEMPORARILY_REJECTED
                     }
                 }
             }
         };
         self.outbox.acknowledge(message.command, result, sender);
+    }
+
+    /// Answers with the origin that is in effect, whether it is the one that was sent or not; why not, if there is none.
+    fn set_origin(&mut self, place: &Place, job: &mut Job) {
+        let refused = place::set_origin(place, job.view.input, job.set_origin).err();
+        let is_known = job.view.input.origin().is_some() || job.set_origin.is_some();
+        match refused {
+            Some(reason) if !is_known => self.refuse("Setting the origin", reason),
+            _ => self.outbox.answer(Answer::Report(Report::GpsGlobalOrigin)),
+        }
     }
 
     fn handle_param(&mut self, sender: Sender, request: &ParamRequest, job: &mut Job) {
@@ -170,8 +184,13 @@ impl Link {
     pub(super) fn reply(&mut self, reply: &StationReply) {
         self.outbox.acknowledge(reply.command, command::result_of(reply.outcome), reply.sender);
         if let Outcome::TemporarilyRejected(refusal) = reply.outcome {
-            self.outbox.answer(Answer::Refusal(reply.request, refusal));
+            self.refuse(reply.request, refusal.reason());
         }
+    }
+
+    /// Tells the pilot why something was refused.
+    fn refuse(&mut self, request: &'static str, reason: &'static str) {
+        self.outbox.answer(Answer::Refusal { request, reason });
     }
 
     /// Tells the pilot of a failure.

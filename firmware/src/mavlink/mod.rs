@@ -224,6 +224,7 @@ impl Ground {
         let view = View::new(released, input, self.us, &self.settings, self.set_origin.as_ref());
         self.latest.forget_old(released);
         let view = View { latest: self.latest, ..view };
+        let origin_before = self.set_origin;
         for ((number, link), port) in (0..).zip(&mut self.links).zip(ports) {
             let Some((session, profile)) = port.session() else { continue };
             link.begin(session, profile, port);
@@ -248,6 +249,11 @@ impl Ground {
             output.changes = self.settings.take_changes();
         }
         output.latest = self.latest;
+        let view = if self.set_origin == origin_before {
+            view
+        } else {
+            View::new(released, input, self.us, &self.settings, self.set_origin.as_ref())
+        };
         let view = View { latest: self.latest, ..view };
         for (link, port) in self.links.iter_mut().zip(ports) {
             if port.session().is_some() {

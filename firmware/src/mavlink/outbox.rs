@@ -7,12 +7,12 @@
 use glissade_dialect::{COMMAND_ACK_DATA, HEARTBEAT_DATA, MavResult, PING_DATA, TIMESYNC_DATA};
 use heapless::Deque;
 
-use super::incoming::{FileRequest, MissionRequest, Sender};
+use super::incoming::{ExtendedRequest, FileRequest, MissionRequest, Sender};
 use super::port::SENT_CAPACITY;
 use super::telemetry::{self, Report, View};
 use super::writer::{Writer, frame_len};
 use super::{services, text};
-use crate::commander::{Event, Refusal};
+use crate::commander::Event;
 
 /// Greatest number of bytes that may be waiting to be sent when an answer is added.
 pub(super) const ANSWERS_SHARE: usize = SENT_CAPACITY / 2;
@@ -65,8 +65,8 @@ pub(super) struct Ack {
 /// Any other answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Answer {
-    /// Why a command was refused, which is named, as a text for the pilot.
-    Refusal(&'static str, Refusal),
+    /// Why a command was refused, as a text for the pilot.
+    Refusal { request: &'static str, reason: &'static str },
     /// A requested message.
     Report(Report),
     /// To a message of the mission protocol.
@@ -77,8 +77,8 @@ pub(super) enum Answer {
     NoLogs,
     /// There is no such serial console.
     NoSerial { device: u8 },
-    /// There are no extended parameters.
-    NoExtendedParams,
+    /// To a request for extended parameters.
+    ExtendedParams(ExtendedRequest),
     /// To a time request: the time at which it was read, ns, and the time in it.
     Timesync { tc1: i64, ts1: i64, to: Sender },
     /// To a ping.
@@ -147,13 +147,13 @@ fn write_ack(ack: Ack, out: &mut Writer) -> bool {
 
 fn write_answer(answer: &Answer, view: &View, out: &mut Writer) -> bool {
     match *answer {
-        Answer::Refusal(request, refusal) => text::write_refusal(request, refusal, out),
+        Answer::Refusal { request, reason } => text::write_refusal(request, reason, out),
         Answer::Report(report) => telemetry::write(report, view, out),
         Answer::Mission { request, mission_type, to } => services::write_mission(request, mission_type, to, out),
         Answer::File { request, to } => services::write_file(request, to, out),
         Answer::NoLogs => services::write_no_logs(out),
         Answer::NoSerial { device } => services::write_no_serial(device, out),
-        Answer::NoExtendedParams => services::write_no_extended_params(out),
+        Answer::ExtendedParams(request) => services::write_no_extended_params(&request, out),
         Answer::Timesync { tc1, ts1, to: (target_system, target_component) } => {
             out.write(&TIMESYNC_DATA { tc1, ts1, target_system, target_component })
         }

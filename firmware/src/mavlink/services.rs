@@ -1,12 +1,13 @@
 //! Services that ground stations ask for and the vehicle does not have: missions, files, logs, extended parameters, consoles. Each is answered at once,
 //! because a client that is not answered waits for seconds, and then again.
 
+use glissade_dialect::mavlink_core::types::CharArray;
 use glissade_dialect::{
     FILE_TRANSFER_PROTOCOL_DATA, LOG_ENTRY_DATA, MISSION_ACK_DATA, MISSION_COUNT_DATA, MISSION_CURRENT_DATA,
-    MavMissionResult, PARAM_EXT_VALUE_DATA, SERIAL_CONTROL_DATA,
+    MavMissionResult, PARAM_EXT_ACK_DATA, PARAM_EXT_VALUE_DATA, SERIAL_CONTROL_DATA,
 };
 
-use super::incoming::{FileRequest, MissionRequest, Sender};
+use super::incoming::{ExtendedRequest, FileRequest, MissionRequest, Sender};
 use super::writer::Writer;
 
 /// Answers a message of the mission protocol: every list is empty, and takes no items. False if it does not fit.
@@ -17,11 +18,13 @@ pub(super) fn write_mission(request: MissionRequest, mission_type: u8, to: Sende
             return out.write(&MISSION_COUNT_DATA { target_system, target_component, count: 0, mission_type });
         }
         MissionRequest::SetCurrent => {
-            return out.write(&MISSION_CURRENT_DATA { mission_state: 1, ..MISSION_CURRENT_DATA::DEFAULT });
+            // There is no mission, and so no number of its items.
+            let current = MISSION_CURRENT_DATA { total: u16::MAX, mission_state: 1, ..MISSION_CURRENT_DATA::DEFAULT };
+            return out.write(&current);
         }
         MissionRequest::Clear => MavMissionResult::MAV_MISSION_ACCEPTED,
         MissionRequest::Item => MavMissionResult::MAV_MISSION_INVALID_SEQUENCE,
-        MissionRequest::Upload => MavMissionResult::MAV_MISSION_UNSUPPORTED,
+        MissionRequest::Upload | MissionRequest::Part => MavMissionResult::MAV_MISSION_UNSUPPORTED,
     };
     out.write(&MISSION_ACK_DATA { target_system, target_component, mavtype: result as u8, mission_type })
 }
@@ -70,9 +73,23 @@ pub(super) fn write_no_serial(device: u8, out: &mut Writer) -> bool {
     out.write(&SERIAL_CONTROL_DATA { device, flags: SERIAL_REPLY, ..SERIAL_CONTROL_DATA::DEFAULT })
 }
 
+/// `PARAM_ACK_FAILED`.
+const FAILED: u8 = 2;
+
 /// Answers a request for extended parameters: there are none. False if it does not fit.
-pub(super) fn write_no_extended_params(out: &mut Writer) -> bool {
-    out.write(&PARAM_EXT_VALUE_DATA::DEFAULT)
+pub(super) fn write_no_extended_params(request: &ExtendedRequest, out: &mut Writer) -> bool {
+    match *request {
+        ExtendedRequest::List => out.write(&PARAM_EXT_VALUE_DATA::DEFAULT),
+        ExtendedRequest::Read { name } => {
+            out.write(&PARAM_EXT_VALUE_DATA { param_id: CharArray::new(name), ..PARAM_EXT_VALUE_DATA::DEFAULT })
+        }
+        ExtendedRequest::Set { name, kind } => out.write(&PARAM_EXT_ACK_DATA {
+            param_id: CharArray::new(name),
+            param_type: kind,
+            param_result: FAILED,
+            ..PARAM_EXT_ACK_DATA::DEFAULT
+        }),
+    }
 }
 
 /// Answers a request for logs: there are none. False if it does not fit.

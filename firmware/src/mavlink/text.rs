@@ -4,14 +4,14 @@ use glissade_dialect::mavlink_core::types::CharArray;
 use glissade_dialect::{MavSeverity, STATUSTEXT_DATA};
 
 use super::writer::Writer;
-use crate::commander::{Event, Refusal};
+use crate::commander::Event;
 
 /// Length of a text in its message.
 const LENGTH: usize = 50;
 
 /// Sends why a command was refused; false if it does not fit.
-pub(super) fn write_refusal(request: &str, refusal: Refusal, out: &mut Writer) -> bool {
-    write(&[request, " refused: ", refusal.reason()], MavSeverity::MAV_SEVERITY_WARNING, out)
+pub(super) fn write_refusal(request: &str, reason: &str, out: &mut Writer) -> bool {
+    write(&[request, " refused: ", reason], MavSeverity::MAV_SEVERITY_WARNING, out)
 }
 
 /// Sends an event; false if it does not fit.

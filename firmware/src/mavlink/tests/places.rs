@@ -7,6 +7,7 @@ use super::status::status;
 use super::*;
 use crate::commander::TAKE_OFF_HEIGHT_M;
 use crate::estimator::status::Status;
+use crate::frames::Origin as MapOrigin;
 
 const TAKEOFF: u16 = 22;
 const SET_HOME: u16 = 179;
@@ -98,6 +99,7 @@ fn home_is_set_here_or_at_a_place() {
     for (bytes, result) in [
         (long(SET_HOME, 0.0, 0.0), MavResult::MAV_RESULT_COMMAND_INT_ONLY),
         (long(SET_HOME, 2.0, 0.0), MavResult::MAV_RESULT_DENIED),
+        (int(SET_HOME, 0, f32::NAN, there, 446.0), MavResult::MAV_RESULT_DENIED),
         (int(SET_HOME, 1, 0.0, there, 0.0), MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME),
         (int(SET_HOME, 0, 0.0, [900_000_001, 0], 0.0), MavResult::MAV_RESULT_DENIED),
         (int(SET_HOME, 0, 0.0, [0, i32::MIN], 0.0), MavResult::MAV_RESULT_DENIED),
@@ -106,9 +108,63 @@ fn home_is_set_here_or_at_a_place() {
         assert_eq!(bench.result_of(&bytes), Some(result));
     }
     bench.input.estimator = Some(status());
-    let result = bench.result_of(&int(SET_HOME, 0, 0.0, there, 446.0));
-    assert_eq!(result, Some(MavResult::MAV_RESULT_TEMPORARILY_REJECTED), "no map");
+    let messages = bench.job(&int(SET_HOME, 0, 0.0, there, 446.0));
+    let [MavMessage::COMMAND_ACK(ack), MavMessage::STATUSTEXT(text)] = messages.as_slice() else {
+        panic!("{messages:?}")
+    };
+    assert_eq!(ack.result, MavResult::MAV_RESULT_TEMPORARILY_REJECTED);
+    assert_eq!(text.text.to_str(), Ok("Setting home refused: origin unknown"));
     assert!(bench.commands.is_empty());
+}
+
+#[test]
+fn a_home_at_a_relative_height_is_the_same_however_often_it_is_set() {
+    let mut bench = landed();
+    for frame in [3, 6] {
+        for home_m in [0.0, 5.0, 20.0] {
+            bench.input.home = Some(Vector3::new(0.0, 0.0, home_m));
+            bench.job(&int(SET_HOME, frame, 0.0, [473_977_100, 85_456_100], 5.0));
+            let Some(Command { request: Request::SetHome { position_m: Some([_, _, up]) }, .. }) = bench.commands.pop()
+            else {
+                panic!("no home")
+            };
+            assert!(crate::math::abs(up - 5.0) < 2e-3, "{up} m from a home at {home_m} m");
+        }
+    }
+}
+
+#[test]
+fn a_home_that_follows_a_noisy_estimate_is_told_at_its_interval() {
+    let mut bench = landed();
+    let told = |bench: &mut Bench, jobs: u32| {
+        let messages: Vec<_> = (0..jobs)
+            .flat_map(|job| {
+                let noise = if job % 2 == 0 { 0.3 } else { -0.3 };
+                bench.input.home = Some(Vector3::new(noise, -noise, 0.1));
+                bench.job(&[])
+            })
+            .collect();
+        [242, 49].map(|id| count(&messages, id))
+    };
+    bench.set_interval(242.0, 2e6);
+    bench.set_interval(49.0, 5e6);
+    told(&mut bench, 10);
+    assert_eq!(told(&mut bench, 1_000), [5, 2], "every 2 s and every 5 s");
+    bench.ground.links[0].telemetry.set_interval(bench.tick, 242.0, 10e6).expect("allowed");
+    told(&mut bench, 10);
+    assert_eq!(told(&mut bench, 900), [0, 1], "every 10 s");
+    // Armed it stands still: whatever moves it is news, and so is the arming.
+    bench.input.armed = true;
+    assert_eq!(count(&bench.job(&[]), 242), 1);
+    assert_eq!(count(&bench.jobs(50), 242), 0);
+    bench.input.home = Some(Vector3::new(0.5, 0.0, 0.0));
+    assert_eq!(count(&bench.job(&[]), 242), 1);
+    assert_eq!(count(&bench.jobs(50), 242), 0);
+    // Another origin is another place of home too.
+    let place = crate::sensors::Geodetic { latitude_e7: 473_000_000, ..ORIGIN.place };
+    bench.input.estimator = Some(Status { origin: Some(MapOrigin { place, ..ORIGIN }), ..status() });
+    let messages = bench.job(&[]);
+    assert_eq!([242, 49].map(|id| count(&messages, id)), [1, 1]);
 }
 
 #[test]
@@ -153,4 +209,32 @@ fn a_vehicle_without_gnss_is_given_a_map() {
     assert_eq!(origin(&mut bench), Some((473_977_000, 85_456_000, 441_000)));
     bench.input.estimator = None;
     assert_eq!(origin(&mut bench), Some((473_977_000, 85_456_000, 441_000)), "as it was set");
+}
+
+#[test]
+fn an_origin_that_is_sent_is_answered_by_the_one_in_effect() {
+    let place = |messages: &[MavMessage]| match messages {
+        [MavMessage::GPS_GLOBAL_ORIGIN(told)] => Some((told.latitude, told.longitude, told.altitude)),
+        _ => None,
+    };
+    let reason = |messages: &[MavMessage]| match messages {
+        [MavMessage::STATUSTEXT(text)] => text.text.to_str().map(str::to_owned).ok(),
+        _ => None,
+    };
+    let mut bench = Bench::silent();
+    let refused = reason(&bench.job(&set_origin(900_000_001, 0, 0)));
+    assert_eq!(refused.as_deref(), Some("Setting the origin refused: no place on Earth"));
+    bench.input.armed = true;
+    let refused = reason(&bench.job(&set_origin(1, 2, 3)));
+    assert_eq!(refused.as_deref(), Some("Setting the origin refused: vehicle armed"));
+    bench.input.armed = false;
+    for there in [(1, 2, 3), (473_977_000, 85_456_000, 441_000)] {
+        assert_eq!(place(&bench.job(&set_origin(there.0, there.1, there.2))), Some(there), "set, and told at once");
+    }
+    bench.input.armed = true;
+    assert_eq!(place(&bench.job(&set_origin(1, 2, 3))), Some((473_977_000, 85_456_000, 441_000)), "as it was");
+    let place_of_gnss = crate::sensors::Geodetic { latitude_e7: 473_000_000, ..ORIGIN.place };
+    bench.input.estimator = Some(Status { origin: Some(MapOrigin { place: place_of_gnss, ..ORIGIN }), ..status() });
+    bench.input.armed = false;
+    assert_eq!(place(&bench.job(&set_origin(1, 2, 3))), Some((473_000_000, 85_456_000, 441_000)), "by GNSS");
 }

@@ -2,8 +2,9 @@
 
 use glissade_dialect::{
     FILE_TRANSFER_PROTOCOL_DATA, LOG_REQUEST_DATA_DATA, LOG_REQUEST_LIST_DATA, MISSION_CLEAR_ALL_DATA,
-    MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MISSION_SET_CURRENT_DATA, MavMissionResult,
-    PARAM_EXT_REQUEST_LIST_DATA, SERIAL_CONTROL_DATA,
+    MISSION_COUNT_DATA, MISSION_ITEM_INT_DATA, MISSION_REQUEST_INT_DATA, MISSION_REQUEST_PARTIAL_LIST_DATA,
+    MISSION_SET_CURRENT_DATA, MavMissionResult, PARAM_EXT_REQUEST_LIST_DATA, PARAM_EXT_REQUEST_READ_DATA,
+    PARAM_EXT_SET_DATA, SERIAL_CONTROL_DATA,
 };
 
 use super::*;
@@ -21,10 +22,18 @@ fn missions_take_nothing_have_nothing_and_say_so() {
     let upload = MISSION_COUNT_DATA { target_system, count: 3, mission_type: 1, ..MISSION_COUNT_DATA::DEFAULT };
     let item = MISSION_ITEM_INT_DATA { target_system, mission_type: 1, ..MISSION_ITEM_INT_DATA::DEFAULT };
     let request = MISSION_REQUEST_INT_DATA { target_system, mission_type: 1, ..MISSION_REQUEST_INT_DATA::DEFAULT };
+    let nothing = MISSION_COUNT_DATA { count: 0, ..upload.clone() };
+    let part = MISSION_REQUEST_PARTIAL_LIST_DATA {
+        target_system,
+        mission_type: 1,
+        ..MISSION_REQUEST_PARTIAL_LIST_DATA::DEFAULT
+    };
     let clear = MISSION_CLEAR_ALL_DATA { target_system, mission_type: 1, ..MISSION_CLEAR_ALL_DATA::DEFAULT };
     for (answer, result) in [
         (answer(&upload), MavMissionResult::MAV_MISSION_UNSUPPORTED),
         (answer(&item), MavMissionResult::MAV_MISSION_UNSUPPORTED),
+        (answer(&part), MavMissionResult::MAV_MISSION_UNSUPPORTED),
+        (answer(&nothing), MavMissionResult::MAV_MISSION_ACCEPTED),
         (answer(&request), MavMissionResult::MAV_MISSION_INVALID_SEQUENCE),
         (answer(&clear), MavMissionResult::MAV_MISSION_ACCEPTED),
     ] {
@@ -33,7 +42,7 @@ fn missions_take_nothing_have_nothing_and_say_so() {
     }
     let set = answer(&MISSION_SET_CURRENT_DATA { target_system, seq: 2, ..MISSION_SET_CURRENT_DATA::DEFAULT });
     let MavMessage::MISSION_CURRENT(current) = set else { panic!("{set:?}") };
-    assert_eq!((current.seq, current.total, current.mission_state), (0, 0, 1), "there is no mission");
+    assert_eq!((current.seq, current.total, current.mission_state), (0, u16::MAX, 1), "there is no mission");
 }
 
 #[test]
@@ -63,6 +72,19 @@ fn there_are_no_logs_no_extended_parameters_and_nothing_on_a_console() {
     let extended = answer(&PARAM_EXT_REQUEST_LIST_DATA { target_system, target_component });
     let MavMessage::PARAM_EXT_VALUE(extended) = extended else { panic!("{extended:?}") };
     assert_eq!(extended.param_count, 0);
+    let read =
+        PARAM_EXT_REQUEST_READ_DATA { target_system, target_component, param_id: "CAM_MODE".into(), param_index: -1 };
+    let MavMessage::PARAM_EXT_VALUE(none) = answer(&read) else { panic!("no PARAM_EXT_VALUE") };
+    assert_eq!((none.param_id.to_str(), none.param_count), (Ok("CAM_MODE"), 0));
+    let set = PARAM_EXT_SET_DATA {
+        target_system,
+        target_component,
+        param_id: "CAM_MODE".into(),
+        param_value: "1".into(),
+        param_type: 6,
+    };
+    let MavMessage::PARAM_EXT_ACK(ack) = answer(&set) else { panic!("no PARAM_EXT_ACK") };
+    assert_eq!((ack.param_id.to_str(), ack.param_type, ack.param_result), (Ok("CAM_MODE"), 6, 2), "failed");
     let serial = answer(&SERIAL_CONTROL_DATA { device: 10, flags: 2, ..SERIAL_CONTROL_DATA::DEFAULT });
     let MavMessage::SERIAL_CONTROL(serial) = serial else { panic!("{serial:?}") };
     assert_eq!((serial.device, serial.flags, serial.count), (10, 1, 0));
