@@ -200,7 +200,8 @@ impl Link {
 
     /// Writes what is to be said and fits: failures, acknowledgements, answers, settings, telemetry.
     pub(super) fn write(&mut self, view: &View, settings: &Settings, port: &Port) {
-        let errors = self.parser.bad_checksums().saturating_add(port.lost()).saturating_add(self.outbox.lost());
+        let unanswered = self.outbox.lost().saturating_add(self.params.lost());
+        let errors = self.parser.bad_checksums().saturating_add(port.lost()).saturating_add(unanswered);
         let view = View { errors, ..*view };
         let mut out = Writer::new(port, &mut self.sequence, view.us);
         let share = self.line.share(out.waiting());

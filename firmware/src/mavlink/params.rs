@@ -97,7 +97,7 @@ struct Refusal {
 }
 
 /// Errors that wait at most; a sender repeats a request whose answer is lost.
-const ERRORS_MAX: usize = 8;
+const ERRORS_MAX: usize = 32;
 
 /// What one link is still to be sent.
 #[derive(Clone, Debug, Default)]
@@ -107,6 +107,8 @@ pub(super) struct Params {
     /// Index of the list's next value, and how many values are still to come.
     listing: Option<(usize, usize)>,
     errors: heapless::Deque<Refusal, ERRORS_MAX>,
+    /// Errors that found the queue full, since the link was opened.
+    lost: u32,
 }
 
 impl Params {
@@ -146,7 +148,12 @@ impl Params {
     }
 
     fn refuse(&mut self, refusal: Refusal) {
-        let _ = self.errors.push_back(refusal);
+        self.lost = self.lost.saturating_add(self.errors.push_back(refusal).is_err().into());
+    }
+
+    /// Errors that were lost since the link was opened.
+    pub(super) fn lost(&self) -> u32 {
+        self.lost
     }
 
     /// Sends what fits of the answers: errors, then the values that were asked for one by one, set or changed.

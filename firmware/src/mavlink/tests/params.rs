@@ -136,6 +136,10 @@ fn a_burst_of_reads_is_answered_one_and_all() {
         values(&messages).iter().map(|value| value.param_index).collect::<Vec<_>>(),
         (0..12).collect::<Vec<_>>()
     );
+    // As many as 2,048 bytes hold of what there is not.
+    let mut messages = bench.job(&read(-1, "NO_SUCH").repeat(32));
+    messages.extend(bench.jobs(10));
+    assert_eq!(errors(&messages).len(), 32);
 }
 
 #[test]
