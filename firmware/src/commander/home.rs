@@ -3,14 +3,25 @@
 use nalgebra::Vector3;
 
 use super::{Commander, CommanderInput, Refusal, State};
+use crate::math;
 
 impl Commander {
     /// Sets home to a place, m, or to the present position.
     pub(super) fn set_home(&mut self, place: Option<[f32; 3]>, input: &CommanderInput) -> Result<(), Refusal> {
         self.check_position(input)?;
+        let before = self.home;
         self.home = place.map_or(input.nav.position, Vector3::from);
         self.home_is_set = true;
+        if self.home.z != before.z && matches!(self.state, State::Return { .. }) {
+            // Sideways it follows home anyway.
+            self.state = self.return_from(input.nav.position.z);
+        }
         Ok(())
+    }
+
+    /// A return that begins at a height (z, m).
+    pub(super) fn return_from(&self, height: f32) -> State {
+        State::Return { at_m: math::max(self.home.z + self.settings.return_height_m, height), climbs: true }
     }
 
     /// Home, if it is known. A disarmed vehicle's home is where it stands: that is where it would be armed.

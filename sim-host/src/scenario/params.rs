@@ -33,6 +33,8 @@ fn accept(settings: &Settings, name: &str, number: f64) -> Result<()> {
     }
     let is_whole = f64::from(value.int()) == number;
     let rule = match setting.domain {
+        // As the firmware compares: the f32 nearest to a bound is a value that a ground station may have set.
+        Domain::Real(_) if (setting.min().real()..=setting.max().real()).contains(&value.real()) => return Ok(()),
         Domain::Real(_) => return within(&key, number, decimal(setting.min()), decimal(setting.max())),
         Domain::Whole(low, high) if !is_whole || !(low..=high).contains(&value.int()) => {
             format!("must be a whole number from {low} to {high}")

@@ -151,6 +151,21 @@ fn a_setting_of_another_kind_takes_the_place_of_the_files() {
 }
 
 #[test]
+fn whatever_a_ground_station_may_set_is_accepted_at_the_next_start() {
+    use firmware::settings::{Class, SETTINGS};
+    let plain = Scenario::load("x500-step", &[]).expect("valid");
+    for (index, setting) in SETTINGS.iter().enumerate().filter(|(_, setting)| setting.class != Class::ReadOnly) {
+        for bound in [setting.min(), setting.max()] {
+            let mut settings = plain.settings();
+            if settings.set(index, bound, false).is_ok() {
+                let again = plain.clone().with_settings(&settings);
+                assert!(again.is_ok(), "{} {bound:?}: {:#}", setting.name, again.unwrap_err());
+            }
+        }
+    }
+}
+
+#[test]
 fn parameters_take_the_place_of_what_the_scenario_gives_and_flow_back_into_it() {
     let keys = ["params.SMC_X_LAW=5", "params.SMC_X_HORIZ=0.2", "params.MPC_XY_CRUISE=3", "params.MAV_SYS_ID=7"];
     let scenario = Scenario::load("x500-step", &keys.map(str::to_owned)).expect("valid");
