@@ -2,7 +2,6 @@
 
 use super::{Commander, CommanderInput, Intent, Outcome, Override, Refusal, Request, State, VELOCITY_TIMEOUT_S};
 use super::{after_landing, ticks};
-use crate::math;
 use crate::signals::Tick;
 
 /// An intent to leave the ground is held for this time while disarmed, s. Ground stations ask for a take-off, wait for
@@ -43,6 +42,7 @@ impl Commander {
         if !self.home_is_set {
             self.home = input.nav.position;
         }
+        self.ground_m = input.nav.position.z;
         self.battery_answered = super::Charge::Good;
         self.station.rearm();
         self.state = State::Idle { disarm_at: None };
@@ -172,9 +172,7 @@ impl Commander {
             }
             Intent::GoTo { position, yaw } => State::GoTo { position, yaw },
             Intent::Velocity { velocity, yaw_rate } => State::Velocity { velocity, yaw_rate },
-            Intent::Return => {
-                State::Return { at_m: math::max(self.home.z + self.settings.return_height_m, height), climbs: true }
-            }
+            Intent::Return => self.return_from(height),
             Intent::Follow if matches!(self.state, State::Idle { .. }) => State::Follow { since: effective },
             Intent::Follow => State::Join,
             Intent::Land => State::Land,

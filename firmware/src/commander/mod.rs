@@ -40,7 +40,7 @@ use self::checks::is_slow;
 use self::station::StationLoss;
 use self::watch::{BatteryWatch, Charge, GroundWatch, NavWatch};
 use crate::config::{FlightConfig, ModeSettings, Start};
-use crate::guidance::Guidance;
+use crate::guidance::{Guidance, setpoint};
 use crate::latest::Latest;
 use crate::math;
 use crate::schedule::COMMANDER;
@@ -138,6 +138,8 @@ pub struct Commander {
     home: Vector3<f32>,
     /// Whether a pilot has set it since the vehicle was last disarmed.
     home_is_set: bool,
+    /// z of the ground where it was armed, or has landed since, m.
+    ground_m: f32,
     navigation: NavWatch,
     battery: BatteryWatch,
     ground: GroundWatch,
@@ -157,8 +159,10 @@ const AT_HEIGHT_M: f32 = 0.3;
 pub(crate) const AT_PLACE_M: f32 = 0.5;
 /// Acceptance range of a heading, rad.
 const AT_HEADING_RAD: f32 = 0.15;
-/// Below this height over home, m, a landing slows down to the touchdown speed.
+/// Below this height, m, a descent slows down to the touchdown speed at the latest.
 const FINAL_HEIGHT_M: f32 = 2.0;
+/// At this height, m, it has slowed down to it. Chosen: more than the height's error and what the vehicle lags behind.
+const SLOW_HEIGHT_M: f32 = 1.0;
 
 /// The number of ticks in a time.
 const fn ticks(seconds: f32) -> Tick {
@@ -192,6 +196,7 @@ impl Commander {
             kills: 0,
             home: start,
             home_is_set: false,
+            ground_m: start.z,
             navigation: NavWatch::default(),
             battery: BatteryWatch::default(),
             ground: GroundWatch::new(flies, start.z),
@@ -329,6 +334,7 @@ impl Commander {
             }
             State::Return { at_m, climbs: false } if is_at(self.over_home(at_m)) && is_slow(nav) => State::Land,
             State::Land | State::Descent | State::MotorOut if !self.ground.is_airborne() => {
+                self.ground_m = nav.position.z;
                 self.forget_intent();
                 State::Idle { disarm_at: Some(after_landing(effective)) }
             }
@@ -362,9 +368,21 @@ impl Commander {
 
     fn descend(&self, rate_m_s: f32, height: f32, heading_free: bool) -> Directive {
         let known = self.navigation.known();
+        // Home may have been set to below the ground, and the ground there may be higher than where it last stood.
+        let over_ground = height - math::max(self.home.z, self.ground_m);
+        let touchdown_m_s = math::min(rate_m_s, self.settings.touchdown_m_s);
+        let slows_at = math::max(FINAL_HEIGHT_M, self.slowing_m(rate_m_s, touchdown_m_s) + SLOW_HEIGHT_M);
         // At an unknown height the ground may be anywhere.
-        let may_touch = known >= Known::Climb || height - self.home.z < FINAL_HEIGHT_M;
-        let rate_m_s = if may_touch { math::min(rate_m_s, self.settings.touchdown_m_s) } else { rate_m_s };
-        Directive::Descend { rate_m_s, known, heading_free }
+        let may_touch = known >= Known::Climb || over_ground < slows_at;
+        Directive::Descend { rate_m_s: if may_touch { touchdown_m_s } else { rate_m_s }, known, heading_free }
+    }
+
+    /// The height that a descent takes to slow down, m: the setpoint's braking and its delay.
+    fn slowing_m(&self, rate_m_s: f32, touchdown_m_s: f32) -> f32 {
+        let settings = &self.settings;
+        let faster_by = math::max(math::min(rate_m_s, settings.sink_m_s) - touchdown_m_s, 0.0);
+        let (braking_s, delay_s) = (faster_by / settings.vertical_acceleration_m_s2, setpoint::delay_s(settings));
+        // Twice the delay after the end of the braking, a fifteenth of its last change is left.
+        touchdown_m_s * (braking_s + 2.0 * delay_s) + faster_by * (0.5 * braking_s + delay_s)
     }
 }

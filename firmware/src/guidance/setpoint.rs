@@ -115,11 +115,20 @@ fn moved(speed: f32, change: f32) -> (f32, f32) {
     ((speed + 0.5 * change) * STEP_S, change)
 }
 
-/// Fraction of the distance to its input that a lag covers per step, for which the jerk is limited.
-fn step_fraction(limits: &ModeSettings) -> f32 {
+/// Time constant of a lag for which the jerk is limited, s.
+fn time_constant_s(limits: &ModeSettings) -> f32 {
     let fastest = math::max(limits.acceleration_m_s2, limits.vertical_acceleration_m_s2);
-    let time_constant = KERNEL * fastest / limits.jerk_m_s3;
-    1.0 - math::exp(-STEP_S / time_constant)
+    KERNEL * fastest / limits.jerk_m_s3
+}
+
+/// Delay of the reference behind the course, s.
+pub(crate) fn delay_s(limits: &ModeSettings) -> f32 {
+    3.0 * time_constant_s(limits)
+}
+
+/// Fraction of the distance to its input that a lag covers per step.
+fn step_fraction(limits: &ModeSettings) -> f32 {
+    1.0 - math::exp(-STEP_S / time_constant_s(limits))
 }
 
 /// Fraction of the acceleration that braking is planned with; the rest keeps the course on its line.

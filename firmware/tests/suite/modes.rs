@@ -14,7 +14,7 @@ use firmware::inner::Inner;
 use firmware::latest::Latest;
 use firmware::outer::{Authority, Outer, OuterInput, OuterOutput};
 use firmware::schedule::{COMMANDER, OUTER};
-use firmware::settings::Changes;
+use firmware::settings::{COUNT, Changes, Settings};
 use firmware::signals::{MotorCommand, NavHealth, NavState, SensorFrame, TICK_S, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -73,6 +73,7 @@ struct Vehicle {
     health: NavHealth,
     spoil: Spoil,
     events: Vec<Event>,
+    config: FlightConfig,
 }
 
 impl Vehicle {
@@ -97,6 +98,7 @@ impl Vehicle {
             health: NavHealth::ALL,
             spoil: |_, _| {},
             events: Vec::new(),
+            config: config.clone(),
         }
     }
 
@@ -136,6 +138,20 @@ impl Vehicle {
         self.motors = output.motors;
         self.body.step(&self.motors);
         self.tick += 1;
+    }
+
+    /// Takes over what can be set in flight of another configuration.
+    fn take_over(&mut self, config: &FlightConfig) {
+        let settings = Settings::of(config);
+        let mut before = Settings::of(&self.config);
+        for index in 0..COUNT {
+            let value = settings.get(index).expect("a setting");
+            if before.get(index) != Some(value) {
+                let change = before.set(index, value, true).expect("accepted");
+                (self.commander.apply(&change), self.outer.apply(&change), self.inner.apply(&change));
+            }
+        }
+        self.config = config.clone();
     }
 
     fn ask(&mut self, request: Request) {
@@ -393,4 +409,56 @@ fn without_a_height_it_comes_down_by_its_vertical_velocity_and_lands() {
     assert!(sideways < 0.3 && down < 1.2, "{sideways} m, {down} m/s");
     vehicle.until(Mode::Disarmed, 20.0);
     assert_eq!(vehicle.events, [Event::HeightLost]);
+}
+
+/// Lands, and the speed of the touchdown, m/s.
+fn touch_down(vehicle: &mut Vehicle) -> f32 {
+    vehicle.ask(Request::Land);
+    let (mut speed, end) = (0.0, vehicle.tick + 90_000);
+    while vehicle.body.nav.position.z > 0.0 {
+        speed = -vehicle.body.nav.velocity.z;
+        vehicle.tick();
+        assert!(vehicle.tick < end, "{:?}", vehicle.body.nav);
+    }
+    speed
+}
+
+#[test]
+fn a_fast_landing_slows_down_in_time() {
+    for (down_m_s, vertical_acceleration_m_s2, jerk_m_s3) in
+        [(0.7, 2.0, 10.0), (3.0, 2.0, 10.0), (5.0, 2.0, 10.0), (5.0, 1.0, 10.0), (5.0, 2.0, 2.0), (8.0, 4.0, 40.0)]
+    {
+        let mut config = config();
+        let modes = &mut config.modes;
+        (modes.landing_m_s, modes.sink_m_s) = (down_m_s, down_m_s);
+        let mut vehicle = Vehicle::airborne(&config);
+        vehicle.ask(Request::GoTo { position_m: [0.0, 0.0, 60.0], yaw_rad: 0.0 });
+        vehicle.run(40.0);
+        let mut slower = config.clone();
+        (slower.modes.vertical_acceleration_m_s2, slower.modes.jerk_m_s3) = (vertical_acceleration_m_s2, jerk_m_s3);
+        vehicle.take_over(&slower);
+        let speed = touch_down(&mut vehicle);
+        assert!((0.3..0.5).contains(&speed), "{down_m_s} m/s, {vertical_acceleration_m_s2} m/s²: {speed} m/s");
+    }
+}
+
+#[test]
+fn a_home_below_the_ground_hastens_no_landing() {
+    let mut vehicle = Vehicle::airborne(&config());
+    vehicle.ask(Request::SetHome { position_m: Some([0.0, 0.0, -100.0]) });
+    let speed = touch_down(&mut vehicle);
+    assert!((0.3..0.5).contains(&speed), "{speed} m/s");
+}
+
+#[test]
+fn a_return_follows_a_home_that_is_corrected_in_height() {
+    let mut vehicle = Vehicle::airborne(&config());
+    vehicle.ask(Request::SetHome { position_m: Some([5.0, 0.0, 1000.0]) });
+    vehicle.ask(Request::Return);
+    vehicle.run(10.0);
+    let before = vehicle.body.nav.position.z;
+    assert!(before > 15.0 && vehicle.told.mode == Mode::Return);
+    vehicle.ask(Request::SetHome { position_m: Some([5.0, 0.0, 0.0]) });
+    vehicle.until(Mode::Land, 20.0);
+    vehicle.assert_near([5.0, 0.0, before], 3.0);
 }
