@@ -249,11 +249,12 @@ impl Commander {
             self.stop();
         }
         for command in &input.commands {
-            // Which of the two came first is not known: a kill is not undone by an arming of the same job.
-            let outcome = if killed && matches!(command.request, Request::Arm { .. }) {
-                Outcome::TemporarilyRejected(Refusal::Moving)
-            } else {
-                self.decide(&command.request, effective, input)
+            // Which of the two came first is not known: a kill is not undone by an arming of the same job, nor does a
+            // flight that was asked for before it begin with the next arming.
+            let outcome = match (&command.request, Intent::of(&command.request)) {
+                (Request::Arm { .. }, _) if killed => Outcome::TemporarilyRejected(Refusal::Moving),
+                (_, Some(_)) if killed => Outcome::TemporarilyRejected(Refusal::Disarmed),
+                (request, _) => self.decide(request, effective, input),
             };
             // As many replies fit as commands.
             let _ = replies.push(Reply { command: *command, outcome });

@@ -37,6 +37,22 @@ fn a_take_off_asked_for_while_disarmed_is_flown_when_armed() {
 }
 
 #[test]
+fn a_flight_asked_for_in_the_job_of_a_kill_is_refused_and_the_next_arming_does_not_begin_it() {
+    for request in [TAKE_OFF, Request::Follow, Request::Hold, Request::Land, Request::Return, GO_TO, VELOCITY, ARM] {
+        for state in [State::Disarmed, State::Idle { disarm_at: None }] {
+            let mut bench = Bench::new(state);
+            let killed = CommanderInput { kills: 1, ..standing() };
+            let outcome = bench.ask(request, &killed);
+            assert!(matches!(outcome, Outcome::TemporarilyRejected(_)), "{request:?}: {outcome:?}");
+            assert_eq!(bench.commander.intent, Intent::Hold);
+            assert_eq!(bench.ask(ARM, &killed), Outcome::Accepted);
+            bench.run(5.0, &killed);
+            assert_eq!(bench.commander.state, State::Idle { disarm_at: None }, "{request:?}");
+        }
+    }
+}
+
+#[test]
 fn a_later_arming_does_not_launch_the_vehicle() {
     type Meanwhile = fn(&mut Bench);
     let disarmed: Meanwhile = |bench| assert_eq!(bench.ask(Request::Disarm, &standing()), Outcome::Accepted);
