@@ -239,14 +239,17 @@ impl Ground {
         if output.kill {
             self.links.iter_mut().for_each(Link::refuse_waiting);
         }
-        self.pass_on_commands(&mut output);
+        if input.changes_taken {
+            output.changes = self.settings.take_changes();
+        }
+        // What can be set while disarmed only is in effect before an arming that is asked for after it.
+        if input.armed || self.settings.next_disarmed_change().is_none() {
+            self.pass_on_commands(&mut output);
+        }
         for reply in &input.replies {
             if let Some(link) = self.links.get_mut(usize::from(reply.link)) {
                 link.reply(reply);
             }
-        }
-        if input.changes_taken {
-            output.changes = self.settings.take_changes();
         }
         output.latest = self.latest;
         let view = if self.set_origin == origin_before {

@@ -59,7 +59,7 @@ const fn choice(
     place: Place,
 ) -> Setting {
     let (domain, key) = (Domain::Whole(0, greatest), Field::of(group, key));
-    Setting { name, unit: "", text, class: Class::InFlight, domain, scale: 1.0, default: None, key, place }
+    Setting { name, unit: "", text, class: Class::Disarmed, domain, scale: 1.0, default: None, key, place }
 }
 
 /// Access to a number of axis `$i`.

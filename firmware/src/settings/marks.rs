@@ -25,6 +25,11 @@ impl Marks {
         }
     }
 
+    /// Whether it is in the set.
+    pub(crate) fn has(&self, index: usize) -> bool {
+        self.words.get(index / 32).is_some_and(|word| word & (1 << (index % 32)) != 0)
+    }
+
     /// The one with the least index.
     pub(crate) fn first(&self) -> Option<usize> {
         let word = self.words.iter().position(|word| *word != 0)?;

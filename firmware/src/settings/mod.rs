@@ -310,22 +310,39 @@ impl Settings {
         axes::law_has(code, row)
     }
 
-    /// The next changes for the owners, in the order of the table; a law comes together with its numbers.
+    /// The next changes for the owners: first those that can be set while disarmed only, then in the order of the table; a
+    /// law comes together with its numbers.
     pub fn take_changes(&mut self) -> Changes {
         let mut changes = Changes::new();
-        while let Some(index) = self.unsent.first() {
-            let is_law = index.checked_sub(FIRST_AXIS).is_some_and(axes::is_law);
-            let needed = if is_law { LAW_CHANGES } else { 1 };
+        while let Some(index) = self.next_disarmed_change().or_else(|| self.unsent.first()) {
+            let law = index.checked_sub(FIRST_AXIS).filter(|row| axes::is_law(*row));
+            let needed = if law.is_some() { LAW_CHANGES } else { 1 };
             if changes.len() + needed > CHANGES_MAX {
                 break;
             }
-            self.unsent.clear(index);
-            if let Some(value) = self.get(index) {
-                // There is room, as was asked above.
-                let _ = changes.push(self.change(index, value));
+            self.take_change(index, &mut changes);
+            for number in law.into_iter().flat_map(axes::numbers_of).map(|row| FIRST_AXIS + row) {
+                if self.unsent.has(number) {
+                    self.take_change(number, &mut changes);
+                }
             }
         }
         changes
+    }
+
+    fn take_change(&mut self, index: usize, changes: &mut Changes) {
+        self.unsent.clear(index);
+        if let Some(value) = self.get(index) {
+            // There is room, as was asked before.
+            let _ = changes.push(self.change(index, value));
+        }
+    }
+
+    /// The next change of a setting that can be set while disarmed only: it is to be in effect before the next arming.
+    pub(crate) fn next_disarmed_change(&self) -> Option<usize> {
+        self.unsent.first()?;
+        let is_disarmed = |index: usize| SETTINGS.get(index).is_some_and(|setting| setting.class == Class::Disarmed);
+        (0..COUNT).find(|index| self.unsent.has(*index) && is_disarmed(*index))
     }
 
     /// The next value to be saved. The caller waits with it until the vehicle is disarmed.

@@ -240,7 +240,7 @@ fn a_law_is_sent_together_with_its_numbers() {
     for name in ["SMC_X_LAMBDA", "SMC_X_K"] {
         settings.set(index(name), Value::Real(1.5), true).expect("in range");
     }
-    settings.set(index("SMC_X_LAW"), Value::Int(7), true).expect("in range");
+    settings.set(index("SMC_X_LAW"), Value::Int(7), false).expect("in range");
     let mut law = crate::config::FlightConfig::default().position;
     let mut batches = Vec::new();
     loop {
@@ -258,7 +258,19 @@ fn a_law_is_sent_together_with_its_numbers() {
         assert!(whole, "never a law with other numbers: {:?}", law.axes[0]);
         batches.push(changes.len());
     }
-    assert_eq!((batches, law.axes[0].lambda, law.axes[0].gain), (vec![2, 3], 1.5, 1.5));
+    assert_eq!((batches, law.axes[0].lambda, law.axes[0].gain), (vec![4, 1], 1.5, 1.5));
+}
+
+#[test]
+fn what_is_set_while_disarmed_only_is_sent_before_the_rest() {
+    let mut settings = Settings::of(&whole());
+    for index in (0..COUNT).filter(|index| SETTINGS[*index].class == Class::InFlight) {
+        settings.set(index, other(&settings, index), false).expect("in range");
+    }
+    settings.set(SYS_AUTOSTART, Value::Int(0), false).expect("in range");
+    assert_eq!(settings.next_disarmed_change(), Some(SYS_AUTOSTART));
+    assert_eq!(usize::from(settings.take_changes()[0].index), SYS_AUTOSTART);
+    assert_eq!(settings.next_disarmed_change(), None);
 }
 
 #[test]

@@ -9,11 +9,25 @@ use firmware::settings::{COUNT, Class, SETTINGS, SYS_AUTOSTART, Settings, Value,
 use firmware::signals::{NavState, SensorFrame};
 use glissade_dialect::mavlink_core::types::CharArray;
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
-use glissade_dialect::{MavParamType, PARAM_SET_DATA};
+use glissade_dialect::{COMMAND_LONG_DATA, MavCmd, MavParamType, PARAM_SET_DATA};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::modes::{Body, config};
+
+/// `COMMAND_LONG` to arm.
+fn arm() -> Vec<u8> {
+    let message = COMMAND_LONG_DATA {
+        param1: 1.0,
+        target_system: 1,
+        target_component: 1,
+        command: MavCmd::MAV_CMD_COMPONENT_ARM_DISARM as u16,
+        ..COMMAND_LONG_DATA::default()
+    };
+    let mut frame = MAVLinkV2MessageRaw::new();
+    frame.serialize_message_data(MavHeader { system_id: 255, component_id: 190, sequence: 0 }, &message);
+    frame.raw_bytes().to_vec()
+}
 
 /// `PARAM_SET` of a setting.
 fn param_set(index: usize, value: Value) -> Vec<u8> {
@@ -154,6 +168,26 @@ fn a_vehicle_that_was_never_configured_does_not_arm_not_even_forced() {
     flight.pilot.inner.request(Request::Arm { force: false }).expect("room");
     flight.fly(60);
     assert_eq!(flight.pilot.inner.commander_output().mode, Mode::Idle);
+}
+
+#[test]
+fn what_is_set_while_disarmed_only_is_in_effect_before_an_arming_asked_for_after_it() {
+    for wait in 0..40 {
+        let mut flight = Flight::new(&config());
+        flight.fly(100);
+        let in_flight = SETTINGS.iter().enumerate().filter(|(_, setting)| setting.class == Class::InFlight);
+        for (i, setting) in in_flight.take(30) {
+            let value = Value::Real(0.99 * flight.pilot.ground.settings().get(i).expect("a value").real());
+            if setting.kind() == value.kind() {
+                flight.pilot.ports.first().receive(&param_set(i, value));
+            }
+        }
+        flight.pilot.ports.first().receive(&param_set(SYS_AUTOSTART, Value::Int(0)));
+        flight.fly(wait);
+        flight.pilot.ports.first().receive(&arm());
+        flight.fly(1_000);
+        assert_eq!(flight.pilot.inner.commander_output().mode, Mode::Disarmed, "{wait} ms after");
+    }
 }
 
 #[test]
