@@ -121,6 +121,8 @@ pub enum Range {
     NotNegativeBelow(f32),
     /// A closed interval.
     Within(f32, f32),
+    /// From a value up to below a limit.
+    WithinBelow(f32, f32),
     /// Any finite number.
     Finite,
     /// Any positive finite number.
@@ -133,7 +135,7 @@ impl Range {
         match self {
             Self::Positive | Self::PositiveBelow(_) => SMALLEST,
             Self::NotNegative | Self::NotNegativeBelow(_) => 0.0,
-            Self::Within(low, _) => low,
+            Self::Within(low, _) | Self::WithinBelow(low, _) => low,
             Self::Finite => f32::MIN,
             Self::FinitePositive => f32::MIN_POSITIVE,
         }
@@ -143,7 +145,9 @@ impl Range {
     pub const fn max(self) -> f32 {
         match self {
             Self::Positive | Self::NotNegative => LARGEST,
-            Self::PositiveBelow(limit) | Self::NotNegativeBelow(limit) => limit.next_down(),
+            Self::PositiveBelow(limit) | Self::NotNegativeBelow(limit) | Self::WithinBelow(_, limit) => {
+                limit.next_down()
+            }
             Self::Within(_, high) => high,
             Self::Finite | Self::FinitePositive => f32::MAX,
         }
@@ -167,6 +171,13 @@ impl Range {
                 ConfigError::require_below(field, value, limit)
             }
             Self::Within(low, high) => ConfigError::require_within(field, value, low, high),
+            Self::WithinBelow(low, limit) => {
+                if value < low {
+                    return Err(ConfigError::OutOfRange { field, low, high: limit });
+                }
+                ConfigError::require_within(field, value, low, f32::INFINITY)?;
+                ConfigError::require_below(field, value, limit)
+            }
             Self::Finite | Self::FinitePositive if !value.is_finite() => Err(ConfigError::NonFinite(field)),
             Self::FinitePositive if value <= 0.0 => Err(ConfigError::NotPositive(field)),
             Self::Finite | Self::FinitePositive => Ok(()),

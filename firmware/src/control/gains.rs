@@ -3,6 +3,7 @@
 //! [`ReachingLaw`] is the family of `u_r`, each with its guarantee; [`AxisGains`] adds the surface and the gain K.
 //! [`AxisNumber`] names the numbers among them one by one, with the range of each: validation and settings share it.
 
+use crate::signals::TICK_S;
 use crate::validate::{ConfigError, Field, Range};
 
 /// A reaching law `u_r(s)`, selectable per axis at run time.
@@ -201,11 +202,14 @@ impl AxisNumber {
         Self::Horizon,
     ];
 
-    /// The values for which every law is defined.
+    /// The values for which every law is defined, and that a sampled loop can have: a surface is no faster than some of its
+    /// steps, and a horizon no shorter than one.
     pub const fn range(self) -> Range {
         match self {
             Self::Gain => Range::NotNegative,
             Self::Alpha => Range::PositiveBelow(1.0),
+            Self::Lambda => Range::Within(1e-3, 100.0),
+            Self::Horizon => Range::Within(TICK_S, 1e3),
             _ => Range::Positive,
         }
     }

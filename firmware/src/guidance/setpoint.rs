@@ -75,6 +75,8 @@ pub struct Setpoint {
     limits: ModeSettings,
     /// Fraction of the distance to its input that a lag covers per step, 1 − e^(−h/τ).
     step_fraction: f32,
+    /// Whether that is more than the jerk limit wants: slower lags wait until the reference stands.
+    slows: bool,
     /// Origin of the course's x, y and z, m: whole multiples of [`ANCHORS_M`], which an f32 holds and subtracts exactly.
     anchor: Vector3<f32>,
     /// x, y, z of the course from the anchor, and ψ; and their rates.
@@ -115,10 +117,20 @@ fn moved(speed: f32, change: f32) -> (f32, f32) {
     ((speed + 0.5 * change) * STEP_S, change)
 }
 
+/// Below this the reference stands, m/s, m/s² and rad/s.
+const STANDS: f32 = 1e-3;
+/// The least fraction with which a moving reference is taken over, that of 0.2 s: with slower lags the course would be far
+/// ahead of it, and much faster.
+const FASTER_FRACTION: f32 = STEP_S / 0.2;
+
+/// Greatest time constant of a lag, s: the reference is three of them late. An acceleration that would need more, far beyond
+/// what the jerk suits, exceeds the jerk limit.
+const SLOWEST_S: f32 = 2.0;
+
 /// Time constant of a lag for which the jerk is limited, s.
 fn time_constant_s(limits: &ModeSettings) -> f32 {
     let fastest = math::max(limits.acceleration_m_s2, limits.vertical_acceleration_m_s2);
-    KERNEL * fastest / limits.jerk_m_s3
+    math::min(KERNEL * fastest / limits.jerk_m_s3, SLOWEST_S)
 }
 
 /// Delay of the reference behind the course, s.
@@ -144,6 +156,7 @@ impl Setpoint {
         Self {
             limits: *limits,
             step_fraction: step_fraction(limits),
+            slows: false,
             anchor: Vector3::zeros(),
             place: zero,
             speed: zero,
@@ -155,16 +168,33 @@ impl Setpoint {
     pub fn limit(&mut self, limits: &ModeSettings) {
         let reference = self.reference();
         self.limits = *limits;
-        let fraction = step_fraction(limits);
-        if fraction != self.step_fraction {
-            self.step_fraction = fraction;
+        // Slower lags wait until the reference stands: while it moves, the course would have to be far ahead and too fast.
+        if step_fraction(limits) > self.step_fraction {
             self.start(&reference);
+        } else {
+            self.slows = step_fraction(limits) < self.step_fraction;
+            if self.slows {
+                self.slow_down();
+            }
+        }
+    }
+
+    /// Slower lags, once the reference stands.
+    #[cold]
+    fn slow_down(&mut self) {
+        let moves = |rates: &Vector4<f32>| rates.amax() > STANDS;
+        if !moves(&self.speed) && !self.lags.iter().any(|lag| moves(&lag.velocity) || moves(&lag.acceleration)) {
+            self.start(&FlatReference { snap: Vector3::zeros(), jerk: Vector3::zeros(), ..self.reference() });
         }
     }
 
     /// Continues from a reference without a jump in position to snap: the course is set ahead of it by the distance
     /// that the lags are behind.
     pub fn start(&mut self, from: &FlatReference) {
+        let stands = from.velocity.amax() + from.acceleration.amax() + from.jerk.amax() <= 3.0 * STANDS;
+        let fraction = step_fraction(&self.limits);
+        self.step_fraction = if stands { fraction } else { math::max(fraction, FASTER_FRACTION) };
+        self.slows = fraction < self.step_fraction;
         let ahead_s = STEP_S / self.step_fraction;
         let mut velocity = four(&from.velocity, from.yaw_rate);
         let mut acceleration = four(&from.acceleration, from.yaw_acceleration);
@@ -186,6 +216,9 @@ impl Setpoint {
 
     /// Advances by a step towards a target, and returns the new reference.
     pub fn advance(&mut self, target: &Target) -> FlatReference {
+        if self.slows {
+            self.slow_down();
+        }
         let (way, change) = self.translate(target);
         let (angle, rate_change) = self.turn(target);
         let (way, change) = (four(&way, angle), four(&change, rate_change));

@@ -57,6 +57,21 @@ const MOTION: Range = Range::Within(0.05, 100.0);
 /// A vehicle that comes down as slowly as one that stands could not be told from it.
 const DESCENT: Range = Range::Within(0.35, 100.0);
 const FRACTION: Range = Range::NotNegativeBelow(1.0);
+/// With less the vehicle goes on for hundreds of metres before it has stopped.
+const ACCELERATION: Range = Range::Within(0.5, 100.0);
+/// PX4's least: with less the reference is many seconds late.
+const JERK: Range = Range::Within(1.0, 100.0);
+/// With 5 degrees it holds against the drag of a light wind.
+const TILT: Range = Range::WithinBelow(0.087_266_46, 1.5);
+const RETURN_HEIGHT: Range = Range::Within(0.0, crate::commander::FARTHEST_M);
+/// Three decades below and above what sensors of such vehicles have.
+const fn decades(typical: f32) -> Range {
+    Range::Within(1e-3 * typical, 1e3 * typical)
+}
+/// A fraction that a scale may be off.
+const SCALE: Range = Range::Within(0.0, 1.0);
+/// m/s^0.5.
+const WALK: Range = Range::Within(0.0, 10.0);
 
 const MODES: [Setting; 17] = reals! { Modes "modes":
     "MPC_XY_CRUISE", "m/s", cruise_m_s, MOTION, InFlight, "Greatest horizontal speed";
@@ -66,12 +81,12 @@ const MODES: [Setting; 17] = reals! { Modes "modes":
     "MPC_LAND_SPEED", "m/s", landing_m_s, DESCENT, InFlight, "Speed of a landing";
     "MPC_LAND_CRWL", "m/s", touchdown_m_s, DESCENT, InFlight, "Speed of a landing near the ground";
     "GL_DESCENT_SPEED", "m/s", descent_m_s, DESCENT, InFlight, "Speed of a descent after a failure";
-    "MPC_ACC_HOR", "m/s^2", acceleration_m_s2, MOTION, InFlight, "Greatest horizontal acceleration";
-    "GL_ACC_VERT", "m/s^2", vertical_acceleration_m_s2, MOTION, InFlight, "Greatest vertical acceleration";
-    "MPC_JERK_AUTO", "m/s^3", jerk_m_s3, MOTION, InFlight, "Greatest jerk";
+    "MPC_ACC_HOR", "m/s^2", acceleration_m_s2, ACCELERATION, InFlight, "Greatest horizontal acceleration";
+    "GL_ACC_VERT", "m/s^2", vertical_acceleration_m_s2, ACCELERATION, InFlight, "Greatest vertical acceleration";
+    "MPC_JERK_AUTO", "m/s^3", jerk_m_s3, JERK, InFlight, "Greatest jerk";
     "MPC_YAWRAUTO_MAX", "deg/s" * DEGREES, yaw_rate_rad_s, MOTION, InFlight, "Greatest rate of the heading";
     "MPC_YAWRAUTO_ACC", "deg/s^2" * DEGREES, yaw_acceleration_rad_s2, MOTION, InFlight, "Greatest acceleration of the heading";
-    "RTL_RETURN_ALT", "m", return_height_m, Range::NotNegative, InFlight, "Height over home of a return, if it is not higher already";
+    "RTL_RETURN_ALT", "m", return_height_m, RETURN_HEIGHT, InFlight, "Height over home of a return, if it is not higher already";
     "GL_BAT_LOW_V", "V", battery_low_v, Range::NotNegative, InFlight, "Battery voltage below which it returns; 0 for never";
     "GL_BAT_CRIT_V", "V", battery_critical_v, Range::NotNegative, InFlight, "Battery voltage below which it lands; 0 for never";
     "GL_IDLE_SPEED", "", idle_part, FRACTION, Boot, "Rotor speed while armed on the ground, as a fraction of the greatest";
@@ -79,7 +94,7 @@ const MODES: [Setting; 17] = reals! { Modes "modes":
 };
 
 const FLIGHT: [Setting; 2] = reals! { Flight "control":
-    "MPC_TILTMAX_AIR", "deg" * DEGREES, tilt_max_rad, Range::PositiveBelow(1.5), InFlight, "Greatest tilt that position control demands";
+    "MPC_TILTMAX_AIR", "deg" * DEGREES, tilt_max_rad, TILT, InFlight, "Greatest tilt that position control demands";
     "GL_ROTOR_TAU", "s", rotor_time_constant_s, Range::NotNegative, Boot, "Time constant to which the rotor lag is shortened; 0 for none";
 };
 
@@ -113,7 +128,7 @@ const AIRFRAME: [Setting; 30] = reals! { Airframe "airframe":
     "GL_INERTIA_Y", "kg m^2", inertia_kg_m2[1], Range::Positive, Boot, "Moment of inertia in pitch";
     "GL_INERTIA_Z", "kg m^2", inertia_kg_m2[2], Range::Positive, Boot, "Moment of inertia in yaw";
     "GL_GRAVITY", "m/s^2", gravity_m_s2, Range::Positive, Boot, "Gravitational acceleration";
-    "GL_OMEGA_MAX", "rad/s", omega_max_rad_s, Range::Positive, Boot, "Greatest rotor speed";
+    "GL_OMEGA_MAX", "rad/s", omega_max_rad_s, Range::Within(1.0, 1e5), Boot, "Greatest rotor speed";
     "GL_ROTOR_J", "kg m^2", rotor_inertia_kg_m2, Range::NotNegative, Boot, "Moment of inertia of a rotor about its axis";
     "GL_DRAG_X", "N s/m", drag_n_s_m[0], Range::NotNegative, Boot, "Drag along x";
     "GL_DRAG_Y", "N s/m", drag_n_s_m[1], Range::NotNegative, Boot, "Drag along y";
@@ -173,25 +188,25 @@ const CHOICES: [Setting; 2] = [
 ];
 
 const ESTIMATOR: [Setting; 22] = reals! { Estimator "estimator":
-    "GL_E_GYR_N", "rad/s/sqrt(Hz)", gyro_noise, Range::Positive, InFlight, "White noise density of the gyroscope";
-    "GL_E_GYR_WALK", "rad/s/sqrt(s)", gyro_bias_walk, Range::Positive, InFlight, "Random walk of the gyroscope's bias";
-    "GL_E_GYR_BIAS", "rad/s", gyro_bias, Range::Positive, InFlight, "Turn-on bias of the gyroscope; at the next alignment";
-    "GL_E_ACC_N", "m/s^2/sqrt(Hz)", accel_noise, Range::Positive, InFlight, "White noise density of the accelerometer";
-    "GL_E_ACC_WALK", "m/s^2/sqrt(s)", accel_bias_walk, Range::Positive, InFlight, "Random walk of the accelerometer's bias";
-    "GL_E_ACC_BIAS", "m/s^2", accel_bias, Range::Positive, InFlight, "Turn-on bias of the accelerometer; at the next alignment";
-    "GL_E_MAG_N", "uT", mag_noise_ut, Range::Positive, InFlight, "Noise of the magnetometer";
-    "GL_E_MAG_OFF", "rad", heading_offset, Range::Positive, InFlight, "Error of the magnetic heading that calibration leaves; at the next alignment";
-    "GL_E_BAR_N", "m", baro_noise_m, Range::Positive, InFlight, "Noise of the barometer";
-    "GL_E_GNS_N_H", "m", gnss_noise_m[0], Range::Positive, InFlight, "White noise of a GNSS position, horizontal";
-    "GL_E_GNS_N_V", "m", gnss_noise_m[1], Range::Positive, InFlight, "White noise of a GNSS position, vertical";
-    "GL_E_GNS_V_H", "m/s", gnss_speed_m_s[0], Range::Positive, InFlight, "Noise of a GNSS velocity, horizontal";
-    "GL_E_GNS_V_V", "m/s", gnss_speed_m_s[1], Range::Positive, InFlight, "Noise of a GNSS velocity, vertical";
-    "GL_E_POSE_N", "m", pose_position_m, Range::Positive, InFlight, "Noise of a motion-capture position";
-    "GL_E_POSE_ATT_N", "rad", pose_attitude_rad, Range::Positive, InFlight, "Noise of a motion-capture attitude";
-    "GL_E_GYR_SCALE", "", gyro_scale, Range::NotNegative, InFlight, "Scale and misalignment error of the gyroscope";
-    "GL_E_ACC_SCALE", "", accel_scale, Range::NotNegative, InFlight, "Scale and misalignment error of the accelerometer";
-    "GL_E_BAR_WALK", "m/sqrt(s)", baro_walk, Range::NotNegative, InFlight, "Random walk of the barometric height";
-    "GL_E_GNS_WALK", "m/sqrt(s)", gnss_walk, Range::NotNegative, InFlight, "Random walk of the GNSS position's error";
+    "GL_E_GYR_N", "rad/s/sqrt(Hz)", gyro_noise, decades(1e-4), Disarmed, "White noise density of the gyroscope";
+    "GL_E_GYR_WALK", "rad/s/sqrt(s)", gyro_bias_walk, decades(1e-5), Disarmed, "Random walk of the gyroscope's bias";
+    "GL_E_GYR_BIAS", "rad/s", gyro_bias, decades(0.01), Disarmed, "Turn-on bias of the gyroscope; at the next alignment";
+    "GL_E_ACC_N", "m/s^2/sqrt(Hz)", accel_noise, decades(0.001), Disarmed, "White noise density of the accelerometer";
+    "GL_E_ACC_WALK", "m/s^2/sqrt(s)", accel_bias_walk, decades(1e-4), Disarmed, "Random walk of the accelerometer's bias";
+    "GL_E_ACC_BIAS", "m/s^2", accel_bias, decades(0.01), Disarmed, "Turn-on bias of the accelerometer; at the next alignment";
+    "GL_E_MAG_N", "uT", mag_noise_ut, decades(1.0), Disarmed, "Noise of the magnetometer";
+    "GL_E_MAG_OFF", "rad", heading_offset, decades(0.01), Disarmed, "Error of the magnetic heading that calibration leaves; at the next alignment";
+    "GL_E_BAR_N", "m", baro_noise_m, decades(0.1), Disarmed, "Noise of the barometer";
+    "GL_E_GNS_N_H", "m", gnss_noise_m[0], decades(0.1), Disarmed, "White noise of a GNSS position, horizontal";
+    "GL_E_GNS_N_V", "m", gnss_noise_m[1], decades(0.1), Disarmed, "White noise of a GNSS position, vertical";
+    "GL_E_GNS_V_H", "m/s", gnss_speed_m_s[0], decades(0.1), Disarmed, "Noise of a GNSS velocity, horizontal";
+    "GL_E_GNS_V_V", "m/s", gnss_speed_m_s[1], decades(0.1), Disarmed, "Noise of a GNSS velocity, vertical";
+    "GL_E_POSE_N", "m", pose_position_m, decades(0.001), Disarmed, "Noise of a motion-capture position";
+    "GL_E_POSE_ATT_N", "rad", pose_attitude_rad, decades(0.001), Disarmed, "Noise of a motion-capture attitude";
+    "GL_E_GYR_SCALE", "", gyro_scale, SCALE, Disarmed, "Scale and misalignment error of the gyroscope";
+    "GL_E_ACC_SCALE", "", accel_scale, SCALE, Disarmed, "Scale and misalignment error of the accelerometer";
+    "GL_E_BAR_WALK", "m/sqrt(s)", baro_walk, WALK, Disarmed, "Random walk of the barometric height";
+    "GL_E_GNS_WALK", "m/sqrt(s)", gnss_walk, WALK, Disarmed, "Random walk of the GNSS position's error";
     "GL_E_FIELD_X", "uT", magnetic_field_ut[0], Range::Finite, Disarmed, "Earth's magnetic field, north";
     "GL_E_FIELD_Y", "uT", magnetic_field_ut[1], Range::Finite, Disarmed, "Earth's magnetic field, west";
     "GL_E_FIELD_Z", "uT", magnetic_field_ut[2], Range::Finite, Disarmed, "Earth's magnetic field, up";

@@ -14,7 +14,7 @@ use firmware::inner::Inner;
 use firmware::latest::Latest;
 use firmware::outer::{Authority, Outer, OuterInput, OuterOutput};
 use firmware::schedule::{COMMANDER, OUTER};
-use firmware::settings::{COUNT, Changes, Settings};
+use firmware::settings::{COUNT, Changes, Class, SETTINGS, Setting, Settings, Value};
 use firmware::signals::{MotorCommand, NavHealth, NavState, SensorFrame, TICK_S, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -148,7 +148,9 @@ impl Vehicle {
             let value = settings.get(index).expect("a setting");
             if before.get(index) != Some(value) {
                 let change = before.set(index, value, true).expect("accepted");
-                (self.commander.apply(&change), self.outer.apply(&change), self.inner.apply(&change));
+                self.commander.apply(&change);
+                self.outer.apply(&change);
+                self.inner.apply(&change);
             }
         }
         self.config = config.clone();
@@ -461,4 +463,41 @@ fn a_return_follows_a_home_that_is_corrected_in_height() {
     vehicle.ask(Request::SetHome { position_m: Some([5.0, 0.0, 0.0]) });
     vehicle.until(Mode::Land, 20.0);
     vehicle.assert_near([5.0, 0.0, before], 3.0);
+}
+
+/// What is lost, if the vehicle is, by setting one value in flight: it goes somewhere meanwhile, holds and lands.
+fn lost_by(setting: usize, value: Value) -> Option<String> {
+    let mut vehicle = Vehicle::airborne(&config());
+    vehicle.ask(Request::GoTo { position_m: [6.0, -4.0, 10.0], yaw_rad: 0.0 });
+    vehicle.run(1.5);
+    let mut settings = Settings::of(&vehicle.config);
+    let change = settings.set(setting, value, true).ok()?;
+    vehicle.commander.apply(&change);
+    vehicle.outer.apply(&change);
+    vehicle.inner.apply(&change);
+    let (mut lowest, mut highest, mut steepest) = (10.0, 0.0, 1.0);
+    for request in [None, Some(Request::Hold)] {
+        if let Some(request) = request {
+            vehicle.ask(request);
+        }
+        for _ in 0..10_000 {
+            vehicle.tick();
+            let nav = &vehicle.body.nav;
+            lowest = firmware::math::min(lowest, nav.position.z);
+            highest = firmware::math::max(highest, nav.position.z);
+            steepest = firmware::math::min(steepest, (nav.attitude * Vector3::z()).z);
+        }
+    }
+    let off = lowest < 3.0 || highest > 12.0 || steepest < 0.6;
+    off.then(|| format!("{} {value:?}: {lowest} to {highest} m, cosine {steepest}", SETTINGS[setting].name))
+}
+
+#[test]
+fn no_setting_at_an_end_of_its_range_loses_the_vehicle_in_flight() {
+    // How large a reaching gain may be depends on the law's layer or horizon.
+    let may_be_set = |setting: &Setting| setting.class == Class::InFlight && !setting.name.ends_with("_K");
+    let in_flight = SETTINGS.iter().enumerate().filter(|(_, setting)| may_be_set(setting));
+    let ends = in_flight.flat_map(|(index, setting)| [(index, setting.min()), (index, setting.max())]);
+    let lost: Vec<String> = ends.filter_map(|(index, value)| lost_by(index, value)).collect();
+    assert!(lost.is_empty(), "{lost:#?}");
 }
