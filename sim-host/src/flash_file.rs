@@ -2,11 +2,12 @@
 //!
 //! The firmware's store of settings runs on it as on a board's flash. A header tells such a file from any other.
 
-use std::fs::{File, OpenOptions};
-use std::os::unix::fs::FileExt as _;
+use std::fs::{File, Metadata, OpenOptions, TryLockError};
+use std::io::ErrorKind;
+use std::os::unix::fs::{FileExt as _, MetadataExt as _};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, Result, anyhow, ensure};
+use anyhow::{Context as _, Result, anyhow, bail, ensure};
 use embedded_storage_async::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
 use firmware::settings::store::{Loaded, Store, StoreError, block_on};
 use firmware::settings::{SETTINGS, Settings};
@@ -15,6 +16,8 @@ const HEADER: &[u8; 16] = b"glissade params\n";
 /// Bytes of a page, and of the whole: all settings fit into half of it several times.
 const PAGE: usize = 4096;
 const SIZE: usize = 16 * PAGE;
+/// Bytes of the file.
+const WHOLE: usize = HEADER.len() + SIZE;
 
 /// The memory.
 #[derive(Debug)]
@@ -44,21 +47,40 @@ impl NorFlashError for FlashError {
     }
 }
 
+/// How often opening is tried anew when another process creates the same file at the same moment.
+const TRIES: usize = 3;
+
 impl FlashFile {
-    /// Opens a file, or creates one that is erased.
+    /// Opens a file for this process alone. One that is missing, or that was never written to, is created erased.
     fn open(path: &Path) -> Result<Self> {
-        let is_new = !path.exists();
-        let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
-        let flash = Self { file };
-        if is_new {
-            flash.file.write_all_at(&vec![0xff; SIZE], HEADER.len() as u64)?;
-            flash.file.write_all_at(HEADER, 0)?;
+        for _ in 0..TRIES {
+            let file = match OpenOptions::new().read(true).write(true).open(path) {
+                Ok(file) => file,
+                Err(error) if error.kind() == ErrorKind::NotFound => {
+                    create(path, None)?;
+                    continue;
+                }
+                Err(error) => return Err(error.into()),
+            };
+            ensure!(file.metadata()?.is_file(), "is no file of parameters");
+            match file.try_lock() {
+                Err(TryLockError::WouldBlock) => bail!("is in use by another `sim-host serve`"),
+                // Where the file system knows no locks, there is none.
+                Ok(()) | Err(TryLockError::Error(_)) => {}
+            }
+            if !is_named(&file, path) {
+                continue;
+            }
+            if is_blank(&file)? {
+                create(path, Some(&file))?;
+                continue;
+            }
+            let mut header = [0; HEADER.len()];
+            let has_header = file.read_exact_at(&mut header, 0).is_ok() && header == *HEADER;
+            ensure!(has_header && file.metadata()?.len() == WHOLE as u64, "is no file of parameters");
+            return Ok(Self { file });
         }
-        let mut header = [0; HEADER.len()];
-        let has_header = flash.file.read_exact_at(&mut header, 0).is_ok() && header == *HEADER;
-        let length = flash.file.metadata()?.len();
-        ensure!(has_header && length == (HEADER.len() + SIZE) as u64, "is no file of parameters");
-        Ok(flash)
+        bail!("is being made by another `sim-host serve`")
     }
 
     /// Refuses what is not in whole units, or outside.
@@ -100,7 +122,8 @@ impl NorFlash for FlashFile {
     async fn erase(&mut self, from: u32, to: u32) -> Result<(), FlashError> {
         let length = to.checked_sub(from).ok_or(NorFlashErrorKind::OutOfBounds)? as usize;
         Self::check(from, length, Self::ERASE_SIZE)?;
-        Ok(self.file.write_all_at(&vec![0xff; length], Self::at(from))?)
+        self.file.write_all_at(&vec![0xff; length], Self::at(from))?;
+        Ok(self.file.sync_data()?)
     }
 
     async fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), FlashError> {
@@ -108,7 +131,69 @@ impl NorFlash for FlashFile {
         let mut now = vec![0; bytes.len()];
         self.file.read_exact_at(&mut now, Self::at(offset))?;
         now.iter_mut().zip(bytes).for_each(|(now, byte)| *now &= byte);
-        Ok(self.file.write_all_at(&now, Self::at(offset))?)
+        self.file.write_all_at(&now, Self::at(offset))?;
+        Ok(self.file.sync_data()?)
+    }
+}
+
+/// Whether the path still names this file, and not another one that has taken its place.
+fn is_named(file: &File, path: &Path) -> bool {
+    let inode = |data: std::io::Result<Metadata>| data.ok().map(|data| (data.dev(), data.ino()));
+    inode(file.metadata()) == inode(std::fs::metadata(path))
+}
+
+/// Whether a file holds nothing: it is empty, or was cut off while it was being created.
+fn is_blank(file: &File) -> Result<bool> {
+    let length = file.metadata()?.len();
+    if length > WHOLE as u64 {
+        return Ok(false);
+    }
+    let mut bytes = vec![0; length as usize];
+    file.read_exact_at(&mut bytes, 0)?;
+    let (header, rest) = bytes.split_at(bytes.len().min(HEADER.len()));
+    let no_header = header.iter().zip(HEADER).any(|(byte, of_header)| byte != of_header) || header.len() < HEADER.len();
+    Ok(no_header && header.iter().all(|byte| [0, 0xff].contains(byte)) && rest.iter().all(|byte| *byte == 0xff))
+}
+
+/// Creates an erased file whole: it is written aside, and then gets its name, in place of `blank` if that is there.
+fn create(path: &Path, blank: Option<&File>) -> Result<()> {
+    // What a link names is made, and not put in the place of the link.
+    let path = if blank.is_some() { std::fs::canonicalize(path)? } else { path.to_owned() };
+    let mut aside = path.clone().into_os_string();
+    aside.push(format!(".{}", std::process::id()));
+    let aside = PathBuf::from(aside);
+    let made = write_aside(&aside, blank).and_then(|()| give_name(&aside, &path, blank.is_some()));
+    // It is gone if it was renamed.
+    let _ = std::fs::remove_file(&aside);
+    made?;
+    // The name too is to survive a power cut.
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if let Ok(folder) = File::open(folder) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
+}
+
+fn write_aside(aside: &Path, blank: Option<&File>) -> std::io::Result<()> {
+    let file = OpenOptions::new().write(true).create(true).truncate(true).open(aside)?;
+    file.write_all_at(HEADER, 0)?;
+    file.write_all_at(&vec![0xff; SIZE], HEADER.len() as u64)?;
+    if let Some(blank) = blank {
+        file.set_permissions(blank.metadata()?.permissions())?;
+    }
+    file.sync_all()
+}
+
+/// A file that another process has made meanwhile stays: only one that is blank is replaced.
+fn give_name(aside: &Path, path: &Path, replace: bool) -> std::io::Result<()> {
+    if replace {
+        return std::fs::rename(aside, path);
+    }
+    match std::fs::hard_link(aside, path) {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
+        // Not every file system knows a second name.
+        Err(_) => std::fs::rename(aside, path),
+        Ok(()) => Ok(()),
     }
 }
 
@@ -154,6 +239,18 @@ impl ParameterFile {
         let saved = saved.with_context(|| format!("{}", self.path.display()))?;
         Ok(name.filter(|_| saved))
     }
+
+    /// Saves all the values that wait: the vehicle ends, and flies no more. Returns how many.
+    ///
+    /// # Errors
+    /// One line with the file, and why they were not saved.
+    pub fn save_all(&mut self, settings: &mut Settings) -> Result<usize> {
+        let mut count = 0;
+        while self.save_next(settings, false)?.is_some() {
+            count += 1;
+        }
+        Ok(count)
+    }
 }
 
 fn explain(error: StoreError) -> anyhow::Error {
@@ -191,6 +288,7 @@ mod tests {
             assert_eq!(file.save_next(&mut settings, false).expect("saved"), Some("MPC_XY_CRUISE"));
             assert_eq!(file.save_next(&mut settings, false).expect("nothing to do"), None);
         }
+        drop(file);
         let mut again = Settings::of(&FlightConfig::default());
         let (_, loaded) = ParameterFile::open(&path, &mut again).expect("opened");
         assert_eq!((loaded.values, again.get(index)), (1, Some(Value::Real(4.0))));
@@ -207,5 +305,52 @@ mod tests {
         std::fs::remove_file(&path).expect("removed");
         let error = ParameterFile::open(Path::new("/nowhere/at/all"), &mut Settings::default()).expect_err("refused");
         assert!(format!("{error:#}").starts_with("--params /nowhere/at/all: "), "{error:#}");
+    }
+
+    #[test]
+    fn a_file_whose_creation_was_cut_off_is_made_anew() {
+        let path = temporary("cut");
+        let hole = [vec![0; HEADER.len()], vec![0xff; SIZE]].concat();
+        for left in [Vec::new(), vec![0; 7], vec![0xff; 65_536], hole[..65_536].to_vec(), hole] {
+            std::fs::write(&path, &left).expect("written");
+            let (_, loaded) = ParameterFile::open(&path, &mut Settings::default()).expect("made anew");
+            assert_eq!(loaded, Loaded::default(), "{} bytes", left.len());
+            let made = std::fs::read(&path).expect("there");
+            assert!(made.len() == WHOLE && made.starts_with(HEADER));
+        }
+        std::fs::write(&path, &HEADER[..10]).expect("written");
+        ParameterFile::open(&path, &mut Settings::default()).expect_err("some text");
+        std::fs::remove_file(&path).expect("removed");
+    }
+
+    #[test]
+    fn two_at_once_are_refused_and_nothing_is_left_beside_the_file() {
+        let path = temporary("locked");
+        let (first, _) = ParameterFile::open(&path, &mut Settings::default()).expect("created");
+        let error = ParameterFile::open(&path, &mut Settings::default()).expect_err("in use");
+        assert!(format!("{error:#}").contains("is in use by another `sim-host serve`"), "{error:#}");
+        drop(first);
+        ParameterFile::open(&path, &mut Settings::default()).expect("free again");
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        let beside = std::fs::read_dir(std::env::temp_dir()).expect("a folder").filter_map(Result::ok);
+        let beside = beside.filter(|entry| entry.file_name().to_string_lossy().starts_with(&name)).count();
+        assert_eq!(beside, 1);
+        std::fs::remove_file(&path).expect("removed");
+    }
+
+    #[test]
+    fn what_waits_at_the_end_is_saved() {
+        let path = temporary("end");
+        let index = find("MPC_XY_CRUISE").expect("in the table");
+        let mut settings = Settings::of(&FlightConfig::default());
+        let (mut file, _) = ParameterFile::open(&path, &mut settings).expect("created");
+        settings.set(index, Value::Real(3.5), true).expect("in flight");
+        assert_eq!(file.save_next(&mut settings, true).expect("waits"), None);
+        assert_eq!(file.save_all(&mut settings).expect("saved"), 1);
+        drop(file);
+        let mut again = Settings::of(&FlightConfig::default());
+        ParameterFile::open(&path, &mut again).expect("opened");
+        assert_eq!(again.get(index), Some(Value::Real(3.5)));
+        std::fs::remove_file(&path).expect("removed");
     }
 }

@@ -38,6 +38,10 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
         ensure!(args.vehicles == 1, "--params is one vehicle's file: leave out --vehicles {}", args.vehicles);
         let mut settings = scenario.settings();
         let (file, loaded) = ParameterFile::open(path, &mut settings)?;
+        if let Some(system) = args.sysid {
+            // What is asked for now wins over what was kept; it is not kept by that.
+            settings.restore(MAV_SYS_ID, Value::Int(system as i32)).map_err(|_| anyhow!("--sysid {system}"))?;
+        }
         scenario = scenario.with_settings(&settings).with_context(|| format!("--params {}", path.display()))?;
         eprintln!("{}", kept(path, &loaded));
         parameters = Some(file);
@@ -61,6 +65,13 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
     drop(terminal);
     eprintln!("{}", farewell(&flown));
+    if let Some(first) = fleet.first_mut() {
+        match first.vehicle.save_at_end()? {
+            0 => {}
+            1 => eprintln!("1 parameter that was set in flight is saved"),
+            count => eprintln!("{count} parameters that were set in flight are saved"),
+        }
+    }
     let recorder = fleet.first().and_then(|first| first.recorder.as_ref());
     if let (Some(path), Some(true)) = (&args.record, recorder.map(Recorder::is_whole)) {
         eprintln!("recorded into {}: fly it again by sim-host {}", path.display(), again(args, &set, path));
@@ -159,9 +170,14 @@ fn first_flight(scenario: &Scenario) -> &'static str {
 
 /// What was loaded from a file of parameters.
 fn kept(path: &Path, loaded: &Loaded) -> String {
-    let Loaded { values, refused, .. } = *loaded;
+    let Loaded { values, refused, rebuilt } = *loaded;
     let left = if refused == 0 { String::new() } else { format!("; {refused} do not fit any more, and are left out") };
-    format!("{values} parameters loaded from {}{left}", path.display())
+    let mended = match rebuilt {
+        0 => "",
+        1 => "; one of its two copies was damaged, and is rebuilt from the other",
+        _ => "; both of its copies were damaged, and values may be lost",
+    };
+    format!("{values} parameters loaded from {}{left}{mended}", path.display())
 }
 
 fn about(summary: &str) -> String {

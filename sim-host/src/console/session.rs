@@ -126,6 +126,15 @@ impl Session {
         }
     }
 
+    /// Saves what was set in flight and still waits, at the end. Returns how many parameters that were.
+    ///
+    /// # Errors
+    /// One line with the file, and why they were not saved.
+    pub fn save_at_end(&mut self) -> Result<usize> {
+        let Some(file) = &mut self.parameters else { return Ok(0) };
+        file.save_all(self.flight.autopilot.ground.settings_mut())
+    }
+
     /// The flight.
     pub fn flight(&self) -> &Flight<RigidBody> {
         &self.flight
