@@ -36,7 +36,7 @@ pub trait Vehicle {
     /// Executes a typed line. The loop handles the returned control.
     fn enter(&mut self, line: &str) -> Option<Control>;
 
-    /// A ground station was heard for the first time, or was lost.
+    /// A ground station was heard for the first time, was lost, or found no free link.
     fn notice(&mut self, news: &News);
 
     /// The lines to print since the last call.
@@ -70,6 +70,7 @@ impl Vehicle for Session {
         match *news {
             News::Heard { address, system } => self.station_heard(address, system),
             News::Lost { address, system } => self.station_lost(address, system, LOST_AFTER.as_secs()),
+            News::TurnedAway { address } => self.station_turned_away(address),
         }
     }
 
@@ -175,6 +176,16 @@ impl<V: Vehicle> Fleet<'_, V> {
     /// Executes a line: `vehicle 2` selects one, where there are several; any other is the selected one's.
     fn enter(&mut self, line: &str, terminal: &mut impl Terminal) -> Option<Control> {
         let several = self.members.len() > 1;
+        let words: Vec<&str> = line.split_whitespace().collect();
+        if let (true, ["help" | "?", rest @ ..]) = (several, words.as_slice())
+            && let [] | ["vehicle"] = rest
+        {
+            let text = "vehicle N: the lines that follow are for vehicle N".to_owned();
+            terminal.print(&Line { t_s: None, tone: Tone::Plain, text });
+            if !rest.is_empty() {
+                return None;
+            }
+        }
         if let Some(number) = line.trim().strip_prefix("vehicle").filter(|_| several) {
             let count = self.members.len();
             let text = match number.trim().parse::<usize>() {
@@ -243,7 +254,8 @@ pub fn serve<V: Vehicle>(
         fleet.print(terminal);
         fleet.flush(terminal)?;
         if let Some(text) = pacer.news(Instant::now()) {
-            terminal.print(&Line { t_s: None, tone: Tone::Plain, text });
+            let t_s = fleet.members.first().map(|member| f64::from(member.vehicle.next_tick()) * TICK_S_EXACT);
+            terminal.print(&Line { t_s, tone: Tone::Plain, text });
         }
         if due < BATCH {
             sleep(NAP);
@@ -439,11 +451,13 @@ mod tests {
         let [one] = alone(counter(u64::MAX, &stop));
         let [two] = alone(counter(u64::MAX, &stop));
         let mut fleet = vec![one, two];
-        let mut script = Script::typing(&["first", "vehicle 2", "second", "vehicle 3", "vehicle", "quit"]);
+        let lines = ["first", "vehicle 2", "second", "vehicle 3", "vehicle", "help vehicle", "help", "quit"];
+        let mut script = Script::typing(&lines);
         serve(&mut fleet, &mut script, Pacing { speed: 10.0 }, || stop.load(Ordering::Relaxed)).expect("it ends");
         let printed: Vec<&str> = script.printed.iter().map(|line| line.text.as_str()).collect();
         let wrong = "there are the vehicles 1 to 2; lines are for vehicle 2";
-        assert_eq!(printed, ["1: first", "lines are for vehicle 2", "2: second", wrong, wrong]);
+        let help = "vehicle N: the lines that follow are for vehicle N";
+        assert_eq!(printed, ["1: first", "lines are for vehicle 2", "2: second", wrong, wrong, help, help, "2: help"]);
         assert_eq!(fleet[0].vehicle.ticks, fleet[1].vehicle.ticks);
     }
 

@@ -27,6 +27,11 @@ pub enum News {
         /// Its MAVLink system.
         system: u8,
     },
+    /// Found no free link.
+    TurnedAway {
+        /// Its address.
+        address: SocketAddr,
+    },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +47,8 @@ struct Station {
 #[derive(Clone, Debug, Default)]
 pub struct Stations {
     all: Vec<Station>,
+    /// Who found no free link, and whether that was reported.
+    turned_away: Vec<(SocketAddr, bool)>,
 }
 
 impl Stations {
@@ -54,11 +61,23 @@ impl Stations {
         }
     }
 
+    /// Someone has found no free link, which is reported once.
+    pub fn turn_away(&mut self, address: SocketAddr) {
+        let is_new = self.turned_away.iter().all(|(known, _)| *known != address);
+        if is_new && self.turned_away.len() < STATIONS_MAX {
+            self.turned_away.push((address, false));
+        }
+    }
+
     /// The next change that was not reported yet, if any.
     pub fn news(&mut self, now: Instant) -> Option<News> {
         if let Some(new) = self.all.iter_mut().find(|station| !station.reported) {
             new.reported = true;
             return Some(News::Heard { address: new.address, system: new.system });
+        }
+        if let Some((address, reported)) = self.turned_away.iter_mut().find(|(_, reported)| !reported) {
+            *reported = true;
+            return Some(News::TurnedAway { address: *address });
         }
         let lost = self.all.iter().position(|station| now.saturating_duration_since(station.heard) > LOST_AFTER)?;
         let Station { address, system, .. } = self.all.swap_remove(lost);
@@ -88,6 +107,16 @@ mod tests {
         assert_eq!(stations.news(at(100)), None);
         stations.hear(address, system, at(100));
         assert_eq!(stations.news(at(100)), Some(News::Heard { address, system }));
+    }
+
+    #[test]
+    fn who_finds_no_link_is_told_once() {
+        let (mut stations, now) = (Stations::default(), Instant::now());
+        for _ in 0..3 {
+            stations.turn_away(address(1));
+        }
+        assert_eq!(stations.news(now), Some(News::TurnedAway { address: address(1) }));
+        assert_eq!(stations.news(now), None);
     }
 
     #[test]

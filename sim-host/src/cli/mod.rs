@@ -293,8 +293,8 @@ struct ServeArgs {
     /// Address of a program that is told more, as one on board: MAVSDK. Repeatable.
     #[arg(long = "onboard", value_name = "ADDRESS", value_parser = onboard_address)]
     onboard: Vec<SocketAddr>,
-    /// Address on which ground stations can connect by TCP: `HOST:PORT`, or `HOST` for port 5760.
-    #[arg(long, value_name = "ADDRESS", value_parser = tcp_address)]
+    /// Ground stations can connect by TCP too, on 127.0.0.1:5760 or another `HOST:PORT`.
+    #[arg(long, value_name = "ADDRESS", value_parser = tcp_address, num_args = 0..=1, default_missing_value = link::DEFAULT_TCP)]
     tcp: Option<SocketAddr>,
     /// MAVLink system of the vehicle, 1 to 250, in place of the scenario's.
     #[arg(long, value_name = "N", value_parser = whole(1..=250_u32), allow_negative_numbers = true)]

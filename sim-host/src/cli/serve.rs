@@ -60,6 +60,11 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     if args.vehicles > 1 {
         eprintln!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles);
     }
+    for (number, member) in (0..).zip(&fleet).skip(1) {
+        let addresses: Vec<String> = peers(args, number).iter().map(|peer| peer.address.to_string()).collect();
+        let (number, listen) = (number + 1, member.links.local_address()?);
+        eprintln!("Vehicle {number} sends to {}, and listens on {listen}.", addresses.join(" and "));
+    }
     interrupt::listen();
     let mut terminal = Stdio::new();
     let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
@@ -97,6 +102,9 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
     let flight = flight::lockstep(&scenario, seed, flight::rigid_body(&scenario, seed))?;
     let vehicle = Session::new(flight).telling_the_truth(&scenario.file.home);
     let mut links = Links::bind(further(args.listen, number), &peers(args, number))?;
+    if args.peers.is_empty() && args.onboard.is_empty() {
+        links = links.presuming_its_peers();
+    }
     if let Some(listen) = args.tcp {
         let server = links.serve_tcp(further(listen, number))?;
         eprintln!("Ground stations can connect by TCP to {server}.");

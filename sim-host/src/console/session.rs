@@ -7,7 +7,7 @@ use anyhow::{Result, ensure};
 use firmware::commander::{self, LAUNCH_HELD_S, Mode, Origin, Outcome, Refusal, Reply, Request};
 use firmware::config::ModeSettings;
 use firmware::failure::Manner;
-use firmware::mavlink::port::{Ports, SENT_CAPACITY};
+use firmware::mavlink::port::{LINKS, Ports, SENT_CAPACITY};
 use firmware::signals::Tick;
 use nalgebra::Vector3;
 
@@ -175,6 +175,7 @@ impl Session {
 
     /// One tick of vehicle and world.
     pub fn tick(&mut self) {
+        let left = self.left();
         self.flight.step(&mut ());
         self.take_failures();
         self.save_parameters();
@@ -182,18 +183,27 @@ impl Session {
         if events::is_due(self.flight.next_tick()) {
             self.look();
         }
-        self.read_answers();
+        self.read_answers(left);
+    }
+
+    /// Bytes that the links still hold from before: a slow station has not taken them. They were read.
+    fn left(&self) -> [usize; LINKS] {
+        let mut left = [0; LINKS];
+        for (left, port) in left.iter_mut().zip(self.ports()) {
+            *left = if port.has_output() { port.look(&mut [0; SENT_CAPACITY]).len() } else { 0 };
+        }
+        left
     }
 
     /// Reports what the vehicle refuses ground stations without the commander.
-    fn read_answers(&mut self) {
+    fn read_answers(&mut self, left: [usize; LINKS]) {
         let t_s = Some(self.time_s());
         let Self { answers, said, flight, .. } = self;
-        for (number, port) in (0..).zip(&flight.autopilot.ports) {
+        for ((number, port), left) in (0..).zip(&flight.autopilot.ports).zip(left) {
             if port.has_output() {
                 let mut sent = [0; SENT_CAPACITY];
                 let tell = &mut |text| said.push(Line { t_s, tone: Tone::Refused, text });
-                answers.read(number, port.look(&mut sent), tell);
+                answers.read(number, port.look(&mut sent).get(left..).unwrap_or_default(), tell);
             }
         }
     }
@@ -449,6 +459,11 @@ impl Session {
         self.say(Tone::Good, format!("ground station {system} connected from {address}"));
     }
 
+    /// A ground station found no free link.
+    pub fn station_turned_away(&mut self, address: SocketAddr) {
+        self.say(Tone::Refused, format!("no free link for {address}: the vehicle has {LINKS}"));
+    }
+
     /// A ground station has not been heard for a while.
     pub fn station_lost(&mut self, address: SocketAddr, system: u8, silent_s: u64) {
         self.say(Tone::Alarm, format!("ground station {system} lost: nothing from {address} for {silent_s} s"));
@@ -466,7 +481,8 @@ fn describe(request: &Request) -> String {
         Request::Arm { force: false } => "arm".to_owned(),
         Request::Arm { force: true } => "arm without checks".to_owned(),
         Request::Disarm => "disarm".to_owned(),
-        Request::TakeOff { height_m } => format!("take-off to {height_m} m"),
+        // Heights over the sea come back from float with a tail of digits.
+        Request::TakeOff { height_m } => format!("take-off to {} m", (f64::from(height_m) * 100.0).round() / 100.0),
         Request::Hold => "hold".to_owned(),
         Request::GoTo { position_m, yaw_rad } => {
             let [north, west, up] = shown(Vector3::from(position_m).cast());

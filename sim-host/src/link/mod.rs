@@ -1,13 +1,15 @@
 //! The vehicle's links over UDP and TCP: each peer has one of its own.
 //!
-//! Owns the sockets and who has which link: the configured peers for good, and up to [`LINKS`] in all every other address
-//! that a valid frame has come from, and everyone who connects. A datagram that cannot be sent is dropped, as the network
+//! Owns the sockets and who has which link: the configured peers for good (the defaults while somebody listens there, or
+//! nobody else wants the link), and up to [`LINKS`] in all every other address that a valid frame has come from, and
+//! everyone who connects. A datagram that cannot be sent is dropped, as the network
 //! may drop it too.
 
 pub mod address;
 pub mod frames;
 mod tcp;
 
+use std::collections::VecDeque;
 use std::io::ErrorKind;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener, UdpSocket};
 use std::time::{Duration, Instant};
@@ -21,6 +23,8 @@ use crate::stations::{News, Stations};
 
 /// The default address on which `serve` listens.
 pub const DEFAULT_LISTEN: &str = "127.0.0.1:14580";
+/// The address on which `serve --tcp` listens for connections.
+pub const DEFAULT_TCP: &str = "127.0.0.1:5760";
 /// The default peers of `serve`: ground stations, and programs that use MAVSDK.
 pub const DEFAULT_PEERS: [Peer; 2] =
     [Peer::here(PEER_PORT, Profile::Normal), Peer::here(ONBOARD_PORT, Profile::Onboard)];
@@ -54,6 +58,10 @@ pub const ONBOARD_PORT: u16 = 14540;
 const FORGET_AFTER: Duration = Duration::from_secs(10);
 /// A guest that has been silent this long gives way to a new one.
 const YIELD_AFTER: Duration = Duration::from_secs(3);
+/// Connections that wait for a link, and how long: silent guests give way meanwhile.
+const WAITING_MAX: usize = 8;
+/// See [`WAITING_MAX`].
+const WAIT_AT_MOST: Duration = Duration::from_secs(5);
 /// Datagrams read at one go, so that a flood cannot hold up the flight.
 const BURST: usize = 256;
 /// No datagram is larger.
@@ -70,6 +78,12 @@ struct Occupant {
     profile: Profile,
     /// Whether it was not named at the start.
     guest: bool,
+    /// Whether it is a default peer, which nobody has asked for, and was never heard.
+    presumed: bool,
+    /// Whether it has connected and sent something else than MAVLink.
+    junk: bool,
+    /// Whether it has connected and sent anything.
+    spoken: bool,
     heard: Instant,
     /// Whether the vehicle has been told of it.
     opened: bool,
@@ -77,7 +91,27 @@ struct Occupant {
 
 impl Occupant {
     fn guest(address: SocketAddr, now: Instant) -> Self {
-        Self { address, profile: Profile::Normal, guest: true, heard: now, opened: false }
+        let profile = Profile::Normal;
+        Self { address, profile, guest: true, presumed: false, junk: false, spoken: false, heard: now, opened: false }
+    }
+
+    fn peer(peer: Peer, presumed: bool) -> Self {
+        let Peer { address, profile } = peer;
+        Self {
+            address,
+            profile,
+            guest: false,
+            presumed,
+            junk: false,
+            spoken: false,
+            heard: Instant::now(),
+            opened: false,
+        }
+    }
+
+    /// Whether it is a default peer of this machine at whose port nobody listens: it can be bound.
+    fn is_nobody(&self) -> bool {
+        self.presumed && self.address.ip().is_loopback() && UdpSocket::bind(self.address).is_ok()
     }
 }
 
@@ -92,6 +126,11 @@ struct Slot {
 }
 
 impl Slot {
+    /// Whether who is there has not taken what was sent before.
+    fn is_busy(&mut self) -> bool {
+        self.connection.as_mut().is_some_and(Connection::is_busy)
+    }
+
     /// Sends whole frames to whoever is there.
     fn send(&mut self, socket: &UdpSocket, frames: &[u8]) {
         match (&mut self.connection, &self.peer) {
@@ -110,6 +149,10 @@ pub struct Links {
     socket: UdpSocket,
     server: Option<TcpListener>,
     slots: [Slot; LINKS],
+    /// Connections that have no link yet, and since when.
+    waiting: VecDeque<(Connection, SocketAddr, Instant)>,
+    /// Default peers that have given way to guests.
+    absent: Vec<Peer>,
     stations: Stations,
     datagram: Vec<u8>,
 }
@@ -145,10 +188,24 @@ impl Links {
         socket.set_nonblocking(true).with_context(|| format!("cannot use UDP address {listen}"))?;
         let mut slots: [Slot; LINKS] = Default::default();
         for (slot, peer) in slots.iter_mut().zip(peers) {
-            let Peer { address, profile } = *peer;
-            slot.peer = Some(Occupant { address, profile, guest: false, heard: Instant::now(), opened: false });
+            slot.peer = Some(Occupant::peer(*peer, false));
         }
-        Ok(Self { socket, server: None, slots, stations: Stations::default(), datagram: vec![0; DATAGRAM_MAX] })
+        Ok(Self {
+            socket,
+            server: None,
+            slots,
+            waiting: VecDeque::new(),
+            absent: Vec::new(),
+            stations: Stations::default(),
+            datagram: vec![0; DATAGRAM_MAX],
+        })
+    }
+
+    /// Its peers are the defaults, which nobody has asked for: those at whose port nobody listens give way to guests.
+    #[must_use]
+    pub fn presuming_its_peers(mut self) -> Self {
+        self.slots.iter_mut().filter_map(|slot| slot.peer.as_mut()).for_each(|peer| peer.presumed = true);
+        self
     }
 
     /// Takes connections over TCP too.
@@ -187,15 +244,40 @@ impl Links {
         self.read_connections();
     }
 
-    /// Gives a link to everyone who has connected. Who finds none free is turned away.
+    /// Gives a link to everyone who has connected, before anything is heard: stations that connect wait for the vehicle.
+    /// Who finds none free waits a while for one, and is turned away then.
     fn accept(&mut self) {
         while let Some((stream, address)) = self.server.as_ref().and_then(|server| server.accept().ok()) {
-            let now = Instant::now();
             let Some(connection) = Connection::new(stream) else { continue };
-            if let Some(slot) = self.place_for_guest(now).and_then(|number| self.slots.get_mut(number)) {
-                *slot =
-                    Slot { peer: Some(Occupant::guest(address, now)), connection: Some(connection), ..Slot::default() };
+            if self.waiting.len() < WAITING_MAX {
+                self.waiting.push_back((connection, address, Instant::now()));
+            } else {
+                self.stations.turn_away(address);
             }
+        }
+        self.seat(Instant::now());
+    }
+
+    /// Gives links to those who wait for one, in turn.
+    fn seat(&mut self, now: Instant) {
+        while let Some((connection, address, since)) = self.waiting.pop_front() {
+            if let Some(number) = self.place_for_guest(now) {
+                self.put(number, Occupant::guest(address, now), Some(connection));
+            } else if now.saturating_duration_since(since) > WAIT_AT_MOST {
+                self.stations.turn_away(address);
+            } else {
+                self.waiting.push_front((connection, address, since));
+                return;
+            }
+        }
+    }
+
+    /// Gives a link to someone; a default peer that gives way is kept in mind.
+    fn put(&mut self, number: usize, peer: Occupant, connection: Option<Connection>) {
+        let Some(slot) = self.slots.get_mut(number) else { return };
+        let before = core::mem::replace(slot, Slot { peer: Some(peer), connection, ..Slot::default() });
+        if let Some(Occupant { address, profile, presumed: true, .. }) = before.peer {
+            self.absent.push(Peer { address, profile });
         }
     }
 
@@ -208,8 +290,12 @@ impl Links {
                 *slot = Slot::default();
                 continue;
             }
+            // No frame begins so, and none has come yet: this is no station.
+            let begins_wrong = slot.inbox.get(before).is_some_and(|byte| ![0xfd, 0xfe].contains(byte));
+            peer.junk |= begins_wrong && !peer.spoken;
+            peer.spoken |= slot.inbox.len() > before;
             if let Some(frame) = frames::whole(&slot.inbox[before..]).find(|frame| frame.valid) {
-                peer.heard = now;
+                (peer.heard, peer.junk) = (now, false);
                 self.stations.hear(peer.address, frame.system, now);
             }
         }
@@ -236,28 +322,36 @@ impl Links {
         let known = self.slots.iter().position(|slot| slot.peer.is_some_and(|peer| peer.address == from));
         let number = match known {
             Some(number) => number,
-            None if valid => self.place_for_guest(now)?,
+            None if valid => {
+                let Some(number) = self.place_for_guest(now) else {
+                    self.stations.turn_away(from);
+                    return None;
+                };
+                self.absent.retain(|peer| peer.address != from);
+                self.put(number, Occupant::guest(from, now), None);
+                number
+            }
             None => return None,
         };
         let slot = self.slots.get_mut(number)?;
-        if known.is_none() {
-            *slot = Slot { peer: Some(Occupant::guest(from, now)), ..Slot::default() };
-        }
         if let Some(peer) = slot.peer.as_mut().filter(|_| valid) {
-            peer.heard = now;
+            (peer.heard, peer.presumed) = (now, false);
         }
         Some(slot)
     }
 
-    /// A free link, or that of the guest that has been silent for longest.
+    /// A free link, that of a default peer who is not there, or of the guest that has been silent for longest.
     fn place_for_guest(&self, now: Instant) -> Option<usize> {
+        if let Some(free) = self.slots.iter().position(|slot| slot.peer.is_none()) {
+            return Some(free);
+        }
         let silent = |slot: &Slot| match slot.peer {
-            None => Some(Duration::MAX),
+            Some(peer) if peer.is_nobody() || peer.junk => Some(Duration::MAX),
             Some(peer) if peer.guest => Some(now.saturating_duration_since(peer.heard)),
-            Some(_) => None,
+            _ => None,
         };
         let places = self.slots.iter().enumerate().filter_map(|(number, slot)| Some((silent(slot)?, number)));
-        // Of several free ones the first.
+        // Of several the first.
         let longest = places.max_by_key(|(silent, number)| (*silent, core::cmp::Reverse(*number)));
         longest.filter(|(silent, _)| *silent > YIELD_AFTER).map(|(_, number)| number)
     }
@@ -299,7 +393,8 @@ impl Links {
     /// Sends each link's bytes to its peer. Nobody listening is not an error.
     pub fn send(&mut self, ports: &Ports) {
         for (slot, port) in self.slots.iter_mut().zip(ports) {
-            if port.has_output() {
+            // What a slow station has not taken keeps the rest with the vehicle, which thins its telemetry then.
+            if port.has_output() && !slot.is_busy() {
                 slot.send(&self.socket, port.take(&mut [0; SENT_CAPACITY]));
             }
         }
@@ -307,7 +402,11 @@ impl Links {
 
     /// Sends frames that come from no link to every peer.
     pub fn tell(&mut self, frames: &[u8]) {
-        self.slots.iter_mut().for_each(|slot| slot.send(&self.socket, frames));
+        let socket = &self.socket;
+        self.slots
+            .iter_mut()
+            .filter_map(|slot| (!slot.is_busy()).then_some(slot))
+            .for_each(|slot| slot.send(socket, frames));
     }
 
     /// Forgets guests that have gone.
@@ -321,6 +420,13 @@ impl Links {
             if slot.peer.is_some_and(|peer| peer.guest && now.saturating_duration_since(peer.heard) > FORGET_AFTER) {
                 *slot = Slot::default();
             }
+        }
+        // A default peer comes back to a link that nobody waits for: who listens there is to hear without having spoken.
+        if self.waiting.is_empty()
+            && let Some(slot) = self.slots.iter_mut().find(|slot| slot.peer.is_none())
+            && let Some(peer) = self.absent.pop()
+        {
+            *slot = Slot { peer: Some(Occupant::peer(peer, true)), ..Slot::default() };
         }
     }
 }

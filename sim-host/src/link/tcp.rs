@@ -5,8 +5,9 @@ use std::net::TcpStream;
 
 /// Bytes read at one go.
 const READ_MAX: usize = 16_384;
-/// Bytes that wait for a slow station; what comes then is lost, whole.
-const OUTBOX_MAX: usize = 65_536;
+/// Bytes that wait in the system for a slow station. More would only be older when they arrive: what the vehicle keeps
+/// instead, it keeps in its own order, answers before telemetry.
+const SYSTEM_OUTBOX: usize = 8_192;
 
 /// A connection.
 #[derive(Debug)]
@@ -21,6 +22,8 @@ impl Connection {
         stream.set_nonblocking(true).ok()?;
         // Telemetry is small, and answers are waited for.
         stream.set_nodelay(true).ok()?;
+        // A system that does not know it takes more, and answers are later.
+        let _ = rustix::net::sockopt::set_socket_send_buffer_size(&stream, SYSTEM_OUTBOX);
         Some(Self { stream, outbox: Vec::new() })
     }
 
@@ -42,10 +45,21 @@ impl Connection {
         }
     }
 
+    /// Whether the station has not taken yet what was sent before: then it is sent nothing new.
+    pub(super) fn is_busy(&mut self) -> bool {
+        self.flush();
+        !self.outbox.is_empty()
+    }
+
     /// Sends whole frames, or keeps them until the station takes them.
     pub(super) fn write(&mut self, frames: &[u8]) {
-        if self.outbox.len() + frames.len() <= OUTBOX_MAX {
-            self.outbox.extend_from_slice(frames);
+        self.outbox.extend_from_slice(frames);
+        self.flush();
+    }
+
+    fn flush(&mut self) {
+        if self.outbox.is_empty() {
+            return;
         }
         while let Ok(count @ 1..) = self.stream.write(&self.outbox) {
             self.outbox.drain(..count);

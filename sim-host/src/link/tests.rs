@@ -217,3 +217,70 @@ fn a_station_that_connects_over_tcp_has_a_link_until_it_leaves() {
     }
     assert!(!bench.ports.first().is_open());
 }
+
+#[test]
+fn a_default_peer_who_is_not_there_gives_way_to_guests_and_one_that_listens_or_was_named_does_not() {
+    let (listens, gone) = (station(), station().local_addr().expect("bound"));
+    let peers = [listens.local_addr().expect("bound"), gone];
+    let now = Instant::now();
+    let address = |port: u16| SocketAddr::from(([127, 0, 0, 1], port));
+    let there =
+        |links: &Links| -> Vec<SocketAddr> { links.slots.iter().filter_map(|slot| Some(slot.peer?.address)).collect() };
+    for (presumed, taken) in [(true, true), (false, false)] {
+        let mut bench = Bench::new(&peers);
+        if presumed {
+            bench.links = bench.links.presuming_its_peers();
+        }
+        (1..=4).for_each(|port| bench.links.take(address(port), &heartbeat(255), now));
+        let now_there = there(&bench.links);
+        assert_eq!((now_there.contains(&peers[0]), now_there.contains(&gone)), (true, !taken));
+        assert_eq!(now_there.contains(&address(3)), taken);
+        let turned_away: Vec<News> =
+            core::iter::from_fn(|| bench.links.news()).filter(|news| matches!(news, News::TurnedAway { .. })).collect();
+        assert_eq!(turned_away.len(), if taken { 1 } else { 2 }, "{turned_away:?}");
+        // Once the guests have gone, whoever begins to listen there hears without having spoken.
+        bench.links.forget_at(now + Duration::from_secs(60));
+        assert!(there(&bench.links).contains(&gone));
+    }
+}
+
+#[test]
+fn a_connection_that_sends_no_mavlink_gives_way_at_once() {
+    let mut bench = Bench::new(&[]);
+    let server = bench.links.serve_tcp(local()).expect("a free port");
+    let browsers: Vec<TcpStream> = (0..5).map(|_| TcpStream::connect(server).expect("somebody listens")).collect();
+    for mut browser in &browsers {
+        browser.write_all(b"GET / HTTP/1.1\r\n\r\n").expect("sent");
+    }
+    let mut client = TcpStream::connect(server).expect("somebody listens");
+    client.set_nonblocking(true).expect("a socket");
+    let (start, mut heard) = (Instant::now(), 0);
+    while heard == 0 && start.elapsed() < YIELD_AFTER {
+        bench.links.receive();
+        bench.say(&heartbeat(1));
+        heard = client.read(&mut [0; 100]).unwrap_or(0);
+    }
+    assert!(heard > 0, "it hears the vehicle without having spoken, before a silent guest would give way");
+}
+
+#[test]
+fn what_a_slow_connection_has_not_taken_stays_with_the_vehicle() {
+    let mut bench = Bench::new(&[]);
+    let server = bench.links.serve_tcp(local()).expect("a free port");
+    let _slow = TcpStream::connect(server).expect("somebody listens");
+    let start = Instant::now();
+    while bench.links.slots[0].peer.is_none() && start.elapsed() < Duration::from_secs(5) {
+        bench.links.receive();
+    }
+    let many = heartbeat(1).repeat(40);
+    let mut rounds = 0;
+    while bench.ports.first().sent().held() == 0 && rounds < 1_000_000 {
+        bench.say(&many);
+        rounds += 1;
+    }
+    assert!(bench.ports.first().sent().held() > 0, "its ring holds what was not taken");
+    let held = bench.ports.first().sent().held();
+    bench.links.tell(&many);
+    bench.links.send(&bench.ports);
+    assert_eq!(bench.ports.first().sent().held(), held);
+}
