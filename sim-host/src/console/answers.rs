@@ -2,9 +2,9 @@
 //! make no request. They are read from what the vehicle sends, so that the firmware need not tell of them twice.
 
 use firmware::commander::{Origin, Reply};
-use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData as _, consts};
+use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData, consts};
 use glissade_dialect::num_traits::FromPrimitive as _;
-use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavResult};
+use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, STATUSTEXT_DATA};
 
 /// Bytes of a MAVLink 2 frame before its payload.
 const HEADER: usize = consts::STX_SIZE + consts::v2::MIN_HEADER_SIZE;
@@ -32,12 +32,13 @@ impl Answers {
 
     /// Tells the answers among the frames that are sent on a link that the commander has not given: refusals, and kills.
     pub(super) fn read(&mut self, link: u8, frames: &[u8], tell: &mut impl FnMut(String)) {
+        let reason = reason(frames);
         for ack in acknowledgements(frames) {
             let sender = (ack.target_system, ack.target_component);
             let origin = Origin::Station { link, sender, command: ack.command };
             if let Some(place) = self.awaited.iter().position(|awaited| *awaited == origin) {
                 self.awaited.remove(place);
-            } else if let Some(text) = answer(&ack).filter(|_| !self.was_told(&ack, origin)) {
+            } else if let Some(text) = answer(&ack, reason.as_deref()).filter(|_| !self.was_told(&ack, origin)) {
                 tell(text);
             }
         }
@@ -56,8 +57,8 @@ impl Answers {
     }
 }
 
-/// The acknowledgements among whole frames.
-fn acknowledgements(mut frames: &[u8]) -> impl Iterator<Item = COMMAND_ACK_DATA> {
+/// The messages of a kind among whole frames.
+fn messages<M: MessageData<Message = MavMessage>>(mut frames: &[u8]) -> impl Iterator<Item = M> {
     let next = move || {
         let length = usize::from(*frames.get(1)?);
         let (frame, rest) = frames.split_at_checked(HEADER + length + consts::CHECKSUM_SIZE)?;
@@ -67,13 +68,27 @@ fn acknowledgements(mut frames: &[u8]) -> impl Iterator<Item = COMMAND_ACK_DATA>
     std::iter::from_fn(next).filter_map(|frame| {
         let id = u32::from_le_bytes([frame[7], frame[8], frame[9], 0]);
         let payload = &frame[HEADER..frame.len() - consts::CHECKSUM_SIZE];
-        (id == COMMAND_ACK_DATA::ID).then(|| COMMAND_ACK_DATA::deser(MavlinkVersion::V2, payload).ok())?
+        (id == M::ID).then(|| M::deser(MavlinkVersion::V2, payload).ok())?
     })
+}
+
+/// The acknowledgements among whole frames.
+fn acknowledgements(frames: &[u8]) -> impl Iterator<Item = COMMAND_ACK_DATA> {
+    messages(frames)
+}
+
+/// The reason of the one refusal that is told as a text among whole frames; of several nobody knows which is whose.
+fn reason(frames: &[u8]) -> Option<String> {
+    let mut reasons = messages(frames).filter_map(|text: STATUSTEXT_DATA| {
+        let text = text.text.to_str().ok()?.to_owned();
+        text.split_once(" refused: ").map(|(_, reason)| reason.to_owned())
+    });
+    reasons.next().filter(|_| reasons.next().is_none())
 }
 
 /// An answer in words. Ground stations ask for messages all the time, and do without those that there are not: of that
 /// nothing is told.
-fn answer(ack: &COMMAND_ACK_DATA) -> Option<String> {
+fn answer(ack: &COMMAND_ACK_DATA, reason: Option<&str>) -> Option<String> {
     let known = MavCmd::from_u16(ack.command);
     if let Some(
         MavCmd::MAV_CMD_REQUEST_MESSAGE
@@ -86,6 +101,7 @@ fn answer(ack: &COMMAND_ACK_DATA) -> Option<String> {
     {
         return None;
     }
+    let why = reason.map(|reason| format!("refused, {reason}"));
     let outcome = match ack.result {
         MavResult::MAV_RESULT_UNSUPPORTED => "unsupported",
         MavResult::MAV_RESULT_COMMAND_LONG_ONLY
@@ -93,6 +109,7 @@ fn answer(ack: &COMMAND_ACK_DATA) -> Option<String> {
         | MavResult::MAV_RESULT_COMMAND_UNSUPPORTED_MAV_FRAME => "unsupported in this form",
         MavResult::MAV_RESULT_FAILED => "failed",
         MavResult::MAV_RESULT_DENIED => "denied",
+        MavResult::MAV_RESULT_TEMPORARILY_REJECTED if why.is_some() => why.as_deref().unwrap_or_default(),
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED
             if matches!(known, Some(MavCmd::MAV_CMD_NAV_TAKEOFF | MavCmd::MAV_CMD_DO_SET_HOME)) =>
         {
@@ -108,4 +125,37 @@ fn answer(ack: &COMMAND_ACK_DATA) -> Option<String> {
     let name = known.map(|known| format!(" ({})", format!("{known:?}").trim_start_matches("MAV_CMD_")));
     let (station, number, name) = (ack.target_system, ack.command, name.unwrap_or_default());
     Some(format!("ground station {station}: command {number}{name}: {outcome}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
+
+    use super::*;
+
+    fn frame(message: &impl MessageData) -> Vec<u8> {
+        let mut raw = MAVLinkV2MessageRaw::new();
+        raw.serialize_message_data(MavHeader { system_id: 1, component_id: 1, sequence: 0 }, message);
+        raw.raw_bytes().to_vec()
+    }
+
+    #[test]
+    fn a_refusal_is_told_with_the_reason_that_its_station_is_sent() {
+        let ack = frame(&COMMAND_ACK_DATA {
+            command: 179,
+            result: MavResult::MAV_RESULT_TEMPORARILY_REJECTED,
+            target_system: 255,
+            ..COMMAND_ACK_DATA::DEFAULT
+        });
+        let text = frame(&STATUSTEXT_DATA { text: "Home refused: no map".into(), ..STATUSTEXT_DATA::DEFAULT });
+        for (frames, expected) in [
+            (ack.clone(), "refused, no place on Earth known or too many at once"),
+            ([&ack[..], &text].concat(), "refused, no map"),
+            ([&ack[..], &text, &text].concat(), "refused, no place on Earth known or too many at once"),
+        ] {
+            let mut told = Vec::new();
+            Answers::default().read(0, &frames, &mut |text| told.push(text));
+            assert_eq!(told, [format!("ground station 255: command 179 (DO_SET_HOME): {expected}")]);
+        }
+    }
 }

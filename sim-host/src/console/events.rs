@@ -67,8 +67,10 @@ pub struct Watch {
     position: Steady<bool>,
     /// Whether it was told that the position is unknown, and not yet that it is known again.
     lost: bool,
-    /// True position where it was armed, m.
+    /// Where home is, m: the true position where it was armed, or the place that was made home since.
     home: Vector3<f64>,
+    /// Where it was armed: the true position, and what the vehicle took it for, m.
+    armed_at: (Vector3<f64>, Vector3<f32>),
     touchdown: Option<Touchdown>,
     /// The last touchdown and its place, until it is reported.
     contact: Option<(Contact, Vector3<f64>)>,
@@ -88,6 +90,7 @@ impl Watch {
             position: Steady { told: Some(true), seen: None },
             lost: false,
             home: flight.plant().motion().position,
+            armed_at: stood(flight),
             touchdown: touchdown(flight),
             contact: None,
             looked_at: 0,
@@ -142,6 +145,11 @@ impl Watch {
     fn look_at_ground(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
         let commander = flight.autopilot.inner.commander_output();
         let landed = commander.landed;
+        if let (true, true, Some(home)) = (self.armed, commander.armed, commander.home) {
+            let (position, believed) = self.armed_at;
+            let is_here = (home - believed).xy().norm() < HERE_M;
+            self.home = if is_here { position } else { home.cast() };
+        }
         if let Some((contact, place)) = self.contact
             && contact.descent_m_s >= HARDEST_M_S
         {
@@ -178,8 +186,12 @@ impl Watch {
         let (armed, mode) = (commander.armed, commander.mode);
         match (self.armed, armed) {
             (false, true) => {
-                self.home = flight.plant().motion().position;
+                self.armed_at = stood(flight);
+                self.home = self.armed_at.0;
                 tell(Tone::Plain, "armed: the rotors idle".to_owned());
+                if mode != Mode::Idle {
+                    tell(Tone::Plain, format!("mode: {} → {}", Mode::Idle.name(), mode.name()));
+                }
             }
             (true, false) if commander.landed || stands(flight) => tell(Tone::Good, "disarmed".to_owned()),
             (true, false) => tell(Tone::Alarm, "disarmed in the air: the rotors are stopped".to_owned()),
@@ -208,6 +220,14 @@ impl Watch {
             tell(tone, format!("{text}{off}"));
         }
     }
+}
+
+/// A home this near to where it was armed is that place, m: the vehicle's estimate wanders.
+const HERE_M: f32 = 0.5;
+
+/// Where it is: its true position, and what the vehicle takes it for, m.
+fn stood(flight: &Flight<RigidBody>) -> (Vector3<f64>, Vector3<f32>) {
+    (flight.plant().motion().position, flight.autopilot.inner.nav().position)
 }
 
 /// Positions that are further off than receivers in the open wander are told, m.

@@ -235,7 +235,8 @@ fn clear(words: &[&str], _: Tick) -> Result<Command> {
 /// Words of other shells, as that of PX4, for which there is no command, and what there is instead.
 const ELSEWHERE: &[(&str, &str)] = &[
     ("mode", "a mode is a command: takeoff, hold, goto, velocity, trajectory, return, land"),
-    ("param", "instead of parameters, keys of the scenario are set at the start: sim-host serve --set KEY=VALUE"),
+    ("param", "ground stations show and set parameters; at the start: sim-host serve --set params.NAME=VALUE"),
+    ("vehicle", "it is the only one; several fly with sim-host serve --vehicles N"),
     ("log", "a flight without a pilot at the console is recorded: sim-host run SCENARIO --out DIR"),
     ("logger", "a flight without a pilot at the console is recorded: sim-host run SCENARIO --out DIR"),
     ("yaw", "to turn, `goto yaw=90` (a heading, °) or `velocity yaw_rate=10` (°/s)"),

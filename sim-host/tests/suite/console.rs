@@ -259,6 +259,45 @@ fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
 }
 
 #[test]
+fn an_answer_that_a_slow_link_has_not_taken_is_told_once() {
+    let mut bench = Bench::new("field");
+    bench.until("] ready to arm", 10.0);
+    bench.session.ports().first().receive(&command_long(192, [0.0; 3]));
+    bench.session.ports().first().receive(&command_long(400, [2.0, 0.0, 0.0]));
+    let mut told = 0;
+    for _ in 0..500 {
+        bench.session.tick();
+        told += bench.session.take_lines().iter().filter(|line| line.text.contains("command 400")).count();
+    }
+    assert_eq!(told, 1);
+}
+
+#[test]
+fn a_take_off_that_arming_starts_is_told() {
+    let mut bench = Bench::new("field");
+    bench.until("] ready to arm", 10.0);
+    let answer = bench.enter("takeoff 3");
+    assert!(answer.contains("accepted, when armed within"), "{answer}");
+    bench.enter("arm");
+    bench.until("armed: the rotors idle", 1.0);
+    bench.until("mode: idle → take-off", 0.1);
+}
+
+#[test]
+fn a_landing_is_told_by_the_home_that_was_set() {
+    let mut bench = Bench::new("field");
+    bench.arm_and_climb(3.0);
+    bench.enter("goto 8 0 3");
+    bench.fly(12.0);
+    // DO_SET_HOME: here.
+    bench.hear(&command_long(179, [1.0, 0.0, 0.0]));
+    bench.until("home here: accepted", 1.0);
+    bench.enter("land");
+    let landed = bench.until("landed: touched down at", 30.0);
+    assert!(numbers(&landed)[1] < 3.0, "{landed}: 8 m from where it was armed");
+}
+
+#[test]
 fn killed_in_the_air_it_falls_and_that_is_told() {
     falls_by(|bench| assert_eq!(text(&bench.enter("kill")), "kill: accepted"));
     falls_by(|bench| {

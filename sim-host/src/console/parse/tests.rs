@@ -165,7 +165,7 @@ fn words_of_other_shells_are_answered_with_what_there_is_here() {
     for (line, answer) in [
         ("mode auto:loiter", "there is no `mode` here: a mode is a command: takeoff, hold, goto, "),
         ("commander mode auto:land", "there is no `mode` here: a mode is a command: takeoff, hold, goto, "),
-        ("param set MPC_XY_VEL_MAX 5", "there is no `param` here: instead of parameters, keys of the scenario"),
+        ("param set MPC_XY_VEL_MAX 5", "there is no `param` here: ground stations show and set parameters"),
         ("log list", "there is no `log` here: a flight without a pilot at the console is recorded: sim-host run"),
         ("yaw 90", "there is no `yaw` here: to turn, `goto yaw=90` (a heading, °) or `velocity yaw_rate=10`"),
         ("commander check", "there is no `check` here: `status` says whether it is ready to arm, and why not"),
