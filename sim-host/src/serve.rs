@@ -138,7 +138,9 @@ impl<V: Vehicle> Member<V> {
         let Self { vehicle, links, recorder } = self;
         let typed = vehicle.take_inputs();
         if let Some(recorder) = recorder {
-            typed.iter().for_each(|(tick, input)| recorder.console(*tick, input));
+            for (tick, input) in &typed {
+                recorder.console(*tick, input);
+            }
         }
         let tick = vehicle.next_tick();
         links.deliver(vehicle.ports(), |link, event| {

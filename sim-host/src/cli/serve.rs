@@ -40,7 +40,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
         let (file, loaded) = ParameterFile::open(path, &mut settings)?;
         if let Some(system) = args.sysid {
             // What is asked for now wins over what was kept; it is not kept by that.
-            settings.restore(MAV_SYS_ID, Value::Int(system as i32)).map_err(|_| anyhow!("--sysid {system}"))?;
+            settings.restore(MAV_SYS_ID, Value::Int(system.cast_signed())).map_err(|_| anyhow!("--sysid {system}"))?;
         }
         scenario = scenario.with_settings(&settings).with_context(|| format!("--params {}", path.display()))?;
         eprintln!("{}", kept(path, &loaded));

@@ -73,6 +73,7 @@ const INBOX_MAX: usize = 65_536;
 
 /// Who is at a link.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each tells something else of who is there")]
 struct Occupant {
     address: SocketAddr,
     profile: Profile,
