@@ -270,7 +270,10 @@ pub static SETTINGS: [Setting; COUNT] =
     concatenated(&[&MODES, &FLIGHT, &AXES, &CONTROL, &AIRFRAME, &CHOICES, &ESTIMATOR, &STATION]);
 
 /// The blocks one after the other.
-#[expect(clippy::large_stack_arrays, reason = "evaluated by the compiler alone")]
+#[cfg_attr(
+    target_pointer_width = "64",
+    expect(clippy::large_stack_arrays, reason = "evaluated by the compiler alone; on a board it is smaller")
+)]
 const fn concatenated(blocks: &[&[Setting]]) -> [Setting; COUNT] {
     let mut all = [MODES[0]; COUNT];
     let (mut at, mut block) = (0, 0);
