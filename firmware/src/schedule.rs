@@ -58,8 +58,10 @@ enum Job<O> {
     Running(Tick),
     /// Released at this tick and finished; to be published.
     Done(Tick, O),
-    /// Overrun: released at this tick and still running.
-    Late(Tick),
+    /// Overrun: still running.
+    Late,
+    /// Overrun and finished; to be published at once.
+    Overdue(O),
 }
 
 /// The mailbox between the inner loop and one partition: one input snapshot in, one output out. Its timing is in its
@@ -83,18 +85,31 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool> Mailb
     /// Step 1 of a tick: returns the output that is due now, or counts an overrun if its job has not finished.
     #[inline]
     pub fn publish(&mut self, tick: Tick) -> Option<O> {
-        let (Job::Running(released) | Job::Done(released, _)) = &self.job else { return None };
-        let released = *released;
-        if tick.wrapping_sub(released) < OFFSET {
+        let (Job::Running(released) | Job::Done(released, _)) = &self.job else { return self.publish_overdue() };
+        if tick.wrapping_sub(*released) < OFFSET {
             return None;
         }
         // Moved, not copied: an output may hold hundreds of bytes.
-        if let Job::Done(_, output) = core::mem::replace(&mut self.job, Job::Late(released)) {
+        if let Job::Done(_, output) = core::mem::replace(&mut self.job, Job::Late) {
             self.job = Job::Idle;
             return Some(output);
         }
         self.overruns = self.overruns.saturating_add(1);
         None
+    }
+
+    #[inline]
+    fn publish_overdue(&mut self) -> Option<O> {
+        if KEEPS_LATE && matches!(self.job, Job::Overdue(_)) { self.take_overdue() } else { None }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn take_overdue(&mut self) -> Option<O> {
+        match core::mem::replace(&mut self.job, Job::Idle) {
+            Job::Overdue(output) => Some(output),
+            _ => None,
+        }
     }
 
     /// True if the partition is due for release at `tick`: a multiple of its period, and its last job has ended.
@@ -122,7 +137,7 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool> Mailb
     pub fn finish(&mut self, output: O) {
         self.job = match self.job {
             Job::Running(released) => Job::Done(released, output),
-            Job::Late(released) if KEEPS_LATE => Job::Done(released, output),
+            Job::Late if KEEPS_LATE => Job::Overdue(output),
             _ => Job::Idle,
         };
     }
