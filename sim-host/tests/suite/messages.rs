@@ -71,7 +71,11 @@ fn a_parameter_that_cannot_be_set_is_named_with_its_value_and_what_it_may_be() {
 fn a_setting_that_cannot_be_is_named_with_its_value_and_what_it_may_be() {
     let folder = Folder::new("settings");
     for (scenario, setting, parts) in [
-        ("helix", "control.x.lambda=-3", &["scenario `helix`", "`control.x.lambda` must be between 0.001 and 100, not -3"][..]),
+        (
+            "helix",
+            "control.x.lambda=-3",
+            &["scenario `helix`", "`control.x.lambda` must be between 0.001 and 100, not -3"][..],
+        ),
         ("helix", "control.x.lamda=3", &["`control.x.lamda` is no key", "did you mean `lambda`?"]),
         ("helix", "control.x.lambda=fast", &["`control.x.lambda` must be a number, not \"fast\""]),
         ("helix", "control.x.lambda=nan", &["`control.x.lambda` must be a finite number, not nan"]),
