@@ -37,29 +37,20 @@ impl Commander {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::commander::tests::standing;
     use crate::commander::{Command, Commands, Origin, Outcome, Request};
     use crate::config::{FlightConfig, Start};
-    use crate::latest::Latest;
-    use crate::settings::Changes;
     use crate::signals::{NavHealth, NavState};
 
     fn at(x: f32, commands: &[Request]) -> CommanderInput {
         let nav = NavState { position: Vector3::new(x, 0.0, 0.0), ..NavState::at_rest() };
         CommanderInput {
             nav,
-            nav_fresh: true,
-            health: NavHealth::ALL,
-            thrust_n: 0.0,
-            battery: None,
-            failed_rotor: None,
-            outer_hung: false,
-            kills: 0,
-            latest: Latest::default(),
             commands: commands
                 .iter()
                 .map(|request| Command { request: *request, origin: Origin::OnBoard })
                 .collect::<Commands>(),
-            changes: Changes::new(),
+            ..standing()
         }
     }
 

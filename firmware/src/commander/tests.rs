@@ -19,7 +19,7 @@ fn hovering() -> CommanderInput {
     CommanderInput { nav, thrust_n: FlightConfig::default().airframe.weight_n(), ..standing() }
 }
 
-fn standing() -> CommanderInput {
+pub(super) fn standing() -> CommanderInput {
     CommanderInput {
         nav: NavState::at_rest(),
         nav_fresh: true,

@@ -240,9 +240,25 @@ fn mission(raw: &Raw, request: MissionRequest, target: (u8, u8), mission_type: u
     raw.is_for_us(target.0, target.1).then_some(Incoming::Mission { request, mission_type })
 }
 
-fn mission_list(raw: &Raw) -> Option<Incoming> {
-    let m: MISSION_REQUEST_LIST_DATA = raw.read()?;
-    mission(raw, MissionRequest::List, (m.target_system, m.target_component), m.mission_type)
+/// Readers of the mission protocol's messages of which only the kind matters.
+macro_rules! mission_readers {
+    ($($name:ident: $data:ty => $request:expr,)*) => {$(
+        fn $name(raw: &Raw) -> Option<Incoming> {
+            let m: $data = raw.read()?;
+            mission(raw, $request, (m.target_system, m.target_component), m.mission_type)
+        }
+    )*};
+}
+
+mission_readers! {
+    mission_list: MISSION_REQUEST_LIST_DATA => MissionRequest::List,
+    partial_list: MISSION_REQUEST_PARTIAL_LIST_DATA => MissionRequest::Part,
+    partial_upload: MISSION_WRITE_PARTIAL_LIST_DATA => MissionRequest::Upload,
+    old_item: MISSION_ITEM_DATA => MissionRequest::Upload,
+    item: MISSION_ITEM_INT_DATA => MissionRequest::Upload,
+    old_item_request: MISSION_REQUEST_DATA => MissionRequest::Item,
+    item_request: MISSION_REQUEST_INT_DATA => MissionRequest::Item,
+    mission_clear: MISSION_CLEAR_ALL_DATA => MissionRequest::Clear,
 }
 
 fn mission_count(raw: &Raw) -> Option<Incoming> {
@@ -250,41 +266,6 @@ fn mission_count(raw: &Raw) -> Option<Incoming> {
     // Nothing to upload is what a client sends that clears.
     let request = if m.count == 0 { MissionRequest::Clear } else { MissionRequest::Upload };
     mission(raw, request, (m.target_system, m.target_component), m.mission_type)
-}
-
-fn partial_list(raw: &Raw) -> Option<Incoming> {
-    let m: MISSION_REQUEST_PARTIAL_LIST_DATA = raw.read()?;
-    mission(raw, MissionRequest::Part, (m.target_system, m.target_component), m.mission_type)
-}
-
-fn partial_upload(raw: &Raw) -> Option<Incoming> {
-    let m: MISSION_WRITE_PARTIAL_LIST_DATA = raw.read()?;
-    mission(raw, MissionRequest::Upload, (m.target_system, m.target_component), m.mission_type)
-}
-
-fn old_item(raw: &Raw) -> Option<Incoming> {
-    let m: MISSION_ITEM_DATA = raw.read()?;
-    mission(raw, MissionRequest::Upload, (m.target_system, m.target_component), m.mission_type)
-}
-
-fn item(raw: &Raw) -> Option<Incoming> {
-    let m: MISSION_ITEM_INT_DATA = raw.read()?;
-    mission(raw, MissionRequest::Upload, (m.target_system, m.target_component), m.mission_type)
-}
-
-fn old_item_request(raw: &Raw) -> Option<Incoming> {
-    let m: MISSION_REQUEST_DATA = raw.read()?;
-    mission(raw, MissionRequest::Item, (m.target_system, m.target_component), m.mission_type)
-}
-
-fn item_request(raw: &Raw) -> Option<Incoming> {
-    let m: MISSION_REQUEST_INT_DATA = raw.read()?;
-    mission(raw, MissionRequest::Item, (m.target_system, m.target_component), m.mission_type)
-}
-
-fn mission_clear(raw: &Raw) -> Option<Incoming> {
-    let m: MISSION_CLEAR_ALL_DATA = raw.read()?;
-    mission(raw, MissionRequest::Clear, (m.target_system, m.target_component), m.mission_type)
 }
 
 fn set_current(raw: &Raw) -> Option<Incoming> {
