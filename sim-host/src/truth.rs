@@ -87,6 +87,7 @@ impl TruthStream {
     /// Without deviations: it is the truth.
     fn sim_state(&self, motion: &Motion, specific_force: &Vector3<f64>) -> SIM_STATE_DATA {
         let place = self.place(motion);
+        let rounded = place.rounded();
         let q = &motion.attitude;
         let [roll, pitch, yaw] = roll_pitch_yaw([q.w, q.i, q.j, q.k]);
         let [q1, q2, q3, q4] = quaternion(motion);
@@ -115,6 +116,8 @@ impl TruthStream {
             vn,
             ve,
             vd,
+            lat_int: rounded.latitude_e7,
+            lon_int: rounded.longitude_e7,
         }
     }
 }
@@ -157,6 +160,7 @@ mod tests {
         assert_eq!(hil.time_usec, 1_500_000);
         // 20 m are 1799 of 1e-7° on the meridian there, 30 m are 3974 on the parallel.
         assert_eq!((hil.lat, hil.lon, hil.alt), (473_977_000 + 1_799, 85_456_000 + 3_974, 498_000));
+        assert_eq!((sim.lat_int, sim.lon_int), (hil.lat, hil.lon));
         assert_eq!((hil.vx, hil.vy, hil.vz), (100, -200, 50));
         assert_eq!((hil.xacc, hil.yacc, hil.zacc), (102, -204, -1_000));
         assert!((sim.roll - 0.1).abs() < 1e-6 && (sim.pitch - 0.2).abs() < 1e-6 && (sim.yaw + 0.3).abs() < 1e-6);

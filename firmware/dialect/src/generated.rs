@@ -7502,9 +7502,15 @@ pub struct SIM_STATE_DATA {
     pub ve: f32,
     #[doc = "Vd."]
     pub vd: f32,
+    #[doc = "Lat int."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub lat_int: i32,
+    #[doc = "Lon int."]
+    #[cfg_attr(feature = "serde", serde(default = "crate::utils::RustDefault::rust_default"))]
+    pub lon_int: i32,
 }
 impl SIM_STATE_DATA {
-    pub const ENCODED_LEN: usize = 84usize;
+    pub const ENCODED_LEN: usize = 92usize;
     pub const DEFAULT: Self = Self {
         q1: 0.0_f32,
         q2: 0.0_f32,
@@ -7527,6 +7533,8 @@ impl SIM_STATE_DATA {
         vn: 0.0_f32,
         ve: 0.0_f32,
         vd: 0.0_f32,
+        lat_int: 0_i32,
+        lon_int: 0_i32,
     };
     #[cfg(feature = "arbitrary")]
     pub fn random<R: rand::Rng>(rng: &mut R) -> Self {
@@ -7547,7 +7555,7 @@ impl MessageData for SIM_STATE_DATA {
     const ID: u32 = 108u32;
     const NAME: &'static str = "SIM_STATE";
     const EXTRA_CRC: u8 = 32u8;
-    const ENCODED_LEN: usize = 84usize;
+    const ENCODED_LEN: usize = 92usize;
     fn deser(_version: MavlinkVersion, __input: &[u8]) -> Result<Self, ::mavlink_core::error::ParserError> {
         let avail_len = __input.len();
         let mut payload_buf;
@@ -7580,6 +7588,8 @@ impl MessageData for SIM_STATE_DATA {
         __struct.vn = buf.get_f32_le()?;
         __struct.ve = buf.get_f32_le()?;
         __struct.vd = buf.get_f32_le()?;
+        __struct.lat_int = buf.get_i32_le()?;
+        __struct.lon_int = buf.get_i32_le()?;
         Ok(__struct)
     }
     fn ser(&self, version: MavlinkVersion, bytes: &mut [u8]) -> usize {
@@ -7609,6 +7619,8 @@ impl MessageData for SIM_STATE_DATA {
         __tmp.put_f32_le(self.ve);
         __tmp.put_f32_le(self.vd);
         if matches!(version, MavlinkVersion::V2) {
+            __tmp.put_i32_le(self.lat_int);
+            __tmp.put_i32_le(self.lon_int);
             let len = __tmp.len();
             ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
         } else {
