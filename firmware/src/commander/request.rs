@@ -102,6 +102,8 @@ pub enum Origin {
     Station {
         /// The link on which it came.
         link: u8,
+        /// Which of the link's peers sent it: how often the link had been opened, wrapping.
+        peer: u16,
         /// MAVLink system and component of the sender.
         sender: (u8, u8),
         /// The `MAV_CMD` that it sent.
@@ -178,8 +180,9 @@ pub struct Reply {
 impl Reply {
     /// For the ground partition; `None` if the command came from on board.
     pub fn to_station(&self) -> Option<StationReply> {
-        let Origin::Station { link, sender, command } = self.command.origin else { return None };
-        Some(StationReply { link, sender, command, request: self.command.request.name(), outcome: self.outcome })
+        let Origin::Station { link, peer, sender, command } = self.command.origin else { return None };
+        let request = self.command.request.name();
+        Some(StationReply { link, peer, sender, command, request, outcome: self.outcome })
     }
 }
 
@@ -189,6 +192,8 @@ impl Reply {
 pub struct StationReply {
     /// The link on which the command came.
     pub link: u8,
+    /// Which of the link's peers sent it: another one is not told.
+    pub peer: u16,
     /// MAVLink system and component of its sender.
     pub sender: (u8, u8),
     /// The `MAV_CMD` that it sent.

@@ -122,7 +122,8 @@ impl Link {
                 MavResult::MAV_RESULT_TEMPORARILY_REJECTED
             }
             Effect::Ask(request) => {
-                let origin = commander::Origin::Station { link, sender, command: message.command };
+                let (peer, command) = (self.peer(), message.command);
+                let origin = commander::Origin::Station { link, peer, sender, command };
                 match self.waiting.push_back(Command { request, origin }) {
                     // The commander will answer.
                     Ok(()) => return,
@@ -182,10 +183,18 @@ impl Link {
 
     /// Passes on a reply of the commander.
     pub(super) fn reply(&mut self, reply: &StationReply) {
+        if reply.peer != self.peer() {
+            return;
+        }
         self.outbox.acknowledge(reply.command, command::result_of(reply.outcome), reply.sender);
         if let Outcome::TemporarilyRejected(refusal) = reply.outcome {
             self.refuse(reply.request, refusal.reason());
         }
+    }
+
+    /// Which of the link's peers this is.
+    fn peer(&self) -> u16 {
+        self.session as u16
     }
 
     /// Tells the pilot why something was refused.

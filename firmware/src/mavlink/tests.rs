@@ -168,7 +168,7 @@ impl Bench {
 }
 
 fn from_station(command: u16, request: Request) -> Command {
-    Command { request, origin: Origin::Station { link: 0, sender: (255, 190), command } }
+    Command { request, origin: Origin::Station { link: 0, peer: 1, sender: (255, 190), command } }
 }
 
 fn count(messages: &[MavMessage], id: u32) -> usize {

@@ -13,21 +13,30 @@ const AWAITED_MAX: usize = 16;
 /// More commands that are unsupported are told each time: no ground station has so many.
 const UNSUPPORTED_MAX: usize = 64;
 
+/// To whom an answer goes, and to what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Asked {
+    link: u8,
+    sender: (u8, u8),
+    command: u16,
+}
+
 /// The acknowledgements that are still to come of what the commander has answered, and was told.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
-    awaited: Vec<Origin>,
+    awaited: Vec<Asked>,
     /// Commands that were told to be unsupported: some stations ask again every other second, for good.
-    unsupported: Vec<Origin>,
+    unsupported: Vec<Asked>,
 }
 
 impl Answers {
     /// The commander's answer was told; its acknowledgement follows.
     pub(super) fn told(&mut self, reply: &Reply) {
+        let Origin::Station { link, sender, command, .. } = reply.command.origin else { return };
         if self.awaited.len() == AWAITED_MAX {
             self.awaited.remove(0);
         }
-        self.awaited.push(reply.command.origin);
+        self.awaited.push(Asked { link, sender, command });
     }
 
     /// Tells the answers among the frames that are sent on a link that the commander has not given: refusals, and kills.
@@ -35,23 +44,23 @@ impl Answers {
         let reason = reason(frames);
         for ack in acknowledgements(frames) {
             let sender = (ack.target_system, ack.target_component);
-            let origin = Origin::Station { link, sender, command: ack.command };
-            if let Some(place) = self.awaited.iter().position(|awaited| *awaited == origin) {
+            let asked = Asked { link, sender, command: ack.command };
+            if let Some(place) = self.awaited.iter().position(|awaited| *awaited == asked) {
                 self.awaited.remove(place);
-            } else if let Some(text) = answer(&ack, reason.as_deref()).filter(|_| !self.was_told(&ack, origin)) {
+            } else if let Some(text) = answer(&ack, reason.as_deref()).filter(|_| !self.was_told(&ack, asked)) {
                 tell(text);
             }
         }
     }
 
     /// Whether a command was told to be unsupported before.
-    fn was_told(&mut self, ack: &COMMAND_ACK_DATA, origin: Origin) -> bool {
+    fn was_told(&mut self, ack: &COMMAND_ACK_DATA, asked: Asked) -> bool {
         if ack.result != MavResult::MAV_RESULT_UNSUPPORTED {
             return false;
         }
-        let before = self.unsupported.contains(&origin);
+        let before = self.unsupported.contains(&asked);
         if !before && self.unsupported.len() < UNSUPPORTED_MAX {
-            self.unsupported.push(origin);
+            self.unsupported.push(asked);
         }
         before
     }

@@ -157,3 +157,20 @@ fn failsafe_events_are_sent_as_text() {
         assert_eq!((text.text.to_str(), text.severity as u8), (Ok(words), 2));
     }
 }
+
+#[test]
+fn a_reply_to_the_last_peer_of_a_link_is_not_told_the_next_one() {
+    let mut bench = Bench::new();
+    let command = from_station(400, Request::Arm { force: false });
+    let outcome = Outcome::TemporarilyRejected(Refusal::NoHeading);
+    let acknowledged = |messages: &[MavMessage]| {
+        messages.iter().any(|message| matches!(message, MavMessage::COMMAND_ACK(_) | MavMessage::STATUSTEXT(_)))
+    };
+    bench.hear_reply(Reply { command, outcome });
+    assert!(acknowledged(&bench.job(&[])));
+    bench.input.replies.clear();
+    // The command was passed on before the link was opened anew.
+    bench.ports.first().open(Profile::Normal);
+    bench.hear_reply(Reply { command, outcome });
+    assert!(!acknowledged(&bench.job(&[])));
+}
