@@ -5,33 +5,26 @@
 //! the other in [`Autopilot::tick`]. Each tick, in this order (see `schedule`): due outputs are published, partitions
 //! are released with a snapshot of their inputs, the inner loop runs, then the released partitions.
 
-mod partitions;
+mod inner_task;
 
-pub use partitions::Partitions;
+use core::borrow::Borrow;
 
-use crate::commander::{
-    Answers, Asked, Command, Commander, CommanderInput, CommanderOutput, Commands, Directive, Event, Events, Known,
-    Origin, Outcome, Refusal, Reply, Request,
-};
+pub use inner_task::InnerTask;
+
+use crate::commander::{Commander, CommanderInput, CommanderOutput};
 use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeLaw, PositionLaw};
 use crate::control::position::SlidingPosition;
-use crate::estimator::status::{Fusion, Status};
 use crate::estimator::{Filter, FilterInput, FilterOutput};
-use crate::failure::{Failures, Injectable};
 use crate::inner::{Inner, InnerOutput};
-use crate::latest::Latest;
 use crate::mavlink::port::Ports;
-use crate::mavlink::report::{Aim, ControlReport, LawReport, SensorReport};
-use crate::mavlink::{Ground, GroundInput, GroundOutput, Health, LoopTiming};
-use crate::navigator::Navigator;
-use crate::outer::{Authority, Outer, OuterInput, OuterOutput};
+use crate::mavlink::{Ground, GroundInput, GroundOutput};
+use crate::outer::{Outer, OuterInput, OuterOutput};
 use crate::schedule::{COMMANDER, FILTER, GROUND, Mailbox, OUTER};
-use crate::settings::{Changes, Settings};
-use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
+use crate::settings::Settings;
+use crate::signals::SensorFrame;
 use crate::validate::ConfigError;
-use crate::watchdog::{Fallback, Watchdog};
 
 /// The mailboxes between the partitions: all the data that they share.
 #[derive(Clone, Debug)]
@@ -79,463 +72,10 @@ pub struct Released {
     pub ground: bool,
 }
 
-/// The partitions that have not taken over the last changes of settings. The ground partition sends no others until
-/// all have: a slow one loses none.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Waiting {
-    filter: bool,
-    outer: bool,
-    commander: bool,
-}
-
-/// The top of the schedule: owns the inner partition and the outputs now in effect.
+/// Everything that flies, for one configuration. The desktop calls [`tick`](Autopilot::tick); a board takes it apart and
+/// gives each partition to its task. `L` are the links: a board keeps them in a static, as their drivers use them too.
 #[derive(Clone, Debug)]
-pub struct InnerTask<A = SlidingAttitude> {
-    tick: Tick,
-    inner: Inner<A>,
-    outer: OuterOutput,
-    filter: FilterOutput,
-    /// When that output took effect.
-    filtered_at: Option<Tick>,
-    /// Record of each kind of measurement, for telemetry.
-    fusion: Fusion,
-    commander: CommanderOutput,
-    /// Commands for the commander's next job, and replies for the ground's.
-    commands: Commands,
-    replies: Answers,
-    /// Failsafe events for the ground's next job.
-    events: Events,
-    /// Sticks, and when a ground station was last heard, as the ground partition has read them.
-    latest: Latest,
-    timing: Option<LoopTiming>,
-    /// Changed settings, and who has not taken them over yet.
-    changes: Changes,
-    waiting: Waiting,
-    /// Failures that the board can inject, and those it is to inject now.
-    injectable: Injectable,
-    failures: Failures,
-    /// Kills since boot, wrapping. The rotors are stopped while the commander has not disarmed for as many: a count
-    /// cannot be lost, and an output of before the kill does not undo it.
-    kills: u32,
-    /// Acts when the outer partition or the commander hangs.
-    watchdog: Watchdog,
-    /// What is flown in place of a partition that hangs.
-    fallback: Fallback,
-}
-
-impl<A: AttitudeLaw> InnerTask<A> {
-    /// Ready for the first tick. The outer loop is run once before, at hover, so that its output is in effect from tick
-    /// 0.
-    fn new(config: &FlightConfig, inner: Inner<A>, outer: &mut Outer<impl PositionLaw>, commander: &Commander) -> Self {
-        let commander = commander.initial_output();
-        let before = OuterInput {
-            nav: *inner.nav(),
-            thrust_n: config.airframe.weight_n(),
-            directive: commander.directive,
-            latest: Latest::default(),
-            changes: Changes::new(),
-        };
-        let first = outer.step(0_u32.wrapping_sub(OUTER.offset), &before);
-        // That job was a dry run: it must leave no state in the law.
-        outer.reset();
-        Self {
-            tick: 0,
-            inner,
-            outer: first,
-            filter: FilterOutput::initial(),
-            filtered_at: None,
-            fusion: Fusion::default(),
-            commander,
-            commands: Commands::new(),
-            replies: Answers::new(),
-            events: Events::new(),
-            latest: Latest::default(),
-            timing: None,
-            changes: Changes::new(),
-            waiting: Waiting::default(),
-            injectable: Injectable::NONE,
-            failures: Failures::new(),
-            kills: 0,
-            watchdog: Watchdog::default(),
-            fallback: Fallback::new(config),
-        }
-    }
-
-    /// One tick: publish, release, control. Must be called once per tick, with `None` for a missing sample.
-    #[inline]
-    pub fn tick(&mut self, mail: &mut Mailboxes, ports: &Ports, sample: Option<&SensorFrame>) -> Released {
-        let tick = self.tick;
-        self.publish(tick, mail, ports);
-        self.inner.sense(sample);
-        let released = self.release(tick, mail, ports);
-        let armed = self.is_armed();
-        if self.watchdog.is_outer_hung(tick) {
-            self.control_without_outer(tick, armed);
-        } else {
-            match self.outer.authority {
-                Authority::Idle if armed => self.inner.idle(),
-                Authority::Gentle if armed => self.inner.step_gently(tick, &self.outer.attitude),
-                _ => self.inner.step(tick, &self.outer.attitude, armed),
-            };
-        }
-        if self.inner.navigator().is_some() {
-            self.inner.watch_rotors(armed, !self.commander.landed);
-        }
-        self.tick = tick.wrapping_add(1);
-        released
-    }
-
-    /// One tick of control while the outer partition hangs: a blind descent, unless the vehicle is on the ground.
-    #[cold]
-    fn control_without_outer(&mut self, tick: Tick, armed: bool) {
-        if !armed {
-            self.inner.step(tick, &self.outer.attitude, false);
-            return;
-        }
-        if self.outer.authority == Authority::Idle {
-            self.inner.idle();
-            return;
-        }
-        let thrust_n = self.fallback.blind_thrust_n() / self.outer.thrust_effectiveness;
-        let (level, is_first) = self.watchdog.level(tick, self.inner.nav(), thrust_n);
-        if is_first {
-            self.report(Event::OuterHung);
-        }
-        if self.inner.failed_rotor().is_some() {
-            // There is no torque to spare.
-            self.inner.step(tick, &level, true);
-        } else {
-            self.inner.step_gently(tick, &level);
-        }
-    }
-
-    /// The directive for the outer partition: the commander's, or a descent while that hangs.
-    fn directive(&mut self, tick: Tick) -> Directive {
-        let told = self.commander.directive;
-        if !self.watchdog.hung(tick).commander {
-            return told;
-        }
-        let (health, heading_free) = (self.nav_health(), self.inner.failed_rotor().is_some());
-        let Some((descent, is_first)) = self.watchdog.descent(&told, self.fallback.rate_m_s(), &health, heading_free)
-        else {
-            return told;
-        };
-        if is_first {
-            self.report(Event::CommanderHung);
-        }
-        descent
-    }
-
-    fn report(&mut self, event: Event) {
-        // A full queue holds worse news.
-        let _ = self.events.push(event);
-    }
-
-    #[inline]
-    fn publish(&mut self, tick: Tick, mail: &mut Mailboxes, ports: &Ports) {
-        if let Some(output) = mail.outer.publish(tick) {
-            self.outer = output;
-            self.watchdog.outer_published(tick);
-        }
-        if let Some(navigator) = self.inner.navigator_mut()
-            && let Some(output) = mail.filter.publish(tick)
-        {
-            navigator.inject(&output.injection);
-            self.fusion.note(tick, &output.consistency);
-            self.filter = output;
-            self.filtered_at = Some(tick);
-        }
-        if let Some(output) = mail.commander.publish(tick) {
-            for reply in &output.replies {
-                self.reply(reply);
-            }
-            if let Some(event) = output.event {
-                self.report(event);
-            }
-            self.commander = output;
-            self.watchdog.commander_published(tick);
-        }
-        if let Some(output) = mail.ground.publish(tick) {
-            if output.kill {
-                self.kill();
-            }
-            for command in &output.commands {
-                if let Err(command) = self.commands.push(*command) {
-                    self.reply(&Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) });
-                }
-            }
-            self.latest = output.latest;
-            ports.publish();
-            if !output.failures.is_empty() {
-                self.failures = output.failures;
-            }
-            if !output.changes.is_empty() {
-                self.hand_on(output.changes);
-            }
-        }
-    }
-
-    /// Settings for the other partitions: inner takes them over now, each of the others with its next job.
-    #[cold]
-    #[inline(never)]
-    fn hand_on(&mut self, changes: Changes) {
-        for change in &changes {
-            self.inner.apply(change);
-            self.fallback.apply(change);
-        }
-        self.changes = changes;
-        let filter = self.inner.navigator().is_some();
-        self.waiting = Waiting { filter, outer: true, commander: true };
-    }
-
-    /// The changes for a partition that has not taken them over yet.
-    fn changes_for(&mut self, partition: fn(&mut Waiting) -> &mut bool) -> Changes {
-        let waits = core::mem::take(partition(&mut self.waiting));
-        if waits { self.changes.clone() } else { Changes::new() }
-    }
-
-    fn reply(&mut self, reply: &Reply) {
-        // Never full: a job of the commander has as many replies as commands, and one of the ground partition, which runs
-        // twice as often, refuses no more.
-        if let Some(reply) = reply.to_station() {
-            let _ = self.replies.push(reply);
-        }
-    }
-
-    /// Stops the rotors at once, until the commander has disarmed. It is not replied to.
-    pub fn kill(&mut self) {
-        self.kills = self.kills.wrapping_add(1);
-    }
-
-    #[inline]
-    fn release(&mut self, tick: Tick, mail: &mut Mailboxes, ports: &Ports) -> Released {
-        let released = Released {
-            filter: self.inner.navigator().is_some() && mail.filter.is_due(tick),
-            outer: mail.outer.is_due(tick),
-            commander: mail.commander.is_due(tick),
-            ground: mail.ground.is_due(tick),
-        };
-        if released.filter {
-            let landed = self.commander.landed;
-            let at_rest = landed && !self.is_armed();
-            let changes = self.changes_for(|waiting| &mut waiting.filter);
-            if let Some(navigator) = self.inner.navigator_mut() {
-                mail.filter.release(tick, navigator.release(landed, at_rest, changes));
-            }
-        }
-        if released.outer {
-            let input = OuterInput {
-                nav: *self.inner.nav(),
-                thrust_n: self.inner.thrust_n(),
-                directive: self.directive(tick),
-                latest: self.latest,
-                changes: self.changes_for(|waiting| &mut waiting.outer),
-            };
-            mail.outer.release(tick, input);
-        }
-        if released.commander {
-            let input = CommanderInput {
-                nav: *self.inner.nav(),
-                nav_fresh: self.inner.is_nav_fresh(),
-                health: self.nav_health(),
-                thrust_n: self.inner.thrust_n(),
-                battery: self.inner.navigator().and_then(Navigator::battery),
-                failed_rotor: self.inner.failed_rotor(),
-                outer_hung: self.watchdog.is_outer_hung(tick),
-                kills: self.kills,
-                latest: self.latest,
-                commands: core::mem::take(&mut self.commands),
-                changes: self.changes_for(|waiting| &mut waiting.commander),
-            };
-            mail.commander.release(tick, input);
-        }
-        if released.ground {
-            ports.release();
-            let overruns = mail.overruns();
-            mail.ground.release(tick, self.ground_input(overruns));
-        }
-        released
-    }
-
-    fn ground_input(&mut self, overruns: [u32; 3]) -> GroundInput {
-        GroundInput {
-            nav: *self.inner.nav(),
-            armed: self.is_armed(),
-            mode: self.commander.shown,
-            landed: self.commander.landed,
-            armable: self.commander.armable.is_ok(),
-            health: Health {
-                nav_fresh: self.inner.is_nav_fresh(),
-                refused_samples: self.inner.refused_samples(),
-                overruns,
-                hung: self.watchdog.hung(self.tick),
-                timing: self.timing,
-            },
-            estimator: self.estimator_status(),
-            control: self.control_report(),
-            sensors: self.sensor_report(),
-            home: self.commander.home,
-            injectable: self.injectable,
-            changes_taken: self.waiting == Waiting::default(),
-            replies: core::mem::take(&mut self.replies),
-            events: core::mem::take(&mut self.events),
-        }
-    }
-
-    fn control_report(&self) -> ControlReport {
-        let (inner, outer, airframe) = (self.inner.output(), &self.outer, self.inner.airframe());
-        let holds_position = match self.commander.directive {
-            Directive::Descend { known, .. } => known == Known::Position,
-            _ => true,
-        };
-        let aim = Aim {
-            attitude: outer.attitude.target.attitude,
-            rates: outer.attitude.target.rates,
-            thrust_n: outer.attitude.thrust_n,
-            place: outer.wanted,
-            velocity: outer.wanted_velocity,
-            acceleration: outer.wanted_acceleration,
-            yaw_rate: outer.wanted_yaw_rate,
-            holds_position,
-            holds_heading: !outer.heading_free,
-        };
-        ControlReport {
-            aim: (self.is_armed() && outer.authority != Authority::Idle).then_some(aim),
-            attitude_law: LawReport { s: inner.s, state: self.inner.law_state() },
-            position_law: LawReport { s: outer.s, state: outer.law },
-            motors: inner.motors,
-            rotor_speeds_rad_s: *self.inner.rotor_speeds_rad_s(),
-            thrust_n: inner.demand.thrust_n,
-            thrust_max_n: airframe.thrust_max_n(),
-            omega_max_rad_s: airframe.omega_max_rad_s,
-        }
-    }
-
-    /// The sensors; `None` on ideal state.
-    fn sensor_report(&self) -> Option<SensorReport> {
-        let navigator = self.inner.navigator()?;
-        let latest = navigator.latest();
-        Some(SensorReport {
-            imu: navigator.imu(),
-            mag: latest.mag,
-            baro: latest.baro,
-            gnss: latest.gnss,
-            vibration_m_s2: navigator.vibration().level_m_s2(),
-            clipped: navigator.vibration().clipped(),
-        })
-    }
-
-    /// The estimator's report; `None` on ideal state.
-    pub fn estimator_status(&self) -> Option<Status> {
-        let battery = self.inner.navigator()?.battery_with_age();
-        Some(self.fusion.status(self.tick, &self.filter, self.nav_health(), battery))
-    }
-
-    /// Declares the failures that this board can inject. The board must then [take](Self::take_failures) the accepted
-    /// ones after each tick, and inject them.
-    pub fn allow_failures(&mut self, injectable: Injectable) {
-        self.injectable = injectable;
-    }
-
-    /// Accepted failure injections, already acknowledged to the ground station: inject them now.
-    pub fn take_failures(&mut self) -> Failures {
-        core::mem::take(&mut self.failures)
-    }
-
-    fn is_armed(&self) -> bool {
-        self.commander.armed && self.commander.kills == self.kills
-    }
-
-    /// What a pilot asks for: a [`request`](Self::request) or a [`kill`](Self::kill).
-    ///
-    /// # Errors
-    /// The request itself if too many are waiting; never a kill.
-    pub fn ask(&mut self, asked: Asked) -> Result<(), Request> {
-        match asked {
-            Asked::Request(request) => self.request(request),
-            Asked::Kill => {
-                self.kill();
-                Ok(())
-            }
-        }
-    }
-
-    /// A request of a program on board, for the commander's next job.
-    ///
-    /// # Errors
-    /// The request itself if too many are waiting.
-    pub fn request(&mut self, request: Request) -> Result<(), Request> {
-        let command = Command { request, origin: Origin::OnBoard };
-        self.commands.push(command).map_err(|command| command.request)
-    }
-
-    /// Loop rates measured by the board, for telemetry.
-    pub fn report_timing(&mut self, timing: LoopTiming) {
-        self.timing = Some(timing);
-    }
-
-    /// The motion that the inner loop used in the last tick: as sensed, or as estimated.
-    #[inline]
-    pub fn nav(&self) -> &NavState {
-        self.inner.nav()
-    }
-
-    /// The inner loop's output of the last tick.
-    #[inline]
-    pub fn inner_output(&self) -> &InnerOutput {
-        self.inner.output()
-    }
-
-    /// The outer loop's output now in effect.
-    #[inline]
-    pub fn outer_output(&self) -> &OuterOutput {
-        &self.outer
-    }
-
-    /// Navigation on sensors; `None` on ideal state.
-    pub fn navigator(&self) -> Option<&Navigator> {
-        self.inner.navigator()
-    }
-
-    /// When the filter's last output took effect.
-    pub fn filtered_at(&self) -> Option<Tick> {
-        self.filtered_at
-    }
-
-    /// The filter's last output.
-    pub fn filter_output(&self) -> &FilterOutput {
-        &self.filter
-    }
-
-    /// Which components of the motion may be trusted.
-    pub fn nav_health(&self) -> NavHealth {
-        match (self.inner.is_nav_fresh(), self.inner.navigator()) {
-            (false, _) => NavHealth::NONE,
-            (true, None) => NavHealth::ALL,
-            (true, Some(_)) => self.filter.health,
-        }
-    }
-
-    /// Sticks, and when a ground station was last heard, as outer and commander are handed them.
-    pub fn latest(&self) -> &Latest {
-        &self.latest
-    }
-
-    /// The commander's output now in effect.
-    pub fn commander_output(&self) -> &CommanderOutput {
-        &self.commander
-    }
-
-    /// The number of the next tick.
-    pub fn next_tick(&self) -> Tick {
-        self.tick
-    }
-}
-
-/// Everything that flies, for one configuration: the [`Partitions`] with the links to ground stations. The desktop calls
-/// [`tick`](Autopilot::tick).
-#[derive(Clone, Debug)]
-pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
+pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition, L = Ports> {
     /// Runs every tick.
     pub inner: InnerTask<A>,
     /// The estimator's covariance and late readings; idle on ideal state.
@@ -549,7 +89,7 @@ pub struct Autopilot<A = SlidingAttitude, P = SlidingPosition> {
     /// The mailboxes between them.
     pub mail: Mailboxes,
     /// The links to ground stations, all closed at first.
-    pub ports: Ports,
+    pub ports: L,
 }
 
 impl Autopilot {
@@ -558,7 +98,21 @@ impl Autopilot {
     /// # Errors
     /// The first field of the configuration that is out of range.
     pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
-        Partitions::new(config).map(Self::of)
+        Autopilot::on(config, Ports::new())
+    }
+}
+
+impl<L: Borrow<Ports>> Autopilot<SlidingAttitude, SlidingPosition, L> {
+    /// The same with links that are kept elsewhere.
+    ///
+    /// # Errors
+    /// The first field of the configuration that is out of range.
+    pub fn on(config: &FlightConfig, ports: L) -> Result<Self, ConfigError> {
+        // The laws are made of valid values only.
+        config.validate()?;
+        let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
+        let position = SlidingPosition::new(&config.airframe, &config.position);
+        Self::assemble(config, attitude, position, ports)
     }
 }
 
@@ -568,12 +122,28 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
     /// # Errors
     /// The first field of the configuration that is out of range.
     pub fn with_laws(config: &FlightConfig, attitude: A, position: P) -> Result<Self, ConfigError> {
-        Partitions::with_laws(config, attitude, position).map(Self::of)
+        config.validate()?;
+        Self::assemble(config, attitude, position, Ports::new())
     }
+}
 
-    fn of(partitions: Partitions<A, P>) -> Self {
-        let Partitions { inner, filter, outer, commander, ground, mail } = partitions;
-        Self { inner, filter, outer, commander, ground, mail, ports: Ports::new() }
+impl<A: AttitudeLaw, P: PositionLaw, L: Borrow<Ports>> Autopilot<A, P, L> {
+    /// The partitions of a valid configuration.
+    fn assemble(config: &FlightConfig, attitude: A, position: P, ports: L) -> Result<Self, ConfigError> {
+        let settings = Settings::of(config);
+        let mut commander = Commander::new(config);
+        commander.configure(&settings);
+        let mut outer = Outer::new(config, position)?;
+        let inner = Inner::new(config, attitude)?;
+        Ok(Self {
+            inner: InnerTask::new(config, inner, &mut outer, &commander),
+            filter: filter(config),
+            outer,
+            commander,
+            ground: Ground::new(settings),
+            mail: Mailboxes::new(),
+            ports,
+        })
     }
 
     /// The same vehicle with the settings of which its configuration was made: with what stands in the settings alone,
@@ -588,27 +158,34 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
     /// One tick of all partitions, in the order of the schedule: the desktop's executor.
     #[inline]
     pub fn tick(&mut self, sample: Option<&SensorFrame>) -> &InnerOutput {
-        let released = self.inner.tick(&mut self.mail, &self.ports, sample);
-        if released.filter
-            && let Some((tick, input)) = self.mail.filter.take()
-        {
-            self.mail.filter.finish(self.filter.step(tick, &input));
-        }
-        if released.outer
-            && let Some((tick, input)) = self.mail.outer.take()
-        {
-            self.mail.outer.finish(self.outer.step(tick, &input));
-        }
-        if released.commander
-            && let Some((tick, input)) = self.mail.commander.take()
-        {
-            self.mail.commander.finish(self.commander.step(tick, &input));
-        }
-        if released.ground
-            && let Some((tick, input)) = self.mail.ground.take()
-        {
-            self.mail.ground.finish(self.ground.step(tick, &input, &self.ports));
-        }
+        let released = self.inner.tick(&mut self.mail, self.ports.borrow(), sample);
+        self.run(released);
         self.inner.inner_output()
     }
+
+    /// The jobs that a tick has released, each to its end.
+    #[inline]
+    pub fn run(&mut self, released: Released) {
+        let Self { filter, outer, commander, ground, mail, ports, .. } = self;
+        if released.filter {
+            mail.filter.run(|tick, input| filter.step(tick, input));
+        }
+        if released.outer {
+            mail.outer.run(|tick, input| outer.step(tick, input));
+        }
+        if released.commander {
+            mail.commander.run(|tick, input| commander.step(tick, input));
+        }
+        if released.ground {
+            mail.ground.run(|tick, input| ground.step(tick, input, (*ports).borrow()));
+        }
+    }
+}
+
+/// The filter of a configuration; unused on ideal state.
+fn filter(config: &FlightConfig) -> Filter {
+    let airframe = &config.airframe;
+    let [k, _, _] = airframe.drag_n_s_m;
+    let settings = config.estimator.unwrap_or_default();
+    Filter::new(&settings, airframe.gravity_m_s2, k / airframe.mass_kg, config.start_position())
 }

@@ -142,6 +142,14 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool> Mailb
         };
     }
 
+    /// Step 4 on the desktop: the released job, if any, to its end.
+    #[inline]
+    pub fn run(&mut self, step: impl FnOnce(Tick, &I) -> O) {
+        if let Some((tick, input)) = self.take() {
+            self.finish(step(tick, &input));
+        }
+    }
+
     /// Number of jobs that had not finished when their output was due.
     pub fn overruns(&self) -> u32 {
         self.overruns

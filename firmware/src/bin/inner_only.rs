@@ -7,7 +7,7 @@
 mod image {
     use core::hint::black_box;
 
-    use firmware::autopilot::Partitions;
+    use firmware::autopilot::Autopilot;
     use firmware::config::FlightConfig;
     use firmware::estimator::EstimatorSettings;
     use firmware::mavlink::port::Ports;
@@ -19,13 +19,13 @@ mod image {
     #[cortex_m_rt::entry]
     fn main() -> ! {
         let config = FlightConfig { estimator: Some(EstimatorSettings::default()), ..FlightConfig::default() };
-        let Ok(Partitions { mut inner, mut mail, .. }) = Partitions::new(&black_box(config)) else { end() };
+        let Ok(Autopilot { mut inner, mut mail, ports, .. }) = Autopilot::on(&black_box(config), &PORTS) else { end() };
         let motion = SensorFrame::Motion(NavState::at_rest());
         let measured = SensorFrame::Measured(Measurements::default());
         loop {
             // On ideal state, on sensors, and without a sample.
             for sample in [Some(&motion), Some(&measured), None] {
-                black_box(inner.tick(black_box(&mut mail), &PORTS, black_box(sample)));
+                black_box(inner.tick(black_box(&mut mail), ports, black_box(sample)));
             }
         }
     }

@@ -18,7 +18,7 @@
 use rtic_core::Mutex;
 
 use super::{Clock, Companion, Diagnostics, Rotors, Sensors, SerialReceiver, SerialSender, Start, Ticker};
-use crate::autopilot::{InnerTask, Mailboxes, Partitions};
+use crate::autopilot::{Autopilot, InnerTask, Mailboxes};
 use crate::commander;
 use crate::estimator::Filter;
 use crate::mavlink::port::{Port, Ports, Profile};
@@ -83,7 +83,8 @@ impl<B: Sensors + Rotors + Companion, K: Clock, T: Ticker, D: Diagnostics + Clon
     /// The first field of the configuration that is out of range.
     pub fn new(start: Start<B, D>, clock: K, ticker: T, ports: &'static Ports) -> Result<Self, ConfigError> {
         let Start { config, injectable, board, diagnostics } = start;
-        let Partitions { mut inner, filter, outer, commander, ground, mail } = Partitions::new(&config)?;
+        let pilot = Autopilot::on(&config, ports)?;
+        let Autopilot { mut inner, filter, outer, commander, ground, mail, .. } = pilot;
         inner.allow_failures(injectable);
         let line = (!B::HAS_ALL_LINKS).then(|| ports.first());
         if let Some(port) = line {

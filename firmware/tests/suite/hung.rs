@@ -1,7 +1,7 @@
 //! A partition whose job never ends: the vehicle comes down level and slowly, says so, and a kill still stops it.
 
 use firmware::airframe::ROTORS;
-use firmware::autopilot::Autopilot;
+use firmware::autopilot::{Autopilot, Released};
 use firmware::commander::{Mode, Refusal, Request};
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
@@ -61,20 +61,16 @@ impl Vehicle {
     }
 
     fn tick(&mut self) {
-        let Autopilot { inner, outer, commander, ground, mail, ports, .. } = &mut self.pilot;
+        let Autopilot { inner, mail, ports, .. } = &mut self.pilot;
         let released = inner.tick(mail, ports, Some(&SensorFrame::Motion(self.body.nav)));
-        if released.outer
-            && let Some((tick, input)) = mail.outer.take()
-            && !self.hangs.outer
-        {
-            mail.outer.finish(outer.step(tick, &input));
-        }
-        if released.commander
-            && let Some((tick, input)) = mail.commander.take()
-            && !self.hangs.commander
-        {
-            mail.commander.finish(commander.step(tick, &input));
-        }
+        // The ground partition's jobs are run below.
+        self.pilot.run(Released {
+            outer: released.outer && !self.hangs.outer,
+            commander: released.commander && !self.hangs.commander,
+            ground: false,
+            ..released
+        });
+        let Autopilot { inner, ground, mail, ports, .. } = &mut self.pilot;
         // A job runs when it ends: what it works on is its release's.
         let now = inner.next_tick() - 1;
         let ends = |tick: Tick, late: Tick| now >= tick + if late > 0 { GROUND.offset + late } else { 0 };

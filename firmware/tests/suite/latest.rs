@@ -69,18 +69,14 @@ impl Vehicle {
         let motion = NavState { position: Vector3::new(0.0, 0.0, 20.0), ..NavState::at_rest() };
         let released = inner.tick(mail, ports, Some(&SensorFrame::Motion(motion)));
         let mut handed = [None; 2];
-        if released.outer
-            && let Some((tick, input)) = mail.outer.take()
-        {
+        mail.outer.run(|tick, input| {
             handed[0] = Some(input.latest);
-            mail.outer.finish(outer.step(tick, &input));
-        }
-        if released.commander
-            && let Some((tick, input)) = mail.commander.take()
-        {
+            outer.step(tick, input)
+        });
+        mail.commander.run(|tick, input| {
             handed[1] = Some(input.latest);
-            mail.commander.finish(commander.step(tick, &input));
-        }
+            commander.step(tick, input)
+        });
         if released.ground
             && let Some((tick, input)) = mail.ground.take()
         {

@@ -1,6 +1,6 @@
 //! Settings on their way through the whole autopilot: from a ground station's message to whoever flies by them.
 
-use firmware::autopilot::Autopilot;
+use firmware::autopilot::{Autopilot, Released};
 use firmware::commander::{Mode, Outcome, Refusal, Request};
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
@@ -220,16 +220,7 @@ fn partitions_that_are_too_slow_lose_no_change() {
     let mut job = None;
     for tick in 0..3_000_u32 {
         let released = pilot.inner.tick(&mut pilot.mail, &pilot.ports, Some(&sample));
-        if released.outer
-            && let Some((tick, input)) = pilot.mail.outer.take()
-        {
-            pilot.mail.outer.finish(pilot.outer.step(tick, &input));
-        }
-        if released.ground
-            && let Some((tick, input)) = pilot.mail.ground.take()
-        {
-            pilot.mail.ground.finish(pilot.ground.step(tick, &input, &pilot.ports));
-        }
+        pilot.run(Released { commander: false, ..released });
         if released.commander {
             job = pilot.mail.commander.take().map(|job| (tick + 90, job));
         }

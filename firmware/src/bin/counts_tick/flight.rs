@@ -97,30 +97,11 @@ fn stand_on_the_ground(plant: &mut Plant, gravity_m_s2: f32) {
 /// One tick of the inner task, which is counted, and of those that it releases, as `Autopilot::tick` does it.
 #[inline(never)]
 fn step(counter: Counter, pilot: &mut Autopilot, sample: &SensorFrame) -> u32 {
-    let Autopilot { inner, filter, outer, commander, ground, mail, ports } = pilot;
+    let Autopilot { inner, mail, ports, .. } = pilot;
     let (task, boxes, gates, sample) = black_box((&mut *inner, &mut *mail, &*ports, Some(sample)));
     let (instructions, released) = counter.count(mark_begin_tick, || black_box(task.tick(boxes, gates, sample)));
-    if released.filter
-        && let Some((tick, input)) = mail.filter.take()
-    {
-        mail.filter.finish(filter.step(tick, &input));
-    }
-    if released.outer
-        && let Some((tick, input)) = mail.outer.take()
-    {
-        mail.outer.finish(outer.step(tick, &input));
-    }
-    if released.commander
-        && let Some((tick, input)) = mail.commander.take()
-    {
-        mail.commander.finish(commander.step(tick, &input));
-    }
-    if released.ground
-        && let Some((tick, input)) = mail.ground.take()
-    {
-        mail.ground.finish(ground.step(tick, &input, ports));
-    }
+    pilot.run(released);
     // The line takes what is to be sent.
-    let _ = ports.first().take(&mut [0; 512]);
+    let _ = pilot.ports.first().take(&mut [0; 512]);
     instructions
 }
