@@ -27,6 +27,7 @@ use firmware::inner::InnerOutput;
 use firmware::mavlink::port::LinkEvent;
 use firmware::pil::{AllSent, Answer, Cause, Hello, REPLY_BYTES, Reply, Request, Sent, Signal, State};
 pub use firmware::pil::{BusyWait, Fault};
+use firmware::settings::Settings;
 use firmware::signals::{ControlInput, MotorCommand, NavState, SensorFrame, TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
 
@@ -42,6 +43,8 @@ pub struct PilOptions<'a> {
     pub image: PathBuf,
     /// The flight's configuration.
     pub config: &'a FlightConfig,
+    /// Its settings.
+    pub settings: Settings,
     /// Failures that ground stations may inject; the host does it.
     pub injectable: Injectable,
     /// Busy-waits added to its partitions' jobs.
@@ -53,11 +56,12 @@ pub struct PilOptions<'a> {
 }
 
 impl<'a> PilOptions<'a> {
-    /// Without busy-waits, faults and failures, with a time-out of 10 s.
+    /// With the configuration's own settings, without busy-waits, faults and failures, with a time-out of 10 s.
     pub fn new(image: impl Into<PathBuf>, config: &'a FlightConfig) -> Self {
         Self {
             image: image.into(),
             config,
+            settings: Settings::of(config),
             injectable: Injectable::NONE,
             busy: BusyWait::default(),
             fault: None,
@@ -155,8 +159,8 @@ impl Pil {
     /// # Errors
     /// In one line: no image, no QEMU, no answer in time, or a configuration that the image refuses.
     pub fn start(options: &PilOptions) -> Result<Self> {
-        let PilOptions { config, injectable, busy, fault, .. } = *options;
-        let hello = Hello { config: config.clone(), injectable, busy, fault };
+        let PilOptions { config, ref settings, injectable, busy, fault, .. } = *options;
+        let hello = Hello { config: config.clone(), settings: settings.clone(), injectable, busy, fault };
         let hello = hello.encode().map_err(|error| anyhow::anyhow!("{error}"))?;
         let mut qemu = Qemu::start(&options.image, options.timeout)?;
         qemu.send(&hello)?;

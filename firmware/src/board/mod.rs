@@ -26,6 +26,7 @@ use crate::commander::Asked;
 use crate::config::FlightConfig;
 use crate::failure::Injectable;
 use crate::mavlink::port::Ports;
+use crate::settings::Settings;
 use crate::signals::{MotorCommand, SensorFrame, Tick};
 use crate::validate::ConfigError;
 
@@ -105,6 +106,8 @@ impl Diagnostics for () {}
 pub struct Start<B, D> {
     /// Configuration of the flight.
     pub config: FlightConfig,
+    /// Its settings: those of the configuration, and what stands in the settings alone.
+    pub settings: Settings,
     /// Failures that can be injected.
     pub injectable: Injectable,
     /// The drivers of the inner task.

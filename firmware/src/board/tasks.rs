@@ -82,8 +82,8 @@ impl<B: Sensors + Rotors + Companion, K: Clock, T: Ticker, D: Diagnostics + Clon
     /// # Errors
     /// The first field of the configuration that is out of range.
     pub fn new(start: Start<B, D>, clock: K, ticker: T, ports: &'static Ports) -> Result<Self, ConfigError> {
-        let Start { config, injectable, board, diagnostics } = start;
-        let pilot = Autopilot::on(&config, ports)?;
+        let Start { config, settings, injectable, board, diagnostics } = start;
+        let pilot = Autopilot::on(&config, ports)?.with_settings(settings);
         let Autopilot { mut inner, filter, outer, commander, ground, mail, .. } = pilot;
         inner.allow_failures(injectable);
         let line = (!B::HAS_ALL_LINKS).then(|| ports.first());

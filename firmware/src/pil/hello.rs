@@ -6,10 +6,11 @@ use super::{REPLY_BYTES, VERSION};
 use crate::config::FlightConfig;
 use crate::failure::Injectable;
 use crate::guidance::CONTROL_POINTS;
+use crate::settings::{self, Settings};
 use crate::signals::Tick;
 
 /// Bytes of an encoded [`Hello`]: version, length, content, zeros.
-pub const HELLO_BYTES: usize = 2048 + 16 * CONTROL_POINTS;
+pub const HELLO_BYTES: usize = 2048 + 16 * CONTROL_POINTS + 5 * settings::COUNT;
 const TEXT_BYTES: usize = REPLY_BYTES - 4;
 
 /// The host's first frame.
@@ -17,6 +18,8 @@ const TEXT_BYTES: usize = REPLY_BYTES - 4;
 pub struct Hello {
     /// Configuration of the flight.
     pub config: FlightConfig,
+    /// Its settings: those of the configuration, and what stands in the settings alone.
+    pub settings: Settings,
     /// Failures that the host can inject on behalf of the image.
     pub injectable: Injectable,
     /// Busy-waits added to the partitions' jobs.

@@ -174,9 +174,14 @@ fn longest_config() -> crate::config::FlightConfig {
 #[test]
 fn a_hello_is_decoded_as_it_was_encoded_and_an_invalid_one_is_refused() {
     use crate::failure::{Injectable, Manner, Unit};
+    use crate::settings::{Settings, Value};
 
+    let config = longest_config();
+    let mut settings = Settings::of(&config);
+    settings.restore(crate::settings::BAT1_N_CELLS, Value::Int(4)).expect("in range");
     let hello = Hello {
-        config: longest_config(),
+        config,
+        settings,
         injectable: Injectable::NONE.with(Unit::Gnss, 1, &[Manner::Off]),
         busy: BusyWait { outer_us: 1, commander_us: 2, ground_us: 3 },
         fault: Some((5, Fault::Panic)),

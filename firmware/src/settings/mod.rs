@@ -153,6 +153,25 @@ impl Default for Settings {
     }
 }
 
+/// On the wire: the values.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Settings {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(self.bits)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Settings {
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        use serde::de::Error as _;
+
+        let values = heapless::Vec::<u32, COUNT>::deserialize(from)?;
+        let bits = values.into_array().map_err(|_| D::Error::custom("a setting is missing"))?;
+        Ok(Self { bits, ..Self::default() })
+    }
+}
+
 impl Settings {
     /// Those of a configuration, and defaults for what it does not have. The vehicle is configured: by a program.
     pub fn of(config: &FlightConfig) -> Self {

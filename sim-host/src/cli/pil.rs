@@ -35,7 +35,8 @@ pub(super) fn run(args: &PilArgs) -> Result<()> {
     let flight = flight::lockstep(&scenario, seed, flight::rigid_body(&scenario, seed))?;
     let injectable = if scenario.replay.is_some() { flight.injectable() } else { Injectable::NONE };
     let image = image(args.image.as_deref())?;
-    let pil = Pil::start(&PilOptions { injectable, busy, timeout, ..PilOptions::new(image, &config) })?;
+    let settings = scenario.settings();
+    let pil = Pil::start(&PilOptions { settings, injectable, busy, timeout, ..PilOptions::new(image, &config) })?;
 
     let bar = Progress::new(scenario.file.duration_s, !args.json);
     interrupt::listen();

@@ -143,12 +143,14 @@ fn navigation_on_sensors_is_the_same_bit_for_bit() {
 
 /// Flies a scenario by two ground stations on both sides. `disturb` changes what the image hears.
 fn by_stations(name: &str, ready_s: f64, ticks: u32, disturb: fn(&mut Vec<u8>)) -> anyhow::Result<AllSent> {
-    // The image is told a configuration, and no setting that has no place in it: its own are the defaults.
-    let mut scenario = Scenario::load(name, &["params.BAT1_N_CELLS=0".to_owned()]).expect("valid");
+    // Settings that have no place in the configuration, too.
+    let set = ["params.BAT1_N_CELLS=5", "params.COM_DL_LOSS_T=7"].map(str::to_owned);
+    let mut scenario = Scenario::load(name, &set).expect("valid");
     scenario.replay = Some(flight_by_two(ready_s).into());
     let config = scenario.flight_config();
     let mut sil = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("flies");
-    let options = PilOptions { injectable: sil.injectable(), ..PilOptions::new(image("mps2-pil"), &config) };
+    let settings = scenario.settings();
+    let options = PilOptions { settings, injectable: sil.injectable(), ..PilOptions::new(image("mps2-pil"), &config) };
     let mut pil = Pil::start(&options)?;
     let mut modes = Vec::new();
     for tick in 0..ticks {

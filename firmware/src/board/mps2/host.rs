@@ -140,10 +140,11 @@ pub fn start(
     let mut from_host = open(directory, "to-image", |path| File::open(path))?;
     let mut bytes = [0; HELLO_BYTES];
     from_host.read_exact(&mut bytes).map_err(|_| StartError::NoHost)?;
-    let Hello { config, injectable, busy, fault } = Hello::decode(&bytes).map_err(StartError::Hello)?;
+    let Hello { config, settings, injectable, busy, fault } = Hello::decode(&bytes).map_err(StartError::Hello)?;
     let pwm = PwmRotors::new(pwm, config.airframe.omega_max_rad_s);
     Ok(Start {
         config,
+        settings,
         injectable,
         board: Board { from_host, pwm, ports, asked: Deque::new(), sent: AllSent::default() },
         diagnostics: Diagnostics { clock, busy, fault },

@@ -8,6 +8,7 @@ use crate::failure::Injectable;
 use crate::mavlink::port::Ports;
 use crate::pil::Cause;
 use crate::rotors::PwmRotors;
+use crate::settings::Settings;
 use crate::signals::{MotorCommand, NavState, SensorFrame, Tick};
 
 /// A sensor that always returns the same sample, and the chip's own outputs.
@@ -48,7 +49,8 @@ pub fn start(
     nav.position = config.start_position();
     let pwm = PwmRotors::new(pwm, config.airframe.omega_max_rad_s);
     let board = Board { sample: SensorFrame::Motion(nav), pwm };
-    Ok(Start { config, injectable: Injectable::NONE, board, diagnostics: () })
+    let settings = Settings::of(&config);
+    Ok(Start { config, settings, injectable: Injectable::NONE, board, diagnostics: () })
 }
 
 /// Does nothing: there is no host.

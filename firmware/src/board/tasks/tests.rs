@@ -7,11 +7,11 @@ use glissade_dialect::{COMMAND_LONG_DATA, MavCmd};
 use rtic_core::Exclusive;
 
 use super::*;
-use crate::autopilot::Autopilot;
 use crate::commander::{Asked, Mode, Request};
 use crate::config::FlightConfig;
 use crate::failure::Injectable;
 use crate::inner::InnerOutput;
+use crate::settings::Settings;
 use crate::signals::{MotorCommand, NavState, SensorFrame, Tick};
 
 /// A vehicle that is held at rest, and whoever takes part in its flight.
@@ -136,7 +136,8 @@ impl<const HAS_ALL_LINKS: bool> Board<HAS_ALL_LINKS> {
     fn new() -> Self {
         let ports: &'static Ports = Box::leak(Box::default());
         let (config, injectable) = (FlightConfig::default(), Injectable::NONE);
-        let start = Start { config, injectable, board: Bench::default(), diagnostics: () };
+        let settings = Settings::of(&config);
+        let start = Start { config, settings, injectable, board: Bench::default(), diagnostics: () };
         let tasks = Tasks::new(start, Still, Still, ports).expect("valid");
         let line = tasks.line;
         let (receive, transmit) = (Receive::new(Serial::default(), line), Transmit::new(Serial::default(), line));
