@@ -6,8 +6,9 @@
 //! the conditions that are judged over several jobs, `checks` those for arming and take-off. The input is a list of
 //! [`Request`]s, the output a [`Directive`] for guidance.
 //!
-//! A refused request changes nothing and returns the reason; a request for what is already being done changes nothing. A kill is no request but a count of kills, which no queue can lose: the inner loop stops the rotors
-//! as soon as it is ahead of the commander's (see `autopilot`).
+//! A refused request changes nothing and returns the reason; a request for what is already being done changes nothing.
+//! A kill is no request but a count of kills, which no queue can lose: the inner loop stops the rotors as soon as it is
+//! ahead of the commander's (see `autopilot`).
 
 mod checks;
 mod decide;
