@@ -234,7 +234,8 @@ impl Port {
         let onboard = u32::from(profile == Profile::Onboard);
         self.received_from.store(self.received.position(), Ordering::Relaxed);
         self.sent_from.store(self.sent.position(), Ordering::Relaxed);
-        self.session.store(count << 2 | onboard << 1 | 1, Ordering::Relaxed);
+        // After the positions: who sees this peer must see where its bytes begin.
+        self.session.store(count << 2 | onboard << 1 | 1, Ordering::Release);
     }
 
     /// Closes the link: nothing is read from it, and nothing sent.
@@ -303,7 +304,7 @@ impl Port {
 
     /// Which opening of the link the ground partition has to do with: its count and profile; `None` while it is closed.
     pub(super) fn session(&self) -> Option<(u32, Profile)> {
-        let seen = self.seen.load(Ordering::Relaxed);
+        let seen = self.seen.load(Ordering::Acquire);
         let profile = if seen & 2 == 0 { Profile::Normal } else { Profile::Onboard };
         (seen & 1 == 1).then_some((seen >> 2, profile))
     }
@@ -321,7 +322,7 @@ impl Port {
     /// When the ground partition's output is published. What it has written without having seen that the peer is a new one
     /// was meant for the last one.
     fn publish(&self) {
-        if self.session.load(Ordering::Relaxed) != self.seen.load(Ordering::Relaxed) {
+        if self.session.load(Ordering::Acquire) != self.seen.load(Ordering::Relaxed) {
             self.sent_from.store(self.sent.position(), Ordering::Relaxed);
         }
         self.sent.open_gate();
@@ -330,7 +331,7 @@ impl Port {
     /// At the release of the ground partition.
     fn release(&self) {
         self.received.open_gate();
-        self.seen.store(self.session.load(Ordering::Relaxed), Ordering::Relaxed);
+        self.seen.store(self.session.load(Ordering::Acquire), Ordering::Release);
         self.waiting.store(self.sent.held() as u32, Ordering::Relaxed);
         self.lost.store(self.received.lost(), Ordering::Relaxed);
     }
