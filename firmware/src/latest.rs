@@ -1,4 +1,4 @@
-//! Inputs of which only the latest counts: sticks, and when a ground station was last heard.
+//! Inputs of which only the latest counts: sticks, a radio's channels, and when a ground station was last heard.
 //!
 //! They are the third path of inputs, beside kills (a count) and requests (a queue). Whoever reads one overwrites the
 //! last, with the time; it comes with the snapshots of the outer partition and of the commander, which judge its age by
@@ -31,8 +31,7 @@ pub type Channels = [Option<PulseUs>; CHANNELS];
 /// A pulse width, µs: never 0, so that its absence takes no space.
 pub type PulseUs = core::num::NonZeroU16;
 
-/// Sticks, of a radio or of a ground station. An axis is `None` if its source does not tell it, and in its range
-/// otherwise; a radio's channels have no axes while none is mapped to one.
+/// Sticks. An axis is `None` if its source does not tell it, and in its range otherwise.
 ///
 /// Axes have the signs of rotations in the body frame, forward, left, up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,15 +46,15 @@ pub struct Sticks {
     pub throttle: Option<f32>,
     /// Pressed buttons, a bit each.
     pub buttons: u16,
-    /// A radio's channels, from channel 1.
-    pub channels: Channels,
 }
 
 /// What was read last of each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Latest {
-    /// Sticks, from whichever source they came last; `None` if there were none, or if they have been released.
+    /// The sticks of a joystick; `None` if there were none.
     pub sticks: Option<Stamped<Sticks>>,
+    /// A radio's channels, none of them lost when the last came; `None` if there were none, or if all have been released.
+    pub channels: Option<Stamped<Channels>>,
     /// When a ground station was last heard, on whatever link; `None` if none ever was.
     pub station: Option<Tick>,
 }
@@ -65,14 +64,23 @@ impl Latest {
     pub fn forget_old(&mut self, now: Tick) {
         let is_old = |at: Tick| now.wrapping_sub(at) > Tick::MAX / 2;
         self.sticks = self.sticks.filter(|sticks| !is_old(sticks.at));
+        self.channels = self.channels.filter(|channels| !is_old(channels.at));
         self.station = self.station.filter(|at| !is_old(*at));
     }
 
     /// The sticks, unless they are older than a time, s.
     pub fn sticks_within(&self, now: Tick, limit_s: f32) -> Option<&Sticks> {
-        let sticks = self.sticks.as_ref()?;
-        (!is_older(sticks.at, now, limit_s)).then_some(&sticks.value)
+        within(self.sticks.as_ref(), now, limit_s)
     }
+
+    /// A radio's channels, unless they are older than a time, s.
+    pub fn channels_within(&self, now: Tick, limit_s: f32) -> Option<&Channels> {
+        within(self.channels.as_ref(), now, limit_s)
+    }
+}
+
+fn within<T>(latest: Option<&Stamped<T>>, now: Tick, limit_s: f32) -> Option<&T> {
+    latest.filter(|latest| !is_older(latest.at, now, limit_s)).map(|latest| &latest.value)
 }
 
 #[cfg(test)]
@@ -82,7 +90,7 @@ mod tests {
     #[test]
     fn sticks_are_there_as_long_as_they_are_no_older_than_the_limit_also_when_the_clock_wraps() {
         for at in [0, 1_000, Tick::MAX - 100] {
-            let latest = Latest { sticks: Some(Stamped { value: Sticks::default(), at }), station: None };
+            let latest = Latest { sticks: Some(Stamped { value: Sticks::default(), at }), ..Latest::default() };
             for (age, there) in [(0, true), (499, true), (500, true), (501, false), (100_000, false)] {
                 assert_eq!(latest.sticks_within(at.wrapping_add(age), 0.5).is_some(), there, "{age} ms");
             }
@@ -93,7 +101,11 @@ mod tests {
 
     #[test]
     fn what_was_read_weeks_ago_does_not_come_back() {
-        let read = Latest { sticks: Some(Stamped { value: Sticks::default(), at: 7 }), station: Some(7) };
+        let read = Latest {
+            sticks: Some(Stamped { value: Sticks::default(), at: 7 }),
+            channels: Some(Stamped { value: Channels::default(), at: 7 }),
+            station: Some(7),
+        };
         let mut latest = read;
         latest.forget_old(7 + Tick::MAX / 2);
         assert_eq!(latest, read);

@@ -63,14 +63,14 @@ pub struct OuterOutput {
     pub heading_free: bool,
     /// Reference position, m, and heading, rad.
     pub wanted: Vector4<f32>,
-    /// Thrust that the rotors give, as a fraction of the model's, for the inner partition should this be the last output.
-    pub thrust_effectiveness: f32,
-    /// Its velocity, m/s.
+    /// Velocity of the reference, m/s.
     pub wanted_velocity: Vector3<f32>,
-    /// Its acceleration, m/s².
+    /// Acceleration of the reference, m/s².
     pub wanted_acceleration: Vector3<f32>,
     /// ψ̇ of the reference, rad/s.
     pub wanted_yaw_rate: f32,
+    /// Thrust that the rotors give, as a fraction of the model's, for the inner partition should this be the last output.
+    pub thrust_effectiveness: f32,
     /// What the position law keeps inside.
     pub law: LawState,
 }

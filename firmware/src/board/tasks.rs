@@ -230,9 +230,19 @@ impl<R: SerialReceiver> Receive<R> {
         self.serial.acknowledge();
         // In a loop: a byte that arrives while this task runs may not interrupt again.
         while let Ok(true) = self.serial.read_ready() {
-            let mut byte = [0];
-            if let (Ok(1..), Some(port)) = (self.serial.read(&mut byte), self.line) {
-                port.receive(&byte);
+            let mut bytes = [0; 32];
+            match (self.serial.read(&mut bytes), self.line) {
+                (Ok(count @ 1..), Some(port)) => {
+                    port.receive(bytes.get(..count).unwrap_or_default());
+                }
+                (Ok(1..), None) => {}
+                // The next interrupt goes on: one that lasts must not stop the tasks below.
+                (error, line) => {
+                    if let (Err(_), Some(port)) = (error, line) {
+                        port.lose(1);
+                    }
+                    return;
+                }
             }
         }
     }

@@ -9,9 +9,10 @@ use super::outbox::{Answer, Line, Outbox};
 use super::params::{self, Done, ParamRequest, Params};
 use super::parser::Parser;
 use super::port::{Port, Profile};
+use super::sticks::{Hands, Source};
 use super::telemetry::{Place, Report, Telemetry, View};
 use super::writer::Writer;
-use super::{GroundOutput, command, mode, place, sticks};
+use super::{GroundOutput, command, mode, place};
 use crate::commander::{self, Command, Event, Outcome, Refusal, Reply, StationReply};
 use crate::frames::Origin;
 use crate::latest::Latest;
@@ -35,6 +36,10 @@ pub(super) struct Job<'a> {
     pub(super) set_origin: &'a mut Option<Origin>,
     /// What was read last, on whatever link.
     pub(super) latest: &'a mut Latest,
+    /// From whom sticks come.
+    pub(super) hands: &'a mut Hands,
+    /// Whether what can be set while disarmed only is refused.
+    pub(super) armed: bool,
     /// Its output.
     pub(super) output: &'a mut GroundOutput,
 }
@@ -57,10 +62,10 @@ pub(super) struct Link {
 
 impl Link {
     /// Forgets the last peer if there is a new one. The sequence goes on: the new one cannot know where it began.
-    pub(super) fn begin(&mut self, session: u32, profile: Profile, port: &Port) {
+    pub(super) fn begin(&mut self, session: u32, profile: Profile, now: Tick, port: &Port) {
         if session != self.session {
             port.pass_stale_input();
-            let telemetry = Telemetry::new(profile);
+            let telemetry = Telemetry::new(profile, now);
             *self = Self { session, telemetry, sequence: self.sequence, ..Self::default() };
         }
     }
@@ -86,7 +91,10 @@ impl Link {
                     job.latest.station = Some(job.view.now);
                 }
             }
-            Incoming::Sticks(sticks) => sticks::take(&sticks, job.view.now, job.view.stick_loss_s, job.latest),
+            Incoming::Sticks(sticks) => {
+                let (from, view) = (Source { link: number, system: sender.0 }, &job.view);
+                job.hands.take(&sticks, from, view.now, view.stick_loss_s, job.latest);
+            }
             Incoming::Command(command) => self.handle_command(number, sender, &command, job),
             Incoming::SetMode { base_mode, custom_mode } => {
                 let command = mode::as_command(base_mode, custom_mode);
@@ -152,7 +160,7 @@ impl Link {
             ParamRequest::List => self.params.request_list(),
             ParamRequest::Read { index, name } => self.params.request_read(*index, name, sender),
             ParamRequest::Set { name, bits, kind } => {
-                let done = params::set(job.settings, name, *bits, *kind, job.view.input.armed);
+                let done = params::set(job.settings, name, *bits, *kind, job.armed);
                 if let Done::Changed(index) = done {
                     job.changed.set(index);
                 }

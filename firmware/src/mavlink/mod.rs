@@ -61,12 +61,14 @@ use nalgebra::Vector3;
 use self::link::{Job, Link};
 use self::port::{LINKS, Ports};
 use self::report::{ControlReport, SensorReport};
+use self::sticks::Hands;
 use self::telemetry::View;
-use crate::commander::{Answers, Commands, Events, Mode};
+use crate::commander::{Answers, Commands, Events, Mode, Request};
 use crate::estimator::status::Status;
 use crate::failure::{Failures, Injectable};
 use crate::frames::Origin as MapOrigin;
 use crate::latest::Latest;
+use crate::schedule::{COMMANDER, GROUND};
 use crate::sensors::BatterySample;
 use crate::settings::{Changes, Marks, Settings};
 use crate::signals::{NavState, Tick};
@@ -181,6 +183,10 @@ pub struct GroundOutput {
 /// Commands that one job passes to the commander, which takes four a job and runs half as often.
 const COMMANDS_A_JOB: usize = 2;
 
+/// An arming that was passed on is seen after this time at the latest, ticks, if it was accepted: it is published, decided
+/// in the commander's next job, takes effect, and comes with the next snapshot.
+const ARMING_SEEN_AFTER: Tick = GROUND.offset + COMMANDER.period + COMMANDER.offset + GROUND.period;
+
 /// The ground partition.
 #[derive(Clone, Debug)]
 pub struct Ground {
@@ -193,6 +199,10 @@ pub struct Ground {
     set_origin: Option<MapOrigin>,
     /// What was read last, on whatever link.
     latest: Latest,
+    /// From whom sticks come.
+    hands: Hands,
+    /// When an arming was last passed on: until it is seen what became of it, the vehicle counts as armed.
+    arming_at: Option<Tick>,
 }
 
 impl Default for Ground {
@@ -204,8 +214,16 @@ impl Default for Ground {
 impl Ground {
     /// The owner of these settings.
     pub fn new(settings: Settings) -> Self {
-        let (us, latest) = (Identity::of(&settings), Latest::default());
-        Self { us, links: Default::default(), first: 0, settings, set_origin: None, latest }
+        Self {
+            us: Identity::of(&settings),
+            links: Default::default(),
+            first: 0,
+            settings,
+            set_origin: None,
+            latest: Latest::default(),
+            hands: Hands::default(),
+            arming_at: None,
+        }
     }
 
     /// The settings, for whoever saves them.
@@ -225,12 +243,15 @@ impl Ground {
         self.latest.forget_old(released);
         let view = View { latest: self.latest, ..view };
         let origin_before = self.set_origin;
+        self.arming_at = self.arming_at.filter(|at| released.wrapping_sub(*at) <= ARMING_SEEN_AFTER);
+        let armed = input.armed || self.arming_at.is_some();
         for ((number, link), port) in (0..).zip(&mut self.links).zip(ports) {
             let Some((session, profile)) = port.session() else { continue };
-            link.begin(session, profile, port);
+            link.begin(session, profile, released, port);
             let (settings, changed) = (&mut self.settings, &mut changed);
-            let (set_origin, latest) = (&mut self.set_origin, &mut self.latest);
-            link.read(number, port, &mut Job { view, settings, changed, set_origin, latest, output: &mut output });
+            let (set_origin, latest, hands) = (&mut self.set_origin, &mut self.latest, &mut self.hands);
+            let output = &mut output;
+            link.read(number, port, &mut Job { view, settings, changed, set_origin, latest, hands, armed, output });
         }
         while let Some(index) = changed.first() {
             changed.clear(index);
@@ -245,6 +266,9 @@ impl Ground {
         // What can be set while disarmed only is in effect before an arming that is asked for after it.
         if input.armed || self.settings.next_disarmed_change().is_none() {
             self.pass_on_commands(&mut output);
+        }
+        if output.commands.iter().any(|command| matches!(command.request, Request::Arm { .. })) {
+            self.arming_at = Some(released);
         }
         for reply in &input.replies {
             if let Some(link) = self.links.get_mut(usize::from(reply.link)) {

@@ -140,7 +140,7 @@ impl Parser {
         bytes.peek(header.length()).is_none_or(|byte| matches!(byte, MAGIC_V1 | MAGIC_V2))
     }
 
-    /// Number of frames with a wrong checksum since boot.
+    /// Number of frames with a wrong checksum since the link was opened.
     pub(super) fn bad_checksums(&self) -> u32 {
         self.bad_checksums
     }

@@ -124,13 +124,15 @@ impl<const N: usize> Ring<N> {
         self.written.load(Ordering::Acquire)
     }
 
+    /// Bytes that are held before a position: none once it has been passed.
+    fn distance_to(&self, position: u32) -> usize {
+        let before = position.wrapping_sub(self.read.load(Ordering::Relaxed)) as usize;
+        if before <= self.held() { before } else { 0 }
+    }
+
     /// Passes over all that was written before a position; for the reader.
     fn skip_to(&self, position: u32) {
-        let before = position.wrapping_sub(self.read.load(Ordering::Relaxed)) as usize;
-        // Beyond what is held, the position has been passed already.
-        if before <= self.held() {
-            self.skip(before);
-        }
+        self.skip(self.distance_to(position));
     }
 
     /// Passes over the next bytes; for the reader.
@@ -192,8 +194,9 @@ pub struct Port {
     session: AtomicU32,
     /// The same, as seen by the ground partition.
     seen: AtomicU32,
-    /// Bytes of `received` before this position are the last peer's, and those of `sent` before the other were for it.
+    /// Bytes of `received` before this position are the last peer's; stored by the driver.
     received_from: AtomicU32,
+    /// Bytes of `sent` before this position were for the last peer; stored by the inner task.
     sent_from: AtomicU32,
     /// Bytes of `sent` that waited for the driver when the ground partition was released, and bytes lost of `received`
     /// until then: a job must not see how far a driver has come meanwhile.
@@ -233,8 +236,7 @@ impl Port {
         let count = (self.session.load(Ordering::Relaxed) >> 2).wrapping_add(1);
         let onboard = u32::from(profile == Profile::Onboard);
         self.received_from.store(self.received.position(), Ordering::Relaxed);
-        self.sent_from.store(self.sent.position(), Ordering::Relaxed);
-        // After the positions: who sees this peer must see where its bytes begin.
+        // After the position: who sees this peer must see where its bytes begin.
         self.session.store(count << 2 | onboard << 1 | 1, Ordering::Release);
     }
 
@@ -265,7 +267,9 @@ impl Port {
 
     /// The driver's side: the next byte to send.
     pub fn next_byte(&self) -> Option<u8> {
-        self.pass_stale();
+        if !self.pass_stale() {
+            return None;
+        }
         let byte = self.sent.peek(0)?;
         self.sent.skip(1);
         Some(byte)
@@ -274,27 +278,33 @@ impl Port {
     /// The driver's side: takes bytes to send, as many as there are and as fit. They are whole frames unless `into` is
     /// too short.
     pub fn take<'a>(&self, into: &'a mut [u8]) -> &'a [u8] {
-        self.pass_stale();
-        let bytes = self.sent.copy(into);
+        let bytes = self.look(into);
         self.sent.skip(bytes.len());
         bytes
     }
 
     /// The driver's side: the bytes to send, which stay.
     pub fn look<'a>(&self, into: &'a mut [u8]) -> &'a [u8] {
-        self.pass_stale();
-        self.sent.copy(into)
+        if self.pass_stale() { self.sent.copy(into) } else { &[] }
     }
 
-    /// The driver's side: whether there are bytes to send.
+    /// Whether there are bytes to send. Anyone may ask.
     pub fn has_output(&self) -> bool {
-        self.pass_stale();
-        self.sent.readable() > 0
+        self.is_known() && self.sent.readable() > self.sent.distance_to(self.sent_from.load(Ordering::Relaxed))
     }
 
-    /// The driver's side: passes over what was meant for the last peer.
-    fn pass_stale(&self) {
-        self.sent.skip_to(self.sent_from.load(Ordering::Relaxed));
+    /// The driver's side: passes over what was meant for the last peer. False while nothing is meant for this one yet.
+    fn pass_stale(&self) -> bool {
+        let is_known = self.is_known();
+        if is_known {
+            self.sent.skip_to(self.sent_from.load(Ordering::Relaxed));
+        }
+        is_known
+    }
+
+    /// Whether the ground partition's release has seen the present peer: until then all that waits was for the last one.
+    fn is_known(&self) -> bool {
+        self.seen.load(Ordering::Acquire) == self.session.load(Ordering::Relaxed)
     }
 
     /// The ground partition's side, once it has seen that there is a new peer: passes over what the last one has sent.
@@ -319,19 +329,22 @@ impl Port {
         self.lost.load(Ordering::Relaxed)
     }
 
-    /// When the ground partition's output is published. What it has written without having seen that the peer is a new one
-    /// was meant for the last one.
+    /// When the ground partition's output is published.
     fn publish(&self) {
-        if self.session.load(Ordering::Acquire) != self.seen.load(Ordering::Relaxed) {
-            self.sent_from.store(self.sent.position(), Ordering::Relaxed);
-        }
         self.sent.open_gate();
     }
 
-    /// At the release of the ground partition.
+    /// At the release of the ground partition, whose last job has ended. All that it wrote without having seen that the
+    /// peer is a new one was meant for the last one. Once that has been passed over, the mark moves along: positions wrap.
     fn release(&self) {
         self.received.open_gate();
-        self.seen.store(self.session.load(Ordering::Acquire), Ordering::Release);
+        let session = self.session.load(Ordering::Acquire);
+        if session != self.seen.load(Ordering::Relaxed) {
+            self.sent_from.store(self.sent.position(), Ordering::Relaxed);
+            self.seen.store(session, Ordering::Release);
+        } else if self.sent.distance_to(self.sent_from.load(Ordering::Relaxed)) == 0 {
+            self.sent_from.store(self.sent.read.load(Ordering::Relaxed), Ordering::Relaxed);
+        }
         self.waiting.store(self.sent.held() as u32, Ordering::Relaxed);
         self.lost.store(self.received.lost(), Ordering::Relaxed);
     }
@@ -491,5 +504,63 @@ mod tests {
         port.receive(b"er");
         port.release();
         assert_eq!(port.received.copy(&mut [0; 99]), b"er", "passed over once");
+    }
+
+    #[test]
+    fn nothing_is_dropped_when_the_positions_wrap_in_a_session() {
+        let port = Port::new();
+        port.open(Profile::Normal);
+        port.release();
+        // 4 GiB were sent in this session.
+        for position in [&port.sent.written, &port.sent.gate, &port.sent.read] {
+            position.store(u32::MAX - 99, Ordering::Relaxed);
+        }
+        port.sent_from.store(u32::MAX - 99, Ordering::Relaxed);
+        let (mut sent, mut taken) = (Vec::new(), Vec::new());
+        for number in 0..200_u8 {
+            let bytes = [number; 7];
+            port.sent.write(&bytes);
+            sent.extend(bytes);
+            port.publish();
+            // Some always wait.
+            taken.extend_from_slice(port.take(&mut [0; 6]));
+            port.release();
+        }
+        taken.extend_from_slice(port.take(&mut [0; 999]));
+        assert_eq!(taken, sent);
+    }
+
+    #[test]
+    fn an_old_mark_is_passed_for_good() {
+        let port = Port::new();
+        port.open(Profile::Normal);
+        port.release();
+        port.sent.write(b"abc");
+        port.publish();
+        assert_eq!(port.take(&mut [0; 9]), b"abc");
+        port.release();
+        // As if 4 GiB less 2 bytes had been sent meanwhile.
+        for position in [&port.sent.written, &port.sent.gate, &port.sent.read] {
+            position.store(port.sent_from.load(Ordering::Relaxed).wrapping_sub(2), Ordering::Relaxed);
+        }
+        port.release();
+        assert_eq!(port.sent_from.load(Ordering::Relaxed), port.sent.read.load(Ordering::Relaxed));
+    }
+
+    #[test]
+    fn to_ask_for_output_takes_nothing() {
+        let port = Port::new();
+        port.open(Profile::Normal);
+        port.release();
+        port.sent.write(b"old");
+        port.publish();
+        port.open(Profile::Normal);
+        let read = port.sent.read.load(Ordering::Relaxed);
+        assert!(!port.has_output());
+        port.release();
+        port.sent.write(b"new");
+        port.publish();
+        assert!(port.has_output());
+        assert_eq!(port.sent.read.load(Ordering::Relaxed), read, "only who sends passes over bytes");
     }
 }

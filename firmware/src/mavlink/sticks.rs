@@ -3,7 +3,7 @@
 use glissade_dialect::{MANUAL_CONTROL_DATA, RC_CHANNELS_DATA, RC_CHANNELS_OVERRIDE_DATA};
 
 use super::telemetry::View;
-use crate::latest::{CHANNELS, Channels, Latest, PulseUs, Stamped, Sticks};
+use crate::latest::{CHANNELS, Channels, Latest, PulseUs, Stamped, Sticks, is_older};
 use crate::signals::Tick;
 
 /// An axis that a joystick does not have.
@@ -53,7 +53,6 @@ pub(super) fn of_joystick(m: &MANUAL_CONTROL_DATA) -> Option<StickMessage> {
         yaw: axis(m.r, -FULL)?.map(|right| -right),
         throttle: axis(m.z, 0)?,
         buttons: m.buttons,
-        channels: Channels::default(),
     }))
 }
 
@@ -93,39 +92,65 @@ pub(super) fn of_channels(m: &RC_CHANNELS_OVERRIDE_DATA) -> Option<StickMessage>
     Some(StickMessage::Channels(channels))
 }
 
-/// Takes over a message that was read at a tick: the newest counts, from whichever link it comes. A channel that is
-/// ignored stays as it is, unless it was lost: older than `loss_s`. Without any channel left, the sticks are released.
-pub(super) fn take(message: &StickMessage, now: Tick, loss_s: f32, latest: &mut Latest) {
-    let value = match message {
-        StickMessage::Joystick(sticks) => *sticks,
-        // It says nothing.
-        StickMessage::Channels(message) if message.iter().all(|said| *said == Channel::Ignored) => return,
-        StickMessage::Channels(message) => {
-            let mut channels = latest.sticks_within(now, loss_s).map_or_else(Channels::default, |last| last.channels);
-            let had = channels != Channels::default();
-            for (channel, said) in channels.iter_mut().zip(message) {
-                match said {
-                    Channel::Ignored => {}
-                    Channel::Released => *channel = None,
-                    Channel::Set(pulse) => *channel = Some(*pulse),
+/// Who moves sticks: a MAVLink system on a link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Source {
+    /// The link.
+    pub(super) link: u8,
+    /// The system.
+    pub(super) system: u8,
+}
+
+/// From whom sticks and channels come, and since when each channel has been as it is.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Hands {
+    joystick: Option<Source>,
+    radio: Option<Source>,
+    set_at: [Tick; CHANNELS],
+}
+
+impl Hands {
+    /// Takes over a message that was read at a tick. While nothing of a source is older than `loss_s`, no other one of its
+    /// kind counts: the vehicle would be moved by both in turn.
+    pub(super) fn take(&mut self, message: &StickMessage, from: Source, now: Tick, loss_s: f32, latest: &mut Latest) {
+        match message {
+            StickMessage::Joystick(sticks) => {
+                if latest.sticks_within(now, loss_s).is_none() || self.joystick == Some(from) {
+                    self.joystick = Some(from);
+                    latest.sticks = Some(Stamped { value: *sticks, at: now });
                 }
             }
-            if channels == Channels::default() {
-                // Nothing is let go of that was not held: a joystick's sticks stay.
-                if had {
-                    latest.sticks = None;
+            StickMessage::Channels(message) => {
+                let held = latest.channels_within(now, loss_s).copied();
+                let says_something = message.iter().any(|said| *said != Channel::Ignored);
+                if says_something && (held.is_none() || self.radio == Some(from)) {
+                    self.radio = Some(from);
+                    let channels = self.channels(held.unwrap_or_default(), message, now, loss_s);
+                    let are_there = channels != Channels::default();
+                    latest.channels = are_there.then_some(Stamped { value: channels, at: now });
                 }
-                return;
             }
-            Sticks { channels, ..Sticks::default() }
         }
-    };
-    latest.sticks = Some(Stamped { value, at: now });
+    }
+
+    /// The channels after a message. One that it ignores stays as it is, unless it was lost.
+    fn channels(&mut self, held: Channels, message: &[Channel; CHANNELS], now: Tick, loss_s: f32) -> Channels {
+        let mut channels = held;
+        for ((channel, set_at), said) in channels.iter_mut().zip(&mut self.set_at).zip(message) {
+            match said {
+                Channel::Ignored if is_older(*set_at, now, loss_s) => *channel = None,
+                Channel::Ignored => {}
+                Channel::Released => *channel = None,
+                Channel::Set(pulse) => (*channel, *set_at) = (Some(*pulse), now),
+            }
+        }
+        channels
+    }
 }
 
 /// The channels, while there are any that are not lost.
 pub(super) fn rc_channels(view: &View) -> Option<RC_CHANNELS_DATA> {
-    let channels = &view.sticks()?.channels;
+    let channels = view.channels()?;
     let last = channels.iter().rposition(Option::is_some)?;
     let mut raw = [NO_CHANNEL; CHANNELS];
     for (raw, channel) in raw.iter_mut().zip(channels) {

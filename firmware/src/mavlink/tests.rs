@@ -36,8 +36,12 @@ const REQUEST_MESSAGE: u16 = 512;
 const NAV_WAYPOINT: u16 = 16;
 
 fn frame(message: &impl MessageData) -> Vec<u8> {
+    frame_from(STATION, message)
+}
+
+fn frame_from(header: MavHeader, message: &impl MessageData) -> Vec<u8> {
     let mut raw = MAVLinkV2MessageRaw::new();
-    raw.serialize_message_data(STATION, message);
+    raw.serialize_message_data(header, message);
     raw.raw_bytes().to_vec()
 }
 
@@ -115,7 +119,7 @@ impl Bench {
         ports.first().open(Profile::Normal);
         let mut ground = Ground::default();
         // As in the first job: what was set before is forgotten when a link is opened.
-        ground.links[0].begin(1, Profile::Normal, ports.first());
+        ground.links[0].begin(1, Profile::Normal, 0, ports.first());
         Self { ground, ports, tick: 0, sequence: 0, input, commands: Vec::new(), killed: false, largest: 0 }
     }
 

@@ -384,7 +384,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
         }
         self.plant.step(&command, push, TICK_S_EXACT);
         self.outcome.saturated_ticks += u32::from(saturated);
-        self.tick += 1;
+        self.tick = self.tick.wrapping_add(1);
         self.outcome.ticks = self.tick;
         self.outcome.survived()
     }

@@ -67,9 +67,9 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     }
     interrupt::listen();
     let mut terminal = Stdio::new();
-    let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested)?;
+    let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested);
     drop(terminal);
-    eprintln!("{}", farewell(&flown));
+    // However it has ended: what was set in flight is not lost with a recording that cannot be written.
     if let Some(first) = fleet.first_mut() {
         match first.vehicle.save_at_end()? {
             0 => {}
@@ -77,6 +77,7 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
             count => eprintln!("{count} parameters that were set in flight are saved"),
         }
     }
+    eprintln!("{}", farewell(&flown?));
     let recorder = fleet.first().and_then(|first| first.recorder.as_ref());
     if let (Some(path), Some(true)) = (&args.record, recorder.map(Recorder::is_whole)) {
         eprintln!("recorded into {}: fly it again by sim-host {}", path.display(), again(args, &set, path));

@@ -124,6 +124,8 @@ struct Slot {
     connection: Option<Connection>,
     inbox: Vec<u8>,
     lost: u32,
+    /// It has closed its connection: the link stays until the vehicle has read what was sent before.
+    ended: bool,
 }
 
 impl Slot {
@@ -287,10 +289,7 @@ impl Links {
         for slot in &mut self.slots {
             let (Some(connection), Some(peer)) = (&mut slot.connection, &mut slot.peer) else { continue };
             let before = slot.inbox.len();
-            if !connection.read(&mut slot.inbox, INBOX_MAX) {
-                *slot = Slot::default();
-                continue;
-            }
+            slot.ended = slot.ended || !connection.read(&mut slot.inbox, INBOX_MAX);
             // No frame begins so, and none has come yet: this is no station.
             let begins_wrong = slot.inbox.get(before).is_some_and(|byte| ![0xfd, 0xfe].contains(byte));
             peer.junk |= begins_wrong && !peer.spoken;
@@ -382,6 +381,10 @@ impl Links {
             if count > 0 {
                 hand_on(LinkEvent::Received(&slot.inbox[..count]));
                 slot.inbox.drain(..count);
+            }
+            if slot.ended && slot.inbox.is_empty() && port.received().held() == 0 {
+                hand_on(LinkEvent::Close);
+                *slot = Slot::default();
             }
         }
     }

@@ -284,3 +284,30 @@ fn what_a_slow_connection_has_not_taken_stays_with_the_vehicle() {
     bench.links.send(&bench.ports);
     assert_eq!(bench.ports.first().sent().held(), held);
 }
+
+#[test]
+fn what_a_station_has_sent_before_it_hung_up_is_read() {
+    let mut bench = Bench::new(&[]);
+    let server = bench.links.serve_tcp(local()).expect("a free port");
+    let mut station = TcpStream::connect(server).expect("somebody listens");
+    station.write_all(&heartbeat(255)).expect("sent");
+    drop(station);
+    let start = Instant::now();
+    let port = bench.ports.first();
+    while !(port.is_open() && port.received().held() > 0) && start.elapsed() < Duration::from_secs(5) {
+        bench.links.receive();
+        bench.links.deliver(&bench.ports, |_, _| {});
+    }
+    // It stays until that has been read, and no longer.
+    for _ in 0..3 {
+        bench.links.receive();
+        bench.links.deliver(&bench.ports, |_, _| {});
+    }
+    bench.ports.release();
+    assert!(port.is_open());
+    assert_eq!(port.received().copy(&mut [0; 99]), heartbeat(255));
+    port.received().skip(99);
+    bench.links.receive();
+    bench.links.deliver(&bench.ports, |_, _| {});
+    assert!(!port.is_open());
+}

@@ -243,14 +243,14 @@ pub(super) struct Telemetry {
 
 impl Default for Telemetry {
     fn default() -> Self {
-        Self::new(Profile::default())
+        Self::new(Profile::default(), 0)
     }
 }
 
 impl Telemetry {
-    /// A link with the default rates of a profile.
-    pub(super) fn new(profile: Profile) -> Self {
-        let slots = STREAMS.map(|stream| Slot { period: stream.period(profile), next: stream.phase });
+    /// A link that is opened now, with the default rates of a profile.
+    pub(super) fn new(profile: Profile, now: Tick) -> Self {
+        let slots = STREAMS.map(|stream| Slot { period: stream.period(profile), next: now.wrapping_add(stream.phase) });
         Self { profile, slots, first: 0, told: Told::default(), next_mode: None }
     }
 
@@ -439,7 +439,18 @@ pub(super) fn is_available(report: Report, view: &View) -> bool {
         Report::Wind => sensors::wind(view).is_some(),
         Report::Vibration => sensors::vibration(view).is_some(),
         Report::RcChannels => sticks::rc_channels(view).is_some(),
-        _ => true,
+        Report::AvailableModes(number) => identity::available_mode(number).is_some(),
+        Report::Heartbeat
+        | Report::SysStatus
+        | Report::ExtendedSysState
+        | Report::SystemTime
+        | Report::ServoOutput
+        | Report::EscStatus
+        | Report::SlidingMode
+        | Report::CurrentMode
+        | Report::AutopilotVersion
+        | Report::ProtocolVersion
+        | Report::MessageInterval { .. } => true,
     }
 }
 

@@ -34,12 +34,12 @@ pub(super) fn sys_status(view: &View) -> SYS_STATUS_DATA {
     let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
     let (sensors, healthy) = sensors(input);
     let mut present = CONTROLLERS | prearm | sensors;
-    present.set(STICKS, view.latest.sticks.is_some());
+    present.set(STICKS, view.latest.sticks.is_some() || view.latest.channels.is_some());
     // There is no geofence, but a ground station takes a missing health bit for a breach.
     let mut health = CONTROLLERS | healthy | MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE;
     // Armed it has passed: scripts wait for this bit whatever the vehicle is doing.
     health.set(prearm, (input.armable || input.armed) && !input.health.hung.commander);
-    health.set(STICKS, view.sticks().is_some());
+    health.set(STICKS, view.has_sticks());
     health.set(GUIDED, !input.health.hung.outer);
     let sample = input.battery();
     let [outer, commander, ground] = input.health.overruns.map(saturate);
@@ -132,7 +132,7 @@ pub(super) fn estimator_status(view: &View) -> Option<ESTIMATOR_STATUS_DATA> {
     })
 }
 
-/// The battery's voltage and current. Cells, charge and temperature are unknown.
+/// The battery. The temperature is unknown.
 pub(super) fn battery_status(view: &View) -> Option<BATTERY_STATUS_DATA> {
     /// `MAV_BATTERY_FUNCTION_ALL`.
     const ALL: u8 = 1;

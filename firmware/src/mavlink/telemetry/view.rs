@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::frames::{LocalFrame, Origin, flip_vector};
-use crate::latest::{Latest, Sticks};
+use crate::latest::{Channels, Latest};
 use crate::mavlink::{GroundInput, Identity};
 use crate::settings::Settings;
 use crate::signals::{NavHealth, TICK_US, Tick};
@@ -73,7 +73,8 @@ pub(in crate::mavlink) struct View<'a> {
     pub(in crate::mavlink) latest: Latest,
     /// Age at which sticks are lost, s.
     pub(in crate::mavlink) stick_loss_s: f32,
-    /// Bytes that this link has lost and frames whose checksum was wrong, since boot.
+    /// Bytes that this link has lost since boot, and frames with a wrong checksum and answers that were lost since it was
+    /// opened.
     pub(in crate::mavlink) errors: u32,
 }
 
@@ -112,9 +113,14 @@ impl<'a> View<'a> {
         (self.boot_us() / 1000) as u32
     }
 
-    /// The sticks, unless they are lost.
-    pub(in crate::mavlink) fn sticks(&self) -> Option<&Sticks> {
-        self.latest.sticks_within(self.now, self.stick_loss_s)
+    /// A radio's channels, unless they are lost.
+    pub(in crate::mavlink) fn channels(&self) -> Option<&Channels> {
+        self.latest.channels_within(self.now, self.stick_loss_s)
+    }
+
+    /// Whether there are sticks or channels that are not lost.
+    pub(in crate::mavlink) fn has_sticks(&self) -> bool {
+        self.channels().is_some() || self.latest.sticks_within(self.now, self.stick_loss_s).is_some()
     }
 
     /// What is known of the motion.

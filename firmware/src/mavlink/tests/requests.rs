@@ -84,7 +84,7 @@ fn a_ping_to_anyone_is_answered_and_an_answer_is_not() {
 #[test]
 fn a_link_on_board_is_told_more_often() {
     let mut bench = Bench::new();
-    bench.ground.links[0].telemetry = Telemetry::new(Profile::Onboard);
+    bench.ground.links[0].telemetry = Telemetry::new(Profile::Onboard, 0);
     let messages = bench.jobs(1_000);
     for (id, expected) in [(0, 10), (30, 1_000), (32, 500), (31, 500), (245, 50)] {
         assert_eq!(count(&messages, id), expected, "message {id} in 10 s");

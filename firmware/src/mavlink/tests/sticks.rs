@@ -3,7 +3,7 @@
 use glissade_dialect::{HEARTBEAT_DATA, MANUAL_CONTROL_DATA, RC_CHANNELS_DATA, RC_CHANNELS_OVERRIDE_DATA};
 
 use super::*;
-use crate::latest::{PulseUs, Stamped, Sticks};
+use crate::latest::{Channels, PulseUs, Stamped, Sticks};
 use crate::settings::{COM_RC_LOSS_T, Value};
 
 /// The bit of `SYS_STATUS`.
@@ -30,10 +30,13 @@ fn read(bench: &mut Bench, message: &impl MessageData) -> Option<Stamped<Sticks>
     bench.output_of(&frame(message)).0.latest.sticks
 }
 
+fn read_channels(bench: &mut Bench, message: &impl MessageData) -> Option<Stamped<Channels>> {
+    bench.output_of(&frame(message)).0.latest.channels
+}
+
 fn channels(bench: &mut Bench, message: &RC_CHANNELS_OVERRIDE_DATA) -> Vec<u16> {
-    let sticks = read(bench, message).expect("sticks").value;
-    assert_eq!((sticks.roll, sticks.pitch, sticks.yaw, sticks.throttle), (None, None, None, None), "none is mapped");
-    sticks.channels.iter().map(|channel| channel.map_or(0, PulseUs::get)).collect()
+    let channels = read_channels(bench, message).expect("channels").value;
+    channels.iter().map(|channel| channel.map_or(0, PulseUs::get)).collect()
 }
 
 #[test]
@@ -41,10 +44,10 @@ fn a_joysticks_axes_have_the_signs_of_rotations_in_the_body_frame() {
     let mut bench = Bench::silent();
     let (now, sticks) = (bench.tick, read(&mut bench, &JOYSTICK).expect("sticks"));
     assert_eq!(sticks.at, now);
-    let Sticks { roll, pitch, yaw, throttle, buttons, channels } = sticks.value;
+    let Sticks { roll, pitch, yaw, throttle, buttons } = sticks.value;
     // Forward, left, throttle, right.
     assert_eq!((pitch, roll, throttle, yaw), (Some(0.5), Some(-0.25), Some(0.75), Some(-0.1)));
-    assert_eq!((buttons, channels), (0x8001, Default::default()));
+    assert_eq!(buttons, 0x8001);
     let output = bench.output_of(&[]).0;
     assert_eq!(output.latest.sticks, Some(sticks), "it stays, and keeps its time");
 }
@@ -73,14 +76,14 @@ fn sticks_for_others_and_for_everyone_are_ignored() {
     }
     for (target_system, target_component) in [(0, 0), (2, 1), (1, 2)] {
         let message = RC_CHANNELS_OVERRIDE_DATA { target_system, target_component, chan1_raw: 1500, ..OVERRIDE };
-        assert_eq!(read(&mut bench, &message), None);
+        assert_eq!(read_channels(&mut bench, &message), None);
     }
 }
 
 #[test]
 fn channels_are_set_kept_released_and_refused_one_by_one() {
     let mut bench = Bench::silent();
-    assert_eq!(read(&mut bench, &OVERRIDE), None, "it says nothing");
+    assert_eq!(read_channels(&mut bench, &OVERRIDE), None, "it says nothing");
     let some = RC_CHANNELS_OVERRIDE_DATA { chan1_raw: 1000, chan3_raw: 2000, chan18_raw: 1700, ..OVERRIDE };
     let mut expected = [0; 18];
     (expected[0], expected[2], expected[17]) = (1000, 2000, 1700);
@@ -91,14 +94,15 @@ fn channels_are_set_kept_released_and_refused_one_by_one() {
     for wrong in [1, 799, 2201, 40_000, u16::MAX - 1] {
         let before = bench.output_of(&[]).0.latest;
         let message = RC_CHANNELS_OVERRIDE_DATA { chan1_raw: 1200, chan2_raw: wrong, ..OVERRIDE };
-        assert_eq!(read(&mut bench, &message), before.sticks, "{wrong} µs");
+        assert_eq!(read_channels(&mut bench, &message), before.channels, "{wrong} µs");
     }
     expected[17] = 0;
     assert_eq!(channels(&mut bench, &RC_CHANNELS_OVERRIDE_DATA { chan18_raw: u16::MAX - 1, ..OVERRIDE }), expected);
     let released = RC_CHANNELS_OVERRIDE_DATA { chan1_raw: 0, ..OVERRIDE };
-    assert_eq!(read(&mut bench, &released), None, "the last one");
+    assert_eq!(read_channels(&mut bench, &released), None, "the last one");
     // A joystick's sticks are not let go of by another's channels.
     let joystick = read(&mut bench, &JOYSTICK);
+    assert!(joystick.is_some());
     assert_eq!(read(&mut bench, &released), joystick);
 }
 
@@ -110,6 +114,38 @@ fn a_channel_that_was_lost_is_not_kept() {
     let mut expected = [0; 18];
     expected[1] = 1200;
     assert_eq!(channels(&mut bench, &RC_CHANNELS_OVERRIDE_DATA { chan2_raw: 1200, ..OVERRIDE }), expected);
+    // Nor is one kept alive by another that goes on.
+    (expected[1], expected[2]) = (0, 1300);
+    for _ in 0..60 {
+        bench.job(&frame(&RC_CHANNELS_OVERRIDE_DATA { chan3_raw: 1300, ..OVERRIDE }));
+    }
+    assert_eq!(channels(&mut bench, &RC_CHANNELS_OVERRIDE_DATA { chan3_raw: 1300, ..OVERRIDE }), expected);
+}
+
+#[test]
+fn of_two_joysticks_and_of_two_radios_the_first_counts_until_it_is_lost() {
+    // Both of a station, with a roll in thousandths and a pulse.
+    let station = |system_id: u32, y: i16, chan1_raw: u16| {
+        let header = MavHeader { system_id, ..STATION };
+        let joystick = frame_from(header, &MANUAL_CONTROL_DATA { y, ..JOYSTICK });
+        [joystick, frame_from(header, &RC_CHANNELS_OVERRIDE_DATA { chan1_raw, ..OVERRIDE })].concat()
+    };
+    let mut bench = Bench::silent();
+    for job in 0..120 {
+        // The first one goes on for half a second.
+        let mut bytes = Vec::new();
+        if job < 50 {
+            bytes.extend(station(255, 100, 1100));
+        }
+        if job > 0 {
+            bytes.extend(station(254, 200, 1200));
+        }
+        let latest = bench.output_of(&bytes).0.latest;
+        let (sticks, channels) = (latest.sticks.expect("sticks").value, latest.channels.expect("channels").value);
+        let moved = (sticks.roll.map(|roll| (roll * 1000.0) as i16), channels[0].map_or(0, PulseUs::get));
+        // COM_RC_LOSS_T is 0.5 s.
+        assert_eq!(moved, if job <= 49 + 50 { (Some(100), 1100) } else { (Some(200), 1200) }, "job {job}");
+    }
 }
 
 #[test]
@@ -117,8 +153,8 @@ fn a_frame_without_the_added_channels_ignores_them() {
     let mut bench = Bench::silent();
     let mut v1 = MAVLinkV1MessageRaw::new();
     v1.serialize_message_data(STATION, &RC_CHANNELS_OVERRIDE_DATA { chan8_raw: 1800, ..OVERRIDE });
-    let sticks = bench.output_of(v1.raw_bytes()).0.latest.sticks.expect("sticks").value;
-    assert_eq!(sticks.channels.iter().flatten().copied().map(PulseUs::get).collect::<Vec<_>>(), [1800]);
+    let channels = bench.output_of(v1.raw_bytes()).0.latest.channels.expect("channels").value;
+    assert_eq!(channels.iter().flatten().copied().map(PulseUs::get).collect::<Vec<_>>(), [1800]);
 }
 
 /// The channels told in a second, and present and healthy in the last `SYS_STATUS`.

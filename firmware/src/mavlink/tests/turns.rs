@@ -1,6 +1,8 @@
 //! Who is sent first, and how much: fast lines and slow ones, and links on which more is asked for than they carry.
 
-use glissade_dialect::{PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA};
+use glissade_dialect::{
+    HEARTBEAT_DATA, PARAM_REQUEST_LIST_DATA, PARAM_REQUEST_READ_DATA, PARAM_SET_DATA, SYS_STATUS_DATA,
+};
 
 use super::messages::{flying, vehicle};
 use super::*;
@@ -23,7 +25,7 @@ impl Line {
         let mut bench = vehicle();
         bench.input.control = flying();
         bench.input.health.timing = Some(LoopTiming { inner_hz: 1000, outer_hz: 250, inner_period_us: (999, 1001) });
-        bench.ground.links[0].telemetry = Telemetry::new(profile);
+        bench.ground.links[0].telemetry = Telemetry::new(profile, 0);
         Self { bench, carries, sent: Vec::new() }
     }
 
@@ -220,4 +222,21 @@ fn a_burst_of_commands_is_answered_one_and_all() {
     line.job(&command(NAV_WAYPOINT, 0.0, 0.0).repeat(46));
     line.jobs(5);
     assert_eq!(count(&line.messages(), 77), 46, "2,048 bytes of commands");
+}
+
+#[test]
+fn a_link_that_is_opened_after_weeks_is_told_everything() {
+    let told = |opened_at: Tick| {
+        let mut bench = Bench::new();
+        bench.tick = opened_at;
+        bench.ports.first().open(Profile::Normal);
+        // The jobs of three seconds.
+        let messages = bench.jobs(300);
+        (count(&messages, HEARTBEAT_DATA::ID), count(&messages, SYS_STATUS_DATA::ID))
+    };
+    let expected = told(0);
+    assert!(expected.0 >= 3 && expected.1 >= 3, "{expected:?}");
+    for opened_at in [Tick::MAX / 2 / 20 * 20 + 1_000, Tick::MAX / 20 * 20 - 9_000] {
+        assert_eq!(told(opened_at), expected, "{opened_at}");
+    }
 }
