@@ -312,6 +312,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             armed: self.is_armed(),
             mode: self.commander.shown,
             landed: self.commander.landed,
+            ground_m: self.commander.ground_m,
             armable: self.commander.armable.is_ok(),
             health: Health {
                 nav_fresh: self.inner.is_nav_fresh(),

@@ -6,11 +6,16 @@ use super::{Commander, CommanderInput, Refusal, State};
 use crate::math;
 
 impl Commander {
-    /// Sets home to a place, m, or to the present position.
+    /// Sets home to a place, m, or to the present position; in the air, to the ground below: a home in the air would raise a
+    /// return, and be raised again by the next.
     pub(super) fn set_home(&mut self, place: Option<[f32; 3]>, input: &CommanderInput) -> Result<(), Refusal> {
         self.check_position(input)?;
         let before = self.home;
-        self.home = place.map_or(input.nav.position, Vector3::from);
+        let mut here = input.nav.position;
+        if self.ground.is_airborne() {
+            here.z = self.ground_m;
+        }
+        self.home = place.map_or(here, Vector3::from);
         self.home_is_set = true;
         if self.home.z != before.z && matches!(self.state, State::Return { .. }) {
             // Sideways it follows home anyway.

@@ -95,6 +95,8 @@ pub struct CommanderOutput {
     pub directive: Directive,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
+    /// z of the ground where it was armed, or has landed since, m.
+    pub ground_m: f32,
     /// Where a return leads, m: where the vehicle was armed or as a pilot has set it; before arming, where it stands.
     /// `None` while that is unknown.
     pub home: Option<Vector3<f32>>,
@@ -133,8 +135,9 @@ pub struct Commander {
     overridden: Option<Override>,
     /// What the vehicle does.
     state: State,
-    /// Kills since boot that it has carried out.
+    /// Kills since boot that it has carried out, and until when what was asked for before the last one may still arrive.
     kills: u32,
+    killed_until: Option<Tick>,
     /// Where a return leads: where the vehicle was armed, unless a pilot has set another place.
     home: Vector3<f32>,
     /// Whether a pilot has set it since the vehicle was last disarmed.
@@ -152,6 +155,8 @@ pub struct Commander {
 
 /// A velocity request expires after this time, s, unless it is repeated.
 pub const VELOCITY_TIMEOUT_S: f32 = 1.0;
+/// Time for which nothing starts after a kill, s: more than what waits on another link needs to be read.
+const KILL_HOLDS_S: f32 = 1.0;
 /// Time for which the rotors idle after a landing, s.
 const IDLE_AFTER_LANDING_S: f32 = 1.0;
 /// Acceptance radius of a height, m.
@@ -162,8 +167,15 @@ pub(crate) const AT_PLACE_M: f32 = 0.5;
 const AT_HEADING_RAD: f32 = 0.15;
 /// Below this height, m, a descent slows down to the touchdown speed at the latest.
 const FINAL_HEIGHT_M: f32 = 2.0;
+/// Part of the vertical acceleration with which a descent slows down: the vehicle is late, and catches up with the rest.
+const BRAKING_PART: f32 = 0.5;
 /// At this height, m, it has slowed down to it. Chosen: more than the height's error and what the vehicle lags behind.
 const SLOW_HEIGHT_M: f32 = 1.0;
+
+/// Whether a tick has come by another.
+const fn has_come(at: Tick, by: Tick) -> bool {
+    by.wrapping_sub(at) < Tick::MAX / 2
+}
 
 /// The number of ticks in a time.
 const fn ticks(seconds: f32) -> Tick {
@@ -195,6 +207,7 @@ impl Commander {
             overridden: None,
             state: if flies { State::Follow { since: 0 } } else { State::Disarmed },
             kills: 0,
+            killed_until: None,
             home: start,
             home_is_set: false,
             ground_m: start.z,
@@ -244,18 +257,20 @@ impl Commander {
         }
         self.watch(input);
         let mut replies = Replies::new();
-        let killed = input.kills != self.kills;
-        if killed {
+        if input.kills != self.kills {
             self.kills = input.kills;
+            self.killed_until = Some(effective.wrapping_add(ticks(KILL_HOLDS_S)));
             self.stop();
         }
+        self.killed_until = self.killed_until.filter(|until| !has_come(*until, effective));
         for command in &input.commands {
-            // Which of the two came first is not known: a kill is not undone by an arming of the same job, nor does a
-            // flight that was asked for before it begin with the next arming.
-            let outcome = match (&command.request, Intent::of(&command.request)) {
-                (Request::Arm { .. }, _) if killed => Outcome::TemporarilyRejected(Refusal::Moving),
-                (_, Some(_)) if killed => Outcome::TemporarilyRejected(Refusal::Disarmed),
-                (request, _) => self.decide(request, effective, input),
+            // Which of the two came first is not known: a kill is not undone by an arming that waited on another link, nor
+            // does a flight that was asked for before it begin with the next arming.
+            let starts = matches!(command.request, Request::Arm { .. }) || Intent::of(&command.request).is_some();
+            let outcome = if starts && self.killed_until.is_some() {
+                Outcome::TemporarilyRejected(Refusal::Killed)
+            } else {
+                self.decide(&command.request, effective, input)
             };
             // As many replies fit as commands.
             let _ = replies.push(Reply { command: *command, outcome });
@@ -284,6 +299,7 @@ impl Commander {
             overridden: self.overridden,
             directive: self.directive(height),
             landed: !self.ground.is_airborne(),
+            ground_m: self.ground_m,
             home: None,
             armable,
             replies,
@@ -317,15 +333,14 @@ impl Commander {
     /// Transitions on arrival, touchdown and timeout.
     fn progress(&mut self, effective: Tick, input: &CommanderInput) {
         let nav = &input.nav;
-        let has_come = |at: Tick| effective.wrapping_sub(at) < Tick::MAX / 2;
-        let expires = self.until.is_some_and(has_come);
+        let expires = self.until.is_some_and(|until| has_come(until, effective));
         if expires {
             (self.intent, self.until) = (Intent::Hold, None);
         }
         let is_at = |place: Vector3<f32>| (nav.position - place).norm_squared() < AT_PLACE_M * AT_PLACE_M;
         let heads = |yaw: f32| math::abs(math::wrap_angle(nav.yaw() - yaw)) < AT_HEADING_RAD;
         self.state = match self.state {
-            State::Idle { disarm_at: Some(at) } if has_come(at) => return self.stop(),
+            State::Idle { disarm_at: Some(at) } if has_come(at, effective) => return self.stop(),
             State::TakeOff { to_m, .. } if math::abs(nav.position.z - to_m) < AT_HEIGHT_M => State::Hold,
             State::Velocity { .. } if expires => State::Hold,
             State::Join if is_at(self.entry) && is_slow(nav) && heads(self.entry_yaw) => {
@@ -373,18 +388,19 @@ impl Commander {
         // Home may have been set to below the ground, and the ground there may be higher than where it last stood.
         let over_ground = height - math::max(self.home.z, self.ground_m);
         let touchdown_m_s = math::min(rate_m_s, self.settings.touchdown_m_s);
-        let slows_at = math::max(FINAL_HEIGHT_M, self.slowing_m(rate_m_s, touchdown_m_s) + SLOW_HEIGHT_M);
         // At an unknown height the ground may be anywhere.
-        let may_touch = known >= Known::Climb || over_ground < slows_at;
-        Directive::Descend { rate_m_s: if may_touch { touchdown_m_s } else { rate_m_s }, known, heading_free }
+        let may_touch = known >= Known::Climb || over_ground < FINAL_HEIGHT_M;
+        let faster_m_s = if may_touch { 0.0 } else { self.faster_by(over_ground - SLOW_HEIGHT_M, touchdown_m_s) };
+        Directive::Descend { rate_m_s: math::min(rate_m_s, touchdown_m_s + faster_m_s), known, heading_free }
     }
 
-    /// The height that a descent takes to slow down, m: the setpoint's braking and its delay.
-    fn slowing_m(&self, rate_m_s: f32, touchdown_m_s: f32) -> f32 {
-        let settings = &self.settings;
-        let faster_by = math::max(math::min(rate_m_s, settings.sink_m_s) - touchdown_m_s, 0.0);
-        let (braking_s, delay_s) = (faster_by / settings.vertical_acceleration_m_s2, setpoint::delay_s(settings));
-        // Twice the delay after the end of the braking, a fifteenth of its last change is left.
-        touchdown_m_s * (braking_s + 2.0 * delay_s) + faster_by * (0.5 * braking_s + delay_s)
+    /// How much faster than to touch down a descent may be, m/s, to slow down within a height, m, by the setpoint's braking
+    /// and with twice its delay, after which a fifteenth of a change is left: the root of
+    /// h = t (f/a + 2d) + f (f/2a + 2d).
+    fn faster_by(&self, height: f32, touchdown_m_s: f32) -> f32 {
+        let (a, d) = (BRAKING_PART * self.settings.vertical_acceleration_m_s2, setpoint::delay_s(&self.settings));
+        let half = touchdown_m_s + 2.0 * a * d;
+        let rest = math::max(height - 2.0 * touchdown_m_s * d, 0.0);
+        math::sqrt(half * half + 2.0 * a * rest) - half
     }
 }

@@ -166,6 +166,10 @@ pub enum Refusal {
     NotConfigured,
     /// More commands at once than the commander takes.
     Busy,
+    /// What can be set while disarmed only is still being set.
+    Unsettled,
+    /// The rotors were stopped a moment ago.
+    Killed,
 }
 
 /// The reply to a command.

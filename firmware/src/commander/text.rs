@@ -60,6 +60,8 @@ impl Refusal {
             Self::NotAtStart => "not at the start point",
             Self::NotConfigured => "vehicle not configured",
             Self::Busy => "too many commands at once",
+            Self::Unsettled => "parameters are being set",
+            Self::Killed => "killed a second ago",
         }
     }
 }
@@ -130,6 +132,8 @@ mod tests {
             Refusal::NotAtStart,
             Refusal::NotConfigured,
             Refusal::Busy,
+            Refusal::Unsettled,
+            Refusal::Killed,
         ];
         for (request, refusal) in requests.iter().flat_map(|request| refusals.map(|refusal| (request, refusal))) {
             let text = format!("{} refused: {}", request.name(), refusal.reason());

@@ -13,7 +13,7 @@ use super::sticks::{Hands, Source};
 use super::telemetry::{Place, Report, Telemetry, View};
 use super::writer::Writer;
 use super::{GroundOutput, command, mode, place};
-use crate::commander::{self, Command, Event, Outcome, Refusal, Reply, StationReply};
+use crate::commander::{self, Command, Event, Outcome, Refusal, Reply, Request, StationReply};
 use crate::frames::Origin;
 use crate::latest::Latest;
 use crate::settings::{Marks, Settings};
@@ -21,6 +21,9 @@ use crate::signals::{TICK_S, TICK_US, Tick};
 
 /// Commands of a link that wait for the commander.
 const WAITING: usize = 8;
+
+/// An arming waits so long for settings that were set before it, ticks: within half a second a station is to be answered.
+const SETTLED_WITHIN: Tick = 400;
 
 /// Rates that a peer has set are forgotten once nothing has been heard of it for this long, s.
 const SILENT_AFTER_S: f32 = 10.0;
@@ -56,6 +59,8 @@ pub(super) struct Link {
     sequence: u8,
     params: Params,
     waiting: Deque<Command, WAITING>,
+    /// Since when an arming has waited for settings.
+    arming_waits_since: Option<Tick>,
     /// When something for this vehicle, or a heartbeat, was last received.
     heard_at: Option<Tick>,
 }
@@ -174,18 +179,34 @@ impl Link {
         self.params.announce(index);
     }
 
-    /// The next command for the commander.
-    pub(super) fn next_command(&mut self) -> Option<Command> {
-        self.waiting.pop_front()
+    /// The next command for the commander. While settings are not `settled`, an arming waits, and in the end is refused.
+    pub(super) fn next_command(&mut self, now: Tick, settled: bool) -> Option<Command> {
+        let is_arming = |command: &Command| matches!(command.request, Request::Arm { .. });
+        if settled || !self.waiting.front().is_some_and(is_arming) {
+            self.arming_waits_since = None;
+            return self.waiting.pop_front();
+        }
+        let since = *self.arming_waits_since.get_or_insert(now);
+        if now.wrapping_sub(since) > SETTLED_WITHIN
+            && let Some(command) = self.waiting.pop_front()
+        {
+            self.arming_waits_since = None;
+            self.refuse_command(command, Refusal::Unsettled);
+        }
+        None
     }
 
     /// Refuses what is still waiting for the commander: a kill came after it.
     pub(super) fn refuse_waiting(&mut self) {
         while let Some(command) = self.waiting.pop_front() {
-            let reply = Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) };
-            if let Some(reply) = reply.to_station() {
-                self.reply(&reply);
-            }
+            self.refuse_command(command, Refusal::Killed);
+        }
+    }
+
+    fn refuse_command(&mut self, command: Command, refusal: Refusal) {
+        let reply = Reply { command, outcome: Outcome::TemporarilyRejected(refusal) };
+        if let Some(reply) = reply.to_station() {
+            self.reply(&reply);
         }
     }
 

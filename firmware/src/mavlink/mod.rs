@@ -131,6 +131,8 @@ pub struct GroundInput {
     pub mode: Mode,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
+    /// z of the ground where it was armed, or has landed since, m.
+    pub ground_m: f32,
     /// Whether an arm request would be accepted.
     pub armable: bool,
     /// Health of the firmware itself.
@@ -264,9 +266,7 @@ impl Ground {
             output.changes = self.settings.take_changes();
         }
         // What can be set while disarmed only is in effect before an arming that is asked for after it.
-        if input.armed || self.settings.next_disarmed_change().is_none() {
-            self.pass_on_commands(&mut output);
-        }
+        self.pass_on_commands(released, input.armed || self.settings.are_settled(), &mut output);
         if output.commands.iter().any(|command| matches!(command.request, Request::Arm { .. })) {
             self.arming_at = Some(released);
         }
@@ -292,12 +292,12 @@ impl Ground {
     }
 
     /// Takes commands from the links in turn.
-    fn pass_on_commands(&mut self, output: &mut GroundOutput) {
+    fn pass_on_commands(&mut self, now: Tick, settled: bool, output: &mut GroundOutput) {
         for _ in 0..LINKS * COMMANDS_A_JOB {
             if output.commands.len() == COMMANDS_A_JOB {
                 return;
             }
-            let command = self.links.get_mut(self.first).and_then(Link::next_command);
+            let command = self.links.get_mut(self.first).and_then(|link| link.next_command(now, settled));
             self.first = (self.first + 1) % LINKS;
             if let Some(command) = command {
                 // Fits: fewer than the queue holds.

@@ -63,7 +63,7 @@ pub(super) fn take_off(message: &CommandMessage, view: &View) -> Result<Request,
     // Above the ground, where the vehicle stands, or stood when it was armed.
     let ground = match datum {
         Datum::SeaLevel if view.input.landed => view.height_msl_m(),
-        Datum::SeaLevel => view.home_msl_m(),
+        Datum::SeaLevel => view.ground_msl_m(),
         Datum::Ground => Some(0.0),
     };
     let ground = ground.ok_or(Effect::Refuse { request: "Take-off", reason: "height above the sea unknown" })?;

@@ -104,6 +104,7 @@ impl Bench {
             armed: false,
             mode: Mode::Disarmed,
             landed: true,
+            ground_m: 0.0,
             armable: true,
             health: Health { nav_fresh: true, ..Health::default() },
             estimator: None,

@@ -35,4 +35,10 @@ impl Marks {
         let word = self.words.iter().position(|word| *word != 0)?;
         Some(word * 32 + self.words.get(word)?.trailing_zeros() as usize)
     }
+
+    /// The next one from an index on, going round.
+    pub(crate) fn next_from(&self, index: usize) -> Option<usize> {
+        let first = self.first()?;
+        Some((index..COUNT).find(|index| self.has(*index)).unwrap_or(first))
+    }
 }

@@ -140,6 +140,8 @@ pub struct Settings {
     generation: u16,
     /// Those that their owners have not been told yet.
     unsent: Marks,
+    /// Whose turn it is among them: settings that are set again and again do not hold up the others.
+    next: usize,
     /// Those that have not been saved yet.
     unsaved: Marks,
 }
@@ -176,7 +178,7 @@ impl Settings {
     /// Those of a configuration, and defaults for what it does not have. The vehicle is configured: by a program.
     pub fn of(config: &FlightConfig) -> Self {
         let mut settings =
-            Self { bits: [0; COUNT], generation: 0, unsent: Marks::default(), unsaved: Marks::default() };
+            Self { bits: [0; COUNT], generation: 0, unsent: Marks::default(), next: 0, unsaved: Marks::default() };
         for (bits, setting) in settings.bits.iter_mut().zip(&SETTINGS) {
             let value = setting.read(config).or(setting.default);
             *bits = value.map_or(0, Value::bits);
@@ -329,17 +331,17 @@ impl Settings {
         axes::law_has(code, row)
     }
 
-    /// The next changes for the owners: first those that can be set while disarmed only, then in the order of the table; a
-    /// law comes together with its numbers.
+    /// The next changes for the owners, in turn by the table; a law comes together with its numbers.
     pub fn take_changes(&mut self) -> Changes {
         let mut changes = Changes::new();
-        while let Some(index) = self.next_disarmed_change().or_else(|| self.unsent.first()) {
+        while let Some(index) = self.unsent.next_from(self.next) {
             let law = index.checked_sub(FIRST_AXIS).filter(|row| axes::is_law(*row));
             let needed = if law.is_some() { LAW_CHANGES } else { 1 };
             if changes.len() + needed > CHANGES_MAX {
                 break;
             }
             self.take_change(index, &mut changes);
+            self.next = index + 1;
             for number in law.into_iter().flat_map(axes::numbers_of).map(|row| FIRST_AXIS + row) {
                 if self.unsent.has(number) {
                     self.take_change(number, &mut changes);
@@ -357,11 +359,10 @@ impl Settings {
         }
     }
 
-    /// The next change of a setting that can be set while disarmed only: it is to be in effect before the next arming.
-    pub(crate) fn next_disarmed_change(&self) -> Option<usize> {
-        self.unsent.first()?;
+    /// Whether all that can be set while disarmed only is with its owners: it is to be in effect before the next arming.
+    pub(crate) fn are_settled(&self) -> bool {
         let is_disarmed = |index: usize| SETTINGS.get(index).is_some_and(|setting| setting.class == Class::Disarmed);
-        (0..COUNT).find(|index| self.unsent.has(*index) && is_disarmed(*index))
+        self.unsent.first().is_none() || !(0..COUNT).any(|index| self.unsent.has(index) && is_disarmed(index))
     }
 
     /// The next value to be saved. The caller waits with it until the vehicle is disarmed.

@@ -243,7 +243,7 @@ const STATION: [Setting; 34] = own! {
     "NAV_DLL_ACT", "", Int(0), Domain::Whole(0, 3), InFlight, "What is done when the ground station is lost: 0 nothing, 1 hold, 2 return, 3 land";
     "NAV_RCL_ACT", "", Int(0), Domain::Whole(0, 6), ReadOnly, "What is done without sticks: 0, nothing. No effect yet";
     "COM_DL_LOSS_T", "s", Int(10), Domain::Whole(5, 300), InFlight, "Silence after which the ground station is lost";
-    "COM_RC_LOSS_T", "s", Real(0.5), Domain::Real(Range::Within(0.0, 35.0)), InFlight, "Silence after which sticks are lost";
+    "COM_RC_LOSS_T", "s", Real(0.5), Domain::Real(Range::Within(0.1, 35.0)), InFlight, "Silence after which sticks are lost";
     "COM_LOW_BAT_ACT", "", Int(3), Domain::Whole(0, 3), ReadOnly, "What a low battery does: 3, returns, and lands when critical";
     "NAV_ACC_RAD", "m", Real(crate::commander::AT_PLACE_M), Domain::Real(Range::Within(0.05, 200.0)), ReadOnly, "Acceptance radius of a place";
     "MIS_TAKEOFF_ALT", "m", Real(crate::commander::TAKE_OFF_HEIGHT_M), Domain::Real(TAKE_OFF), InFlight, "Height of a take-off for which none is given";

@@ -256,11 +256,12 @@ fn after_a_forced_disarm_the_vehicle_can_be_armed_again() {
     let ground = at([0.0; 3]);
     let mut fly = |frame: &[u8]| {
         vehicle.ports.first().receive(frame);
-        (0..100).map(|_| is_stopped(&vehicle.tick(Some(&ground)).motors)).last()
+        (0..1_100).map(|_| is_stopped(&vehicle.tick(Some(&ground)).motors)).last()
     };
     assert_eq!(fly(&[]), Some(true), "disarmed at first");
     assert_eq!(fly(&command_arm(true, false)), Some(false));
-    assert_eq!(fly(&command_arm(false, true)), Some(true));
+    // With an arming behind the kill, as if it had waited on another link.
+    assert_eq!(fly(&[command_arm(false, true), command_arm(true, true)].concat()), Some(true));
     assert_eq!(fly(&command_arm(true, false)), Some(false));
 }
 

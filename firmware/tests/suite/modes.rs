@@ -445,6 +445,24 @@ fn a_fast_landing_slows_down_in_time() {
 }
 
 #[test]
+fn a_landing_with_a_higher_speed_takes_less_time() {
+    let duration = |down_m_s: f32| {
+        let mut config = config();
+        (config.modes.landing_m_s, config.modes.sink_m_s) = (down_m_s, down_m_s);
+        let mut vehicle = Vehicle::airborne(&config);
+        vehicle.ask(Request::GoTo { position_m: [0.0, 0.0, 15.0], yaw_rad: 0.0 });
+        vehicle.run(20.0);
+        vehicle.ask(Request::Land);
+        let begun = vehicle.tick;
+        vehicle.until(Mode::Idle, 60.0);
+        vehicle.tick - begun
+    };
+    let times = [0.7, 1.5, 3.0, 8.0].map(duration);
+    assert!(times.is_sorted_by(|slow, fast| slow > fast), "{times:?} ms");
+    assert!(2 * times[3] < times[0], "{times:?} ms");
+}
+
+#[test]
 fn a_home_below_the_ground_hastens_no_landing() {
     let mut vehicle = Vehicle::airborne(&config());
     vehicle.ask(Request::SetHome { position_m: Some([0.0, 0.0, -100.0]) });

@@ -45,6 +45,10 @@ fn a_flight_asked_for_in_the_job_of_a_kill_is_refused_and_the_next_arming_does_n
             let outcome = bench.ask(request, &killed);
             assert!(matches!(outcome, Outcome::TemporarilyRejected(_)), "{request:?}: {outcome:?}");
             assert_eq!(bench.commander.intent, Intent::Hold);
+            // What waited on another link comes later.
+            assert_eq!(bench.ask(ARM, &killed), Outcome::TemporarilyRejected(Refusal::Killed));
+            assert_eq!(bench.ask(TAKE_OFF, &killed), Outcome::TemporarilyRejected(Refusal::Killed));
+            bench.run(1.0, &killed);
             assert_eq!(bench.ask(ARM, &killed), Outcome::Accepted);
             bench.run(5.0, &killed);
             assert_eq!(bench.commander.state, State::Idle { disarm_at: None }, "{request:?}");
@@ -56,7 +60,7 @@ fn a_flight_asked_for_in_the_job_of_a_kill_is_refused_and_the_next_arming_does_n
 fn a_later_arming_does_not_launch_the_vehicle() {
     type Meanwhile = fn(&mut Bench);
     let disarmed: Meanwhile = |bench| assert_eq!(bench.ask(Request::Disarm, &standing()), Outcome::Accepted);
-    let killed: Meanwhile = |bench| drop(bench.step(&CommanderInput { kills: 1, ..standing() }));
+    let killed: Meanwhile = |bench| drop(bench.run(1.0, &CommanderInput { kills: 1, ..standing() }));
     let held: Meanwhile = |bench| assert_eq!(bench.ask(Request::Hold, &standing()), Outcome::Accepted);
     let expired: Meanwhile = |bench| drop(bench.run(5.1, &standing()));
     for (meanwhile, kills) in [(disarmed, 0), (killed, 1), (held, 0), (expired, 0)] {

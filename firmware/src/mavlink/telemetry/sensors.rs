@@ -104,7 +104,8 @@ pub(super) fn wind(view: &View) -> Option<WIND_COV_DATA> {
         wind_x: x,
         wind_y: -y,
         wind_z: f32::NAN,
-        var_horiz: variance,
+        // How much it varies is not estimated.
+        var_horiz: f32::NAN,
         var_vert: f32::NAN,
         wind_alt: view.height_msl_m().unwrap_or(f32::NAN),
         horiz_accuracy: crate::math::sqrt(variance),

@@ -155,9 +155,11 @@ impl<'a> View<'a> {
         Some(map.place(&self.input.nav.position).height_msl_mm as f32 * 1e-3)
     }
 
-    /// Home's height above mean sea level, m.
-    pub(in crate::mavlink) fn home_msl_m(&self) -> Option<f32> {
-        Some(self.map?.place(self.input.home.as_ref()?).height_msl_mm as f32 * 1e-3)
+    /// Height above mean sea level of the ground where the vehicle was armed, m.
+    pub(in crate::mavlink) fn ground_msl_m(&self) -> Option<f32> {
+        let nav = &self.input.nav.position;
+        let ground = Vector3::new(nav.x, nav.y, self.input.ground_m);
+        Some(self.map?.place(&ground).height_msl_mm as f32 * 1e-3)
     }
 
     /// Height above home, m.
