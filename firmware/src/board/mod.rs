@@ -17,6 +17,7 @@
 pub mod fault;
 #[cfg(all(feature = "board-mps2", target_arch = "arm", target_os = "none"))]
 pub mod mps2;
+pub mod storage;
 pub mod tasks;
 
 use embedded_io::{Read, ReadReady, Write, WriteReady};

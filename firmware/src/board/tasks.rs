@@ -8,7 +8,7 @@
 //! commander  inner, every 20th tick          arming, modes, failures
 //! ground     inner, every 10th tick          MAVLink
 //! transmit   inner, or a serial port is free sends the link's bytes
-//! idle                                       log
+//! idle                                       log; saves settings, where there is a flash (`storage`)
 //! ```
 //!
 //! Priorities are rate monotonic, in this order from the highest. Inner pends the interrupts of those that it
@@ -17,6 +17,7 @@
 
 use rtic_core::Mutex;
 
+use super::storage::Saving;
 use super::{Clock, Companion, Diagnostics, Rotors, Sensors, SerialReceiver, SerialSender, Start, Ticker};
 use crate::autopilot::{Autopilot, InnerTask, Mailboxes};
 use crate::commander;
@@ -74,6 +75,8 @@ pub struct Tasks<B, K, T, D> {
     pub mail: Mailboxes,
     /// Shared by inner, outer and idle.
     pub loops: Loops,
+    /// Shared by ground and idle.
+    pub saving: Saving,
 }
 
 impl<B: Sensors + Rotors + Companion, K: Clock, T: Ticker, D: Diagnostics + Clone> Tasks<B, K, T, D> {
@@ -99,6 +102,7 @@ impl<B: Sensors + Rotors + Companion, K: Clock, T: Ticker, D: Diagnostics + Clon
             line,
             mail,
             loops: Loops::default(),
+            saving: Saving::default(),
         })
     }
 }
@@ -205,11 +209,12 @@ pub struct Ground<D> {
 
 impl<D: Diagnostics> Ground<D> {
     /// The job that is released, if any.
-    pub fn run(&mut self, mut mail: impl Mutex<T = Mailboxes>) {
+    pub fn run(&mut self, mut mail: impl Mutex<T = Mailboxes>, mut saving: impl Mutex<T = Saving>) {
         let Some((tick, input)) = mail.lock(|mail| mail.ground.take()) else { return };
         let output = self.partition.step(tick, &input, self.ports);
         self.diagnostics.ground();
         mail.lock(|mail| mail.ground.finish(output));
+        saving.lock(|saving| saving.exchange(self.partition.settings_mut(), input.armed));
     }
 }
 

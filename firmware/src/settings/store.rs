@@ -281,4 +281,4 @@ pub fn block_on<T>(task: impl Future<Output = T>) -> T {
 
 #[cfg(test)]
 #[path = "store_tests.rs"]
-mod tests;
+pub(crate) mod tests;

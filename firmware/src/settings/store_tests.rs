@@ -62,7 +62,7 @@ impl Torn {
 /// A flash in memory with words of `WORD` bytes, whose power fails after a number of operations: a word written is one,
 /// and so is a page erased.
 #[derive(Clone, Debug)]
-struct Flash<const WORD: usize> {
+pub(crate) struct Flash<const WORD: usize> {
     bytes: Vec<u8>,
     written: Vec<bool>,
     /// Operations until the cut.
@@ -73,7 +73,7 @@ struct Flash<const WORD: usize> {
 }
 
 #[derive(Debug)]
-struct NoPower;
+pub(crate) struct NoPower;
 
 impl NorFlashError for NoPower {
     fn kind(&self) -> NorFlashErrorKind {
@@ -82,7 +82,7 @@ impl NorFlashError for NoPower {
 }
 
 impl<const WORD: usize> Flash<WORD> {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let (bytes, written) = (vec![0xff; PAGE * PAGES], vec![false; PAGE * PAGES / WORD]);
         Self { bytes, written, left: None, torn: Torn::Before, operations: 0, erased: [0; PAGES] }
     }

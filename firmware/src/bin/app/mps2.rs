@@ -16,6 +16,7 @@ use crate::drivers;
 mod app {
     use firmware::autopilot::Mailboxes;
     use firmware::board::mps2::{FreeRunning, Interrupt, PeriodicTimer, Peripherals, UartRx, UartTx};
+    use firmware::board::storage::Saving;
     use firmware::board::tasks::{Commander, Ground, Inner, Loops, Outer, Receive, Tasks, Transmit};
     use firmware::board::{Start, StartError};
     use firmware::mavlink::port::Ports;
@@ -26,6 +27,8 @@ mod app {
     struct Shared {
         mail: Mailboxes,
         loops: Loops,
+        // There is no flash: nobody takes what waits in it.
+        saving: Saving,
     }
 
     #[local]
@@ -46,14 +49,14 @@ mod app {
     fn boot(ports: &'static Ports) -> Result<(Shared, Local), StartError> {
         let Peripherals { tick, clock, uart, pwm } = Peripherals::take().ok_or(StartError::Peripherals)?;
         let start: Start<Board, Diagnostics> = drivers::start(pwm, clock, ports)?;
-        let Tasks { mut inner, outer, commander, ground, line, mail, loops } =
+        let Tasks { mut inner, outer, commander, ground, line, mail, loops, saving } =
             Tasks::new(start, clock, tick, ports).map_err(StartError::Config)?;
         drivers::answer(Ok(()));
         defmt::info!("glissade {=str} is up", env!("CARGO_PKG_VERSION"));
         let (rx, tx) = uart.start();
         inner.start();
         let (receive, transmit) = (Receive::new(rx, line), Transmit::new(tx, line));
-        Ok((Shared { mail, loops }, Local { inner, receive, outer, commander, ground, transmit }))
+        Ok((Shared { mail, loops, saving }, Local { inner, receive, outer, commander, ground, transmit }))
     }
 
     #[task(binds = TIMER0, priority = 6, local = [inner], shared = [mail, loops])]
@@ -86,9 +89,9 @@ mod app {
         cx.local.commander.run(cx.shared.mail);
     }
 
-    #[task(binds = PORT0, priority = 2, local = [ground], shared = [mail])]
+    #[task(binds = PORT0, priority = 2, local = [ground], shared = [mail, saving])]
     fn ground(cx: ground::Context) {
-        cx.local.ground.run(cx.shared.mail);
+        cx.local.ground.run(cx.shared.mail, cx.shared.saving);
     }
 
     #[task(binds = UARTTX0, priority = 1, local = [transmit])]

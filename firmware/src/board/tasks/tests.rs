@@ -2,16 +2,21 @@ use core::convert::Infallible;
 use std::collections::VecDeque;
 
 use embedded_io::{ErrorType, Read, ReadReady, Write, WriteReady};
-use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
-use glissade_dialect::{COMMAND_LONG_DATA, MavCmd};
+use embedded_storage_async::nor_flash::ReadNorFlash as _;
+use glissade_dialect::mavlink_core::types::CharArray;
+use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MessageData};
+use glissade_dialect::{COMMAND_LONG_DATA, MavCmd, MavParamType, PARAM_SET_DATA};
 use rtic_core::Exclusive;
 
 use super::*;
+use crate::board::storage::Keeper;
 use crate::commander::{Asked, Mode, Request};
 use crate::config::FlightConfig;
 use crate::failure::Injectable;
 use crate::inner::InnerOutput;
-use crate::settings::Settings;
+use crate::settings::store::tests::Flash;
+use crate::settings::store::{Store, block_on};
+use crate::settings::{Settings, Value, find};
 use crate::signals::{MotorCommand, NavState, SensorFrame, Tick};
 
 /// A vehicle that is held at rest, and whoever takes part in its flight.
@@ -151,7 +156,7 @@ impl<const HAS_ALL_LINKS: bool> Board<HAS_ALL_LINKS> {
 
     fn tick(&mut self) -> Wake {
         let wake = self.wake();
-        let Tasks { outer, commander, ground, mail, loops, .. } = &mut self.tasks;
+        let Tasks { outer, commander, ground, mail, loops, saving, .. } = &mut self.tasks;
         if wake.outer {
             outer.run(Exclusive(mail), Exclusive(loops));
         }
@@ -159,7 +164,7 @@ impl<const HAS_ALL_LINKS: bool> Board<HAS_ALL_LINKS> {
             commander.run(Exclusive(mail));
         }
         if wake.ground {
-            ground.run(Exclusive(mail));
+            ground.run(Exclusive(mail), Exclusive(saving));
         }
         if wake.transmit {
             self.transmit.run();
@@ -179,9 +184,12 @@ impl<const HAS_ALL_LINKS: bool> Board<HAS_ALL_LINKS> {
 
 fn frame(command: MavCmd, param1: f32, param7: f32) -> Vec<u8> {
     let command = command as u16;
-    let message = COMMAND_LONG_DATA { command, param1, param7, target_system: 1, ..COMMAND_LONG_DATA::DEFAULT };
+    encoded(&COMMAND_LONG_DATA { command, param1, param7, target_system: 1, ..COMMAND_LONG_DATA::DEFAULT })
+}
+
+fn encoded(message: &impl MessageData) -> Vec<u8> {
     let mut raw = MAVLinkV2MessageRaw::new();
-    raw.serialize_message_data(MavHeader { system_id: 255, component_id: 190, sequence: 0 }, &message);
+    raw.serialize_message_data(MavHeader { system_id: 255, component_id: 190, sequence: 0 }, message);
     raw.raw_bytes().to_vec()
 }
 
@@ -239,7 +247,8 @@ fn a_serial_port_that_is_full_gets_the_rest_when_it_is_free() {
     let mut board: Board<false> = Board::new();
     for _ in 0..11 {
         board.wake();
-        board.tasks.ground.run(Exclusive(&mut board.tasks.mail));
+        let Tasks { ground, mail, saving, .. } = &mut board.tasks;
+        ground.run(Exclusive(mail), Exclusive(saving));
     }
     let port = board.tasks.inner.ports.first();
     let all = port.look(&mut [0; 2048]).to_vec();
@@ -252,4 +261,38 @@ fn a_serial_port_that_is_full_gets_the_rest_when_it_is_free() {
     }
     assert_eq!(runs, all.len().div_ceil(7));
     assert_eq!(board.transmit.serial.sent, all);
+}
+
+#[test]
+fn what_is_set_by_mavlink_is_in_the_flash_after_a_while_and_not_while_armed() {
+    let mut flash: Flash<4> = Flash::new();
+    let range = 0..flash.capacity() as u32;
+    let mut board: Board<false> = Board::new();
+    let mut keeper = Keeper::new(Store::new(&mut flash, range.clone()).expect("a range"));
+    let cruise = find("MPC_XY_CRUISE").expect("a setting");
+    let mut set = |board: &mut Board<false>, speed_m_s: f32, ticks: u32| {
+        let mut param_id = [0; 16];
+        param_id[..13].copy_from_slice(b"MPC_XY_CRUISE");
+        let param_type = MavParamType::MAV_PARAM_TYPE_REAL32 as u8;
+        let target = PARAM_SET_DATA { target_system: 1, target_component: 1, ..PARAM_SET_DATA::DEFAULT };
+        let param_id = CharArray::new(param_id);
+        board.hear(&encoded(&PARAM_SET_DATA { param_value: speed_m_s, param_id, param_type, ..target }));
+        for _ in 0..ticks {
+            board.tick();
+            keeper.run(Exclusive(&mut board.tasks.saving)).expect("a flash that works");
+        }
+    };
+    set(&mut board, 3.5, 100);
+    board.hear(&frame(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, 1.0, 0.0));
+    for _ in 0..100 {
+        board.tick();
+    }
+    assert!(board.tasks.inner.flight.commander_output().armed);
+    set(&mut board, 4.5, 100);
+    let stored = |flash: &mut Flash<4>| {
+        let mut settings = Settings::default();
+        block_on(Store::new(flash, range.clone()).expect("a range").load(&mut settings)).expect("whole");
+        settings.get(cruise)
+    };
+    assert_eq!(stored(&mut flash.clone()), Some(Value::Real(3.5)));
 }
