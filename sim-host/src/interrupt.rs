@@ -1,4 +1,4 @@
-//! Ctrl-C (SIGINT) and SIGTERM. A command that [`listen`]s ends its flight after a tick and reports it; the second
+//! Ctrl-C (SIGINT), SIGTERM, and SIGHUP of a terminal that is closed. A command that [`listen`]s ends its flight after a tick and reports it; the second
 //! signal, or the first in any other command, ends the program at once. Folders that are not whole are removed either
 //! way.
 
@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use anyhow::{Context as _, Result};
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 
 /// The signal that asked for an end; 0 before.
@@ -20,15 +20,26 @@ static LISTENING: AtomicBool = AtomicBool::new(false);
 /// Folders that are not whole.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Handles both signals from now on, in a thread of its own. To be called once, when the program starts. SIGHUP is left
-/// as it is, so that `nohup` works.
+/// Handles the signals from now on, in a thread of its own. To be called once, when the program starts. A SIGHUP that is
+/// ignored stays so: `nohup` works.
 ///
 /// # Errors
 /// When the system does not let signals be handled.
 pub fn handle_signals() -> Result<()> {
     let mut signals = Signals::new([SIGINT, SIGTERM]).context("cannot handle Ctrl-C")?;
+    if !ignores(SIGHUP) {
+        signals.add_signal(SIGHUP).context("cannot handle a terminal's end")?;
+    }
     thread::spawn(move || signals.forever().for_each(handle));
     Ok(())
+}
+
+/// Whether this program was started with a signal ignored. Where the system does not tell, it was not.
+fn ignores(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
+    mask >> (signal - 1) & 1 == 1
 }
 
 /// Promises that the command looks at [`requested`] and ends by itself.
@@ -80,7 +91,7 @@ pub fn requested() -> bool {
     REQUESTED.load(Ordering::Relaxed) != 0
 }
 
-/// Exit code of a program that was interrupted, as shells have it: 128 + the signal, 130 for Ctrl-C, 143 for SIGTERM.
+/// Exit code of a program that was interrupted, as shells have it: 128 + the signal, 130 for Ctrl-C, 143 for SIGTERM, 129 for SIGHUP.
 pub fn exit_code() -> u8 {
     u8::try_from(128 + REQUESTED.load(Ordering::Relaxed)).unwrap_or(u8::MAX)
 }

@@ -1,5 +1,6 @@
 //! `serve`: flies in real time, with a console and for ground stations.
 
+use std::io::{self, Write as _};
 use std::net::SocketAddr;
 use std::path::Path;
 
@@ -43,46 +44,51 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
             settings.restore(MAV_SYS_ID, Value::Int(system.cast_signed())).map_err(|_| anyhow!("--sysid {system}"))?;
         }
         scenario = scenario.with_settings(&settings).with_context(|| format!("--params {}", path.display()))?;
-        eprintln!("{}", kept(path, &loaded));
+        tell(&kept(path, &loaded));
         parameters = Some(file);
     }
     let header = Header::new(&scenario, &set, args.seed)?;
     let recorder = recorder(args, &header)?;
+    check_ports(args)?;
     let mut fleet = Vec::new();
     for number in 0..args.vehicles {
         fleet.push(member(&scenario, args, number)?);
     }
     if let Some(first) = fleet.first_mut() {
-        eprint!("{}", greeting(&scenario, first.links.local_address()?, &peers(args, 0)));
+        tell(&greeting(&scenario, first.links.local_address()?, &peers(args, 0)));
         first.vehicle.keep_parameters(parameters);
         first.recorder = recorder;
     }
     if args.vehicles > 1 {
-        eprintln!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles);
+        tell(&format!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles));
     }
     for (number, member) in (0..).zip(&fleet).skip(1) {
         let addresses: Vec<String> = peers(args, number).iter().map(|peer| peer.address.to_string()).collect();
         let (number, listen) = (number + 1, member.links.local_address()?);
-        eprintln!("Vehicle {number} sends to {}, and listens on {listen}.", addresses.join(" and "));
+        tell(&format!("Vehicle {number} sends to {}, and listens on {listen}.", addresses.join(" and ")));
     }
     interrupt::listen();
     let mut terminal = Stdio::new();
     let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested);
     drop(terminal);
-    // However it has ended: what was set in flight is not lost with a recording that cannot be written.
-    if let Some(first) = fleet.first_mut() {
-        match first.vehicle.save_at_end()? {
-            0 => {}
-            1 => eprintln!("1 parameter that was set in flight is saved"),
-            count => eprintln!("{count} parameters that were set in flight are saved"),
-        }
+    // Before anything is told: what was set in flight is not lost with a recording that cannot be written.
+    let saved = fleet.first_mut().map_or(Ok(0), |first| first.vehicle.save_at_end())?;
+    match saved {
+        0 => {}
+        1 => tell("1 parameter that was set in flight is saved"),
+        count => tell(&format!("{count} parameters that were set in flight are saved")),
     }
-    eprintln!("{}", farewell(&flown?));
+    tell(&farewell(&flown?));
     let recorder = fleet.first().and_then(|first| first.recorder.as_ref());
     if let (Some(path), Some(true)) = (&args.record, recorder.map(Recorder::is_whole)) {
-        eprintln!("recorded into {}: fly it again by sim-host {}", path.display(), again(args, &set, path));
+        tell(&format!("recorded into {}: fly it again by sim-host {}", path.display(), again(args, &set, path)));
     }
     if interrupt::requested() { Err(Interrupted.into()) } else { Ok(()) }
+}
+
+/// Tells on standard error. Whoever reads it may have gone: that ends no flight.
+fn tell(text: &str) {
+    let _ = writeln!(io::stderr(), "{}", text.trim_end());
 }
 
 /// The vehicle with this number, from 0: each has the next system, seed and ports, and its home beside the last one's.
@@ -108,7 +114,8 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
     }
     if let Some(listen) = args.tcp {
         let server = links.serve_tcp(further(listen, number))?;
-        eprintln!("Ground stations can connect by TCP to {server}.");
+        let whose = if args.vehicles > 1 { format!(" of vehicle {}", number + 1) } else { String::new() };
+        tell(&format!("Ground stations{whose} can connect by TCP to {server}."));
     }
     Ok(Member { vehicle, links, recorder: None })
 }
@@ -117,6 +124,23 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
 fn further(address: SocketAddr, number: u16) -> SocketAddr {
     let port = if address.port() == 0 { 0 } else { address.port().saturating_add(number) };
     SocketAddr::new(address.ip(), port)
+}
+
+/// Refuses ports beyond the last one: each vehicle has the next of every address.
+fn check_ports(args: &ServeArgs) -> Result<()> {
+    let listen = [("--listen", args.listen)].into_iter();
+    let tcp = args.tcp.map(|address| ("--tcp", address));
+    let onboard = args.onboard.iter().map(|address| ("--onboard", *address));
+    for (option, address) in listen.chain(tcp).chain(onboard).filter(|(_, address)| address.port() != 0) {
+        let most = u16::MAX - args.vehicles.saturating_sub(1);
+        ensure!(
+            address.port() <= most,
+            "--vehicles {}: {option} {address} leaves no port for each of them: use {option} {} or lower",
+            args.vehicles,
+            SocketAddr::new(address.ip(), most)
+        );
+    }
+    Ok(())
 }
 
 /// Whom a vehicle sends to without having heard of them: all the same ground stations, each its own programs.
@@ -186,7 +210,8 @@ fn kept(path: &Path, loaded: &Loaded) -> String {
         1 => "; one of its two copies was damaged, and is rebuilt from the other",
         _ => "; both of its copies were damaged, and values may be lost",
     };
-    format!("{values} parameters loaded from {}{left}{mended}", path.display())
+    let are = if values == 1 { "parameter" } else { "parameters" };
+    format!("{values} {are} loaded from {}{left}{mended}", path.display())
 }
 
 fn about(summary: &str) -> String {

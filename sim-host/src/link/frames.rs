@@ -8,6 +8,9 @@ use glissade_dialect::mavlink_core::{Message as _, calculate_crc, consts};
 const HEADER_V1: usize = consts::STX_SIZE + consts::v1::HEADER_SIZE;
 const HEADER_V2: usize = consts::STX_SIZE + consts::v2::MIN_HEADER_SIZE;
 
+/// Bytes of the longest frame.
+pub const LONGEST: usize = HEADER_V2 + 255 + consts::CHECKSUM_SIZE + consts::v2::SIGNATURE_SIZE;
+
 /// A whole frame in a datagram.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {

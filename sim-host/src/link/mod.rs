@@ -58,6 +58,8 @@ pub const ONBOARD_PORT: u16 = 14540;
 const FORGET_AFTER: Duration = Duration::from_secs(10);
 /// A guest that has been silent this long gives way to a new one.
 const YIELD_AFTER: Duration = Duration::from_secs(3);
+/// What a station has sent before it closed its connection is answered after this time.
+const ANSWERED_AFTER: Duration = Duration::from_millis(250);
 /// Connections that wait for a link, and how long: silent guests give way meanwhile.
 const WAITING_MAX: usize = 8;
 /// See [`WAITING_MAX`].
@@ -124,8 +126,10 @@ struct Slot {
     connection: Option<Connection>,
     inbox: Vec<u8>,
     lost: u32,
-    /// It has closed its connection: the link stays until the vehicle has read what was sent before.
-    ended: bool,
+    /// The end of what has come by TCP, in which a frame may have begun.
+    tail: Vec<u8>,
+    /// When it has closed its connection: the link stays until the vehicle has read what was sent before, and answered.
+    ended: Option<Instant>,
 }
 
 impl Slot {
@@ -289,15 +293,22 @@ impl Links {
         for slot in &mut self.slots {
             let (Some(connection), Some(peer)) = (&mut slot.connection, &mut slot.peer) else { continue };
             let before = slot.inbox.len();
-            slot.ended = slot.ended || !connection.read(&mut slot.inbox, INBOX_MAX);
+            if !connection.read(&mut slot.inbox, INBOX_MAX) {
+                slot.ended.get_or_insert(now);
+            }
             // No frame begins so, and none has come yet: this is no station.
             let begins_wrong = slot.inbox.get(before).is_some_and(|byte| ![0xfd, 0xfe].contains(byte));
             peer.junk |= begins_wrong && !peer.spoken;
             peer.spoken |= slot.inbox.len() > before;
-            if let Some(frame) = frames::whole(&slot.inbox[before..]).find(|frame| frame.valid) {
+            slot.tail.extend_from_slice(&slot.inbox[before..]);
+            let valid = frames::whole(&slot.tail).filter(|frame| frame.valid).last();
+            if let Some(frame) = valid {
                 (peer.heard, peer.junk) = (now, false);
                 self.stations.hear(peer.address, frame.system, now);
+                slot.tail.drain(..frame.range.end);
             }
+            let longest = slot.tail.len().saturating_sub(frames::LONGEST);
+            slot.tail.drain(..longest);
         }
     }
 
@@ -382,7 +393,8 @@ impl Links {
                 hand_on(LinkEvent::Received(&slot.inbox[..count]));
                 slot.inbox.drain(..count);
             }
-            if slot.ended && slot.inbox.is_empty() && port.received().held() == 0 {
+            let answered = slot.ended.is_some_and(|at| at.elapsed() > ANSWERED_AFTER);
+            if answered && slot.inbox.is_empty() && port.received().held() == 0 {
                 hand_on(LinkEvent::Close);
                 *slot = Slot::default();
             }

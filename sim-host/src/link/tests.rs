@@ -307,7 +307,26 @@ fn what_a_station_has_sent_before_it_hung_up_is_read() {
     assert!(port.is_open());
     assert_eq!(port.received().copy(&mut [0; 99]), heartbeat(255));
     port.received().skip(99);
+    // Time to answer.
     bench.links.receive();
     bench.links.deliver(&bench.ports, |_, _| {});
+    assert!(port.is_open());
+    let start = Instant::now();
+    while port.is_open() && start.elapsed() < Duration::from_secs(5) {
+        bench.links.deliver(&bench.ports, |_, _| {});
+    }
     assert!(!port.is_open());
+}
+
+#[test]
+fn a_station_on_tcp_whose_frames_come_in_pieces_is_heard() {
+    let mut bench = Bench::new(&[]);
+    let server = bench.links.serve_tcp(local()).expect("a free port");
+    let mut station = TcpStream::connect(server).expect("somebody listens");
+    station.set_nodelay(true).expect("a socket");
+    for piece in heartbeat(255).chunks(5) {
+        station.write_all(piece).expect("sent");
+        assert_eq!(bench.receive(0), piece);
+    }
+    assert!(matches!(bench.links.news(), Some(News::Heard { .. })));
 }
