@@ -30,59 +30,70 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     names::require(Kind::Scenario, &args.scenario)?;
     let mut set = args.settings.set.clone();
     set.extend(args.sysid.map(|system| format!("params.MAV_SYS_ID={system}")));
-    let mut scenario = Scenario::load(&args.scenario, &set)?;
+    let scenario = Scenario::load(&args.scenario, &set)?;
     scenario.require_rigid_body()?;
     super::note_mismatches(&scenario, &set);
-    let mut parameters = None;
-    if let Some(path) = &args.params {
-        ensure!(args.vehicles == 1, "--params is one vehicle's file: leave out --vehicles {}", args.vehicles);
-        let mut settings = scenario.settings();
-        let (file, loaded) = ParameterFile::open(path, &mut settings)?;
-        if let Some(system) = args.sysid {
-            // What is asked for now wins over what was kept; it is not kept by that.
-            settings.restore(MAV_SYS_ID, Value::Int(system.cast_signed())).map_err(|_| anyhow!("--sysid {system}"))?;
-        }
-        scenario = scenario.with_settings(&settings).with_context(|| format!("--params {}", path.display()))?;
-        eprintln!("{}", kept(path, &loaded));
-        parameters = Some(file);
-    }
+    let (scenario, parameters) = with_parameters(args, scenario)?;
     let header = Header::new(&scenario, &set, args.seed)?;
     let recorder = recorder(args, &header)?;
     let mut fleet = Vec::new();
     for number in 0..args.vehicles {
         fleet.push(member(&scenario, args, number)?);
     }
+    greet(args, &scenario, &fleet)?;
     if let Some(first) = fleet.first_mut() {
-        eprint!("{}", greeting(&scenario, first.links.local_address()?, &peers(args, 0)));
         first.vehicle.keep_parameters(parameters);
         first.recorder = recorder;
-    }
-    if args.vehicles > 1 {
-        eprintln!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles);
-    }
-    for (number, member) in (0..).zip(&fleet).skip(1) {
-        let addresses: Vec<String> = peers(args, number).iter().map(|peer| peer.address.to_string()).collect();
-        let (number, listen) = (number + 1, member.links.local_address()?);
-        eprintln!("Vehicle {number} sends to {}, and listens on {listen}.", addresses.join(" and "));
     }
     interrupt::listen();
     let mut terminal = Stdio::new();
     let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested);
-    drop(terminal);
     // However it has ended: what was set in flight is not lost with a recording that cannot be written.
-    if let Some(first) = fleet.first_mut() {
-        match first.vehicle.save_at_end()? {
-            0 => {}
-            1 => eprintln!("1 parameter that was set in flight is saved"),
-            count => eprintln!("{count} parameters that were set in flight are saved"),
-        }
+    let saved = fleet.first_mut().map_or(Ok(0), |first| first.vehicle.save_at_end());
+    drop(terminal);
+    match saved? {
+        0 => {}
+        1 => super::tell("1 parameter that was set in flight is saved"),
+        count => super::tell(&format!("{count} parameters that were set in flight are saved")),
     }
-    eprintln!("{}", farewell(&flown?));
+    super::tell(&farewell(&flown?));
     let recorder = fleet.first().and_then(|first| first.recorder.as_ref());
     if let (Some(path), Some(true)) = (&args.record, recorder.map(Recorder::is_whole)) {
-        eprintln!("recorded into {}: fly it again by sim-host {}", path.display(), again(args, &set, path));
+        let again = again(args, &set, path);
+        super::tell(&format!("recorded into {}: fly it again by sim-host {again}", path.display()));
     }
     if interrupt::requested() { Err(Interrupted.into()) } else { Ok(()) }
+}
+
+/// The scenario with what a file of parameters keeps, and that file, if one is named.
+fn with_parameters(args: &ServeArgs, scenario: Scenario) -> Result<(Scenario, Option<ParameterFile>)> {
+    let Some(path) = &args.params else { return Ok((scenario, None)) };
+    ensure!(args.vehicles == 1, "--params is one vehicle's file: leave out --vehicles {}", args.vehicles);
+    let mut settings = scenario.settings();
+    let (file, loaded) = ParameterFile::open(path, &mut settings)?;
+    if let Some(system) = args.sysid {
+        // What is asked for now wins over what was kept; it is not kept by that.
+        settings.restore(MAV_SYS_ID, Value::Int(system.cast_signed())).map_err(|_| anyhow!("--sysid {system}"))?;
+    }
+    let scenario = scenario.with_settings(&settings).with_context(|| format!("--params {}", path.display()))?;
+    super::tell(&kept(path, &loaded));
+    Ok((scenario, Some(file)))
+}
+
+/// Says what flies, and where.
+fn greet(args: &ServeArgs, scenario: &Scenario, fleet: &[Member<Session>]) -> Result<()> {
+    if let Some(first) = fleet.first() {
+        super::tell(&greeting(scenario, first.links.local_address()?, &peers(args, 0)));
+    }
+    if args.vehicles > 1 {
+        super::tell(&format!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles));
+    }
+    for (number, member) in (0..).zip(fleet).skip(1) {
+        let addresses: Vec<String> = peers(args, number).iter().map(|peer| peer.address.to_string()).collect();
+        let (number, listen) = (number + 1, member.links.local_address()?);
+        super::tell(&format!("Vehicle {number} sends to {}, and listens on {listen}.", addresses.join(" and ")));
+    }
+    Ok(())
 }
 
 /// The vehicle with this number, from 0: each has the next system, seed and ports, and its home beside the last one's.
@@ -108,7 +119,7 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
     }
     if let Some(listen) = args.tcp {
         let server = links.serve_tcp(further(listen, number))?;
-        eprintln!("Ground stations can connect by TCP to {server}.");
+        super::tell(&format!("Ground stations can connect by TCP to {server}."));
     }
     Ok(Member { vehicle, links, recorder: None })
 }
