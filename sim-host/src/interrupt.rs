@@ -1,4 +1,4 @@
-//! Ctrl-C (SIGINT) and SIGTERM. A command that [`listen`]s ends its flight after a tick and reports it; the second
+//! Ctrl-C (SIGINT), SIGTERM, SIGHUP (its terminal is closed) and SIGQUIT. A command that [`listen`]s ends its flight after a tick and reports it; the second
 //! signal, or the first in any other command, ends the program at once. Folders that are not whole are removed either
 //! way.
 
@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use anyhow::{Context as _, Result};
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
 use signal_hook::iterator::Signals;
 
 /// The signal that asked for an end; 0 before.
@@ -20,15 +20,24 @@ static LISTENING: AtomicBool = AtomicBool::new(false);
 /// Folders that are not whole.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Handles both signals from now on, in a thread of its own. To be called once, when the program starts. SIGHUP is left
-/// as it is, so that `nohup` works.
+/// Handles the signals from now on, in a thread of its own. To be called once, when the program starts. SIGHUP and
+/// SIGQUIT stay ignored where they are, so that `nohup` works.
 ///
 /// # Errors
 /// When the system does not let signals be handled.
 pub fn handle_signals() -> Result<()> {
-    let mut signals = Signals::new([SIGINT, SIGTERM]).context("cannot handle Ctrl-C")?;
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let further = [SIGHUP, SIGQUIT].into_iter().filter(|signal| !ignores(&status, *signal));
+    let mut signals = Signals::new([SIGINT, SIGTERM].into_iter().chain(further)).context("cannot handle Ctrl-C")?;
     thread::spawn(move || signals.forever().for_each(handle));
     Ok(())
+}
+
+/// Whether a process ignores a signal, by its status in `/proc`; also where nothing says so.
+fn ignores(status: &str, signal: i32) -> bool {
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_none_or(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 /// Promises that the command looks at [`requested`] and ends by itself.
@@ -80,7 +89,8 @@ pub fn requested() -> bool {
     REQUESTED.load(Ordering::Relaxed) != 0
 }
 
-/// Exit code of a program that was interrupted, as shells have it: 128 + the signal, 130 for Ctrl-C, 143 for SIGTERM.
+/// Exit code of a program that was interrupted, as shells have it: 128 + the signal, 130 for Ctrl-C, 143 for SIGTERM,
+/// 129 for SIGHUP, 131 for SIGQUIT.
 pub fn exit_code() -> u8 {
     u8::try_from(128 + REQUESTED.load(Ordering::Relaxed)).unwrap_or(u8::MAX)
 }
@@ -96,3 +106,15 @@ impl std::fmt::Display for Interrupted {
 }
 
 impl std::error::Error for Interrupted {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_signal_that_is_ignored_stays_so() {
+        let status = "Name:\tsim-host\nSigBlk:\t0000000000000000\nSigIgn:\t0000000000001001\nSigCgt:\t00\n";
+        assert_eq!([SIGHUP, SIGINT, SIGQUIT].map(|signal| ignores(status, signal)), [true, false, false]);
+        assert!(ignores("", SIGHUP), "where it is not known");
+    }
+}

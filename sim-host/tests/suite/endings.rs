@@ -192,12 +192,14 @@ fn an_interrupted_flight_keeps_what_was_flown() {
 
 #[test]
 fn a_flight_ended_by_the_system_says_so_in_its_exit_code() {
-    let folder = Folder::new("terminated");
-    let child = flying(&folder, "out");
-    signal(&child, "TERM");
-    // 128 + SIGTERM.
-    assert_eq!(child.wait_with_output().expect("it ends").status.code(), Some(143));
-    assert_eq!(folder.names(), ["out"]);
+    // 128 + the signal.
+    for (name, code) in [("TERM", 143), ("HUP", 129), ("QUIT", 131)] {
+        let folder = Folder::new("terminated");
+        let child = flying(&folder, "out");
+        signal(&child, name);
+        assert_eq!(child.wait_with_output().expect("it ends").status.code(), Some(code));
+        assert_eq!(folder.names(), ["out"]);
+    }
 }
 
 #[test]
