@@ -62,6 +62,10 @@ const YIELD_AFTER: Duration = Duration::from_secs(3);
 const WAITING_MAX: usize = 8;
 /// See [`WAITING_MAX`].
 const WAIT_AT_MOST: Duration = Duration::from_secs(5);
+/// A link stays this long after its connection has ended and all of it was read, for the answers.
+const ANSWER_WITHIN: Duration = Duration::from_millis(250);
+/// Bytes of a stream in which a whole frame is looked for.
+const TAIL_MAX: usize = 2 * frames::LONGEST;
 /// Datagrams read at one go, so that a flood cannot hold up the flight.
 const BURST: usize = 256;
 /// No datagram is larger.
@@ -123,12 +127,30 @@ struct Slot {
     /// The connection of a peer that has come by TCP.
     connection: Option<Connection>,
     inbox: Vec<u8>,
+    /// The end of what has come by the connection, in which no valid frame was found yet.
+    tail: Vec<u8>,
     lost: u32,
-    /// It has closed its connection: the link stays until the vehicle has read what was sent before.
+    /// It has closed its connection, or its half of it: the link stays until the vehicle has read what was sent before,
+    /// and for its answers.
     ended: bool,
+    /// When the vehicle had read all from one that has ended.
+    read: Option<Instant>,
 }
 
 impl Slot {
+    /// The system of the first valid frame in what has come by the connection, the last bytes in the inbox from `from` on
+    /// among it.
+    fn find_frame(&mut self, from: usize) -> Option<u8> {
+        self.tail.extend_from_slice(&self.inbox[from..]);
+        let (mut found, mut passed) = (None, 0);
+        while let Some(frame) = frames::first_valid(&self.tail[passed..]) {
+            found = found.or(Some(frame.system));
+            passed += frame.range.end;
+        }
+        self.tail.drain(..passed.max(self.tail.len().saturating_sub(TAIL_MAX)));
+        found
+    }
+
     /// Whether who is there has not taken what was sent before.
     fn is_busy(&mut self) -> bool {
         self.connection.as_mut().is_some_and(Connection::is_busy)
@@ -287,16 +309,21 @@ impl Links {
     fn read_connections(&mut self) {
         let now = Instant::now();
         for slot in &mut self.slots {
-            let (Some(connection), Some(peer)) = (&mut slot.connection, &mut slot.peer) else { continue };
+            let Some(connection) = &mut slot.connection else { continue };
             let before = slot.inbox.len();
             slot.ended = slot.ended || !connection.read(&mut slot.inbox, INBOX_MAX);
+            if slot.inbox.len() == before {
+                continue;
+            }
             // No frame begins so, and none has come yet: this is no station.
             let begins_wrong = slot.inbox.get(before).is_some_and(|byte| ![0xfd, 0xfe].contains(byte));
+            let system = slot.find_frame(before);
+            let Some(peer) = &mut slot.peer else { continue };
             peer.junk |= begins_wrong && !peer.spoken;
-            peer.spoken |= slot.inbox.len() > before;
-            if let Some(frame) = frames::whole(&slot.inbox[before..]).find(|frame| frame.valid) {
+            peer.spoken = true;
+            if let Some(system) = system {
                 (peer.heard, peer.junk) = (now, false);
-                self.stations.hear(peer.address, frame.system, now);
+                self.stations.hear(peer.address, system, now);
             }
         }
     }
@@ -346,7 +373,7 @@ impl Links {
             return Some(free);
         }
         let silent = |slot: &Slot| match slot.peer {
-            Some(peer) if peer.is_nobody() || peer.junk => Some(Duration::MAX),
+            Some(peer) if peer.is_nobody() || peer.junk || slot.read.is_some() => Some(Duration::MAX),
             Some(peer) if peer.guest => Some(now.saturating_duration_since(peer.heard)),
             _ => None,
         };
@@ -358,7 +385,11 @@ impl Links {
 
     /// Hands on what has arrived, as much as the vehicle takes, and tells it which links are open. Of each link's events
     /// `note` is told too, with its number.
-    pub fn deliver(&mut self, ports: &Ports, mut note: impl FnMut(usize, LinkEvent)) {
+    pub fn deliver(&mut self, ports: &Ports, note: impl FnMut(usize, LinkEvent)) {
+        self.deliver_at(Instant::now(), ports, note);
+    }
+
+    fn deliver_at(&mut self, now: Instant, ports: &Ports, mut note: impl FnMut(usize, LinkEvent)) {
         for (number, (slot, port)) in self.slots.iter_mut().zip(ports).enumerate() {
             let mut hand_on = |event: LinkEvent| {
                 port.take_in(event);
@@ -383,8 +414,11 @@ impl Links {
                 slot.inbox.drain(..count);
             }
             if slot.ended && slot.inbox.is_empty() && port.received().held() == 0 {
-                hand_on(LinkEvent::Close);
-                *slot = Slot::default();
+                let read = *slot.read.get_or_insert(now);
+                if now.saturating_duration_since(read) >= ANSWER_WITHIN {
+                    hand_on(LinkEvent::Close);
+                    *slot = Slot::default();
+                }
             }
         }
     }
