@@ -28,6 +28,7 @@ const METRES_A_DEGREE: f64 = 111_320.0;
 
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
     names::require(Kind::Scenario, &args.scenario)?;
+    require_ports(args)?;
     let mut set = args.settings.set.clone();
     set.extend(args.sysid.map(|system| format!("params.MAV_SYS_ID={system}")));
     let scenario = Scenario::load(&args.scenario, &set)?;
@@ -128,6 +129,23 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
 fn further(address: SocketAddr, number: u16) -> SocketAddr {
     let port = if address.port() == 0 { 0 } else { address.port().saturating_add(number) };
     SocketAddr::new(address.ip(), port)
+}
+
+/// Refuses addresses from which on there are not enough ports for all vehicles.
+fn require_ports(args: &ServeArgs) -> Result<()> {
+    let onboard = args.onboard.iter().map(|address| ("--onboard", *address));
+    let tcp = args.tcp.map(|address| ("--tcp", address));
+    for (key, address) in onboard.chain(tcp).chain([("--listen", args.listen)]) {
+        let highest = u16::MAX - (args.vehicles - 1);
+        ensure!(
+            address.port() <= highest,
+            "--vehicles {}: there is no port 65536 for vehicle {}: use {key} {} or lower",
+            args.vehicles,
+            u16::MAX - address.port() + 2,
+            SocketAddr::new(address.ip(), highest)
+        );
+    }
+    Ok(())
 }
 
 /// Whom a vehicle sends to without having heard of them: all the same ground stations, each its own programs.
