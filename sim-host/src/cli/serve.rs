@@ -20,6 +20,7 @@ use crate::link::{DEFAULT_PEERS, Links, Peer};
 use crate::recording::{Header, Recorder, arguments};
 use crate::scenario::Scenario;
 use crate::serve::{Flown, Member, Pacing, serve};
+use crate::words::counted;
 
 /// Distance between the homes of several vehicles, m: to the east, so that they stand side by side on a map.
 const APART_M: f64 = 5.0;
@@ -120,7 +121,8 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
     }
     if let Some(listen) = args.tcp {
         let server = links.serve_tcp(further(listen, number))?;
-        super::tell(&format!("Ground stations can connect by TCP to {server}."));
+        let whose = if args.vehicles > 1 { format!(" of vehicle {}", number + 1) } else { String::new() };
+        super::tell(&format!("Ground stations{whose} can connect by TCP to {server}."));
     }
     Ok(Member { vehicle, links, recorder: None })
 }
@@ -215,7 +217,7 @@ fn kept(path: &Path, loaded: &Loaded) -> String {
         1 => "; one of its two copies was damaged, and is rebuilt from the other",
         _ => "; both of its copies were damaged, and values may be lost",
     };
-    format!("{values} parameters loaded from {}{left}{mended}", path.display())
+    format!("{} loaded from {}{left}{mended}", counted(values, "parameter"), path.display())
 }
 
 fn about(summary: &str) -> String {
@@ -226,4 +228,15 @@ fn about(summary: &str) -> String {
 fn farewell(flown: &Flown) -> String {
     let Flown { simulated_s, wall_s } = *flown;
     format!("flown {simulated_s:.1} s in {wall_s:.1} s: ran at {:.2} x real time", simulated_s / wall_s.max(1e-9))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_parameter_is_told_as_one() {
+        let says = |values| kept(Path::new("p"), &Loaded { values, ..Loaded::default() });
+        assert_eq!([says(0), says(1)], ["0 parameters loaded from p", "1 parameter loaded from p"]);
+    }
 }

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, bail, ensure};
 use firmware::mavlink::port::{LINKS, LinkEvent, Ports, Profile, SENT_CAPACITY};
 
-use self::address::{cannot_listen, elsewhere, is_own};
+use self::address::{cannot_listen, cannot_listen_by_tcp, elsewhere, is_own};
 use self::tcp::Connection;
 use crate::stations::{News, Stations};
 
@@ -39,10 +39,30 @@ pub struct Peer {
 }
 
 impl Peer {
+    /// The option that names it.
+    fn option(&self) -> &'static str {
+        match self.profile {
+            Profile::Normal => "--peer",
+            Profile::Onboard => "--onboard",
+        }
+    }
+
     /// On this machine.
     const fn here(port: u16, profile: Profile) -> Self {
         Self { address: SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port), profile }
     }
+}
+
+/// Refuses an address that is given twice: it would be sent everything twice.
+fn require_different(peers: &[Peer]) -> anyhow::Result<()> {
+    for (number, peer) in peers.iter().enumerate() {
+        if let Some(first) = peers[..number].iter().find(|first| first.address == peer.address) {
+            let (first, second, address) = (first.option(), peer.option(), peer.address);
+            ensure!(first == second, "{address} is given by {first} and by {second}: leave one of them out");
+            bail!("{first} {address} is given twice: leave one of them out");
+        }
+    }
+    Ok(())
 }
 
 /// The port of each, where an address is given without one.
@@ -189,9 +209,12 @@ impl Links {
     /// One line that names the address, and what to do, if it cannot be listened on; more peers than links.
     pub fn bind(listen: SocketAddr, peers: &[Peer]) -> anyhow::Result<Self> {
         let addresses: Vec<SocketAddr> = peers.iter().map(|peer| peer.address).collect();
-        if let Some(peer) = addresses.iter().find(|peer| peer.port() == 0) {
-            bail!("--peer {peer} has no port from 1 to 65535: use {}", SocketAddr::new(peer.ip(), PEER_PORT));
+        if let Some(peer) = peers.iter().find(|peer| peer.address.port() == 0) {
+            let (option, address) = (peer.option(), peer.address);
+            let port = if peer.profile == Profile::Onboard { ONBOARD_PORT } else { PEER_PORT };
+            bail!("{option} {address} has no port from 1 to 65535: use {}", SocketAddr::new(address.ip(), port));
         }
+        require_different(peers)?;
         if let Some(peer) = addresses.iter().find(|peer| peer.is_ipv4() != listen.is_ipv4()) {
             bail!("cannot send from {listen} to {peer}: one is IPv4, the other IPv6: give both of one kind");
         }
@@ -204,9 +227,11 @@ impl Links {
         ensure!(peers.len() <= LINKS, "{} peers are given, but the vehicle has {LINKS} links", peers.len());
         let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, &addresses, &error))?;
         let own = socket.local_addr().unwrap_or(listen);
-        if let Some(peer) = addresses.iter().find(|peer| is_own(own, peer)) {
+        if let Some(peer) = peers.iter().find(|peer| is_own(own, &peer.address)) {
             bail!(
-                "--peer {peer} is where the vehicle itself listens: give the ground station's address, as {}",
+                "{} {} is where the vehicle itself listens: give the ground station's address, as {}",
+                peer.option(),
+                peer.address,
                 elsewhere(own)
             );
         }
@@ -236,9 +261,9 @@ impl Links {
     /// Takes connections over TCP too.
     ///
     /// # Errors
-    /// One line that names the address if it cannot be listened on.
+    /// One line that names the address, and what to do, if it cannot be listened on.
     pub fn serve_tcp(&mut self, listen: SocketAddr) -> anyhow::Result<SocketAddr> {
-        let server = TcpListener::bind(listen).with_context(|| format!("cannot listen on TCP address {listen}"))?;
+        let server = TcpListener::bind(listen).map_err(|error| cannot_listen_by_tcp(listen, &error))?;
         server.set_nonblocking(true).with_context(|| format!("cannot use TCP address {listen}"))?;
         let address = server.local_addr().context("the server has no address")?;
         self.server = Some(server);

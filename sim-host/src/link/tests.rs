@@ -147,6 +147,24 @@ fn a_busy_address_is_named_with_a_remedy_in_one_line() {
 }
 
 #[test]
+fn a_busy_tcp_address_is_named_with_a_remedy_and_an_address_given_twice_is_refused() {
+    let held = TcpListener::bind(local()).expect("a free port");
+    let taken = held.local_addr().expect("bound");
+    let mut links = Links::bind(local(), &[]).expect("a free port");
+    let error = format!("{:#}", links.serve_tcp(taken).expect_err("in use"));
+    let next = beside(taken);
+    assert_eq!(error, format!("--tcp {taken} is in use (another `sim-host serve`?): stop it, or use --tcp {next}"));
+    let onboard = DEFAULT_PEERS[1];
+    for (other, expected) in [
+        (onboard, "--onboard 127.0.0.1:14540 is given twice: leave one of them out"),
+        (station_at(onboard.address), "127.0.0.1:14540 is given by --onboard and by --peer: leave one of them out"),
+    ] {
+        let error = format!("{:#}", Links::bind(local(), &[onboard, other]).expect_err("twice"));
+        assert_eq!(error, expected);
+    }
+}
+
+#[test]
 fn nothing_can_be_sent_to_port_0_and_there_are_no_more_peers_than_links() {
     let error = format!("{:#}", Links::bind(local(), &[station_at(local())]).expect_err("no port"));
     assert_eq!(error, "--peer 127.0.0.1:0 has no port from 1 to 65535: use 127.0.0.1:14550");
