@@ -1,6 +1,6 @@
-//! Ctrl-C (SIGINT), SIGTERM, SIGHUP (its terminal is closed) and SIGQUIT. A command that [`listen`]s ends its flight after a tick and reports it; the second
-//! signal, or the first in any other command, ends the program at once. Folders that are not whole are removed either
-//! way.
+//! Ctrl-C (SIGINT), SIGTERM, SIGHUP (its terminal is closed) and SIGQUIT. A command that [`listen`]s ends its flight after
+//! a tick and reports it; the second signal (but SIGHUP), or the first in any other command, ends the program at once.
+//! Folders that are not whole are removed either way.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -46,13 +46,19 @@ pub fn listen() {
 }
 
 fn handle(signal: i32) {
-    let is_first = REQUESTED.swap(signal, Ordering::Relaxed) == 0;
-    if !is_first || !LISTENING.load(Ordering::Relaxed) {
+    let before = REQUESTED.swap(signal, Ordering::Relaxed);
+    if ends_at_once(before, signal) || !LISTENING.load(Ordering::Relaxed) {
         // Held until the end, so that no further folder is begun.
         let folders = unfinished();
         folders.iter().for_each(|folder| remove(folder));
         process::exit(i32::from(exit_code()));
     }
+}
+
+/// Whether a signal is a second one, after another or 0. A terminal that is closed makes several: SIGHUP of the system and of
+/// the shell, and nothing can be printed any more, which asks for an end too.
+fn ends_at_once(before: i32, signal: i32) -> bool {
+    before != 0 && signal != SIGHUP
 }
 
 /// Removes a folder, also while a flight still writes into it.
@@ -110,6 +116,13 @@ impl std::error::Error for Interrupted {}
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_second_signal_ends_at_once_but_for_those_of_a_closed_terminal() {
+        let ends = |(before, signal)| ends_at_once(before, signal);
+        assert_eq!([(0, SIGINT), (0, SIGHUP), (SIGINT, SIGHUP), (SIGHUP, SIGHUP)].map(ends), [false; 4]);
+        assert_eq!([(SIGINT, SIGINT), (SIGHUP, SIGTERM), (SIGINT, SIGQUIT)].map(ends), [true; 3]);
+    }
 
     #[test]
     fn a_signal_that_is_ignored_stays_so() {
