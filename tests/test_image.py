@@ -5,8 +5,10 @@ The image measures its loops with a timer of the simulated board, and QEMU's tim
 """
 
 import os
+import re
 import shutil
 import socket
+import struct
 import subprocess
 import time
 from pathlib import Path
@@ -18,6 +20,9 @@ from conftest import HANG_S, ROOT, missing
 
 IMAGE = Path(os.environ.get("GLISSADE_IMAGE", ROOT / "target/thumbv7em-none-eabihf/image/mps2"))
 QEMU = "qemu-system-arm"
+# Of ELF.
+SHT_NOBITS = 8
+SHF_WRITE, SHF_ALLOC = 1, 2
 
 
 class Board:
@@ -81,6 +86,25 @@ def board(tmp_path_factory):
 
 def loop_timing(board, name):
     return board.wait(lambda m: m.get_type() == "NAMED_VALUE_INT" and m.name == name).value
+
+
+def sizes(elf):
+    """What `size` has of an image of 32 bits: text and bss, B."""
+    (table,), (entry, count) = struct.unpack_from("<I", elf, 32), struct.unpack_from("<HH", elf, 46)
+    sections = [struct.unpack_from("<10I", elf, table + entry * number) for number in range(count)]
+    loaded = [(kind, flags, size) for _, kind, flags, _, _, size, *_ in sections if flags & SHF_ALLOC]
+    text = sum(size for _, flags, size in loaded if not flags & SHF_WRITE)
+    return text, sum(size for kind, _, size in loaded if kind == SHT_NOBITS)
+
+
+def test_the_manual_has_the_size_of_the_image():
+    if not IMAGE.is_file():
+        missing(f"no image at {IMAGE}: cargo fw")
+    row = re.search(r"image/mps2` \| ([\d,]+) B and ([\d,]+) B", (ROOT / "docs/results.md").read_text(encoding="utf-8"))
+    told = [int(number.replace(",", "")) for number in row.groups()]
+    # Compilers differ, and small changes need no new row.
+    for is_now, was in zip(sizes(IMAGE.read_bytes()), told):
+        assert abs(is_now - was) <= 0.05 * was, f"docs/results.md has {was} B, and it is {is_now} B"
 
 
 def test_it_boots_and_says_who_it_is(board):

@@ -47,6 +47,39 @@ impl NorFlashError for FlashError {
     }
 }
 
+/// What is wrong with a file that has a remedy of its own.
+#[derive(Debug)]
+enum Unfit {
+    /// It is a link to a file that is not there.
+    Link(PathBuf),
+    /// `serve` has made it, and it has only so many bytes left.
+    CutOff(u64),
+}
+
+impl std::fmt::Display for Unfit {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Link(target) => write!(f, "is a link to {}, which is not there", target.display()),
+            Self::CutOff(length) => write!(f, "is cut off: it has {length} of its {WHOLE} bytes"),
+        }
+    }
+}
+
+impl std::error::Error for Unfit {}
+
+/// What to do about a file that cannot be opened.
+fn remedy(error: &anyhow::Error) -> &'static str {
+    let kind = error.downcast_ref::<std::io::Error>().map(std::io::Error::kind);
+    match (error.downcast_ref(), kind) {
+        (Some(Unfit::Link(_)), _) => "remove the link, or name another file",
+        (Some(Unfit::CutOff(_)), _) => "name a whole copy of it, or a new file",
+        (None, Some(ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem)) => {
+            "name a file that you may write to"
+        }
+        (None, _) => "name a new file in a folder that is there, or one that `serve` has made",
+    }
+}
+
 /// How often opening is tried anew when another process creates the same file at the same moment.
 const TRIES: usize = 3;
 
@@ -57,6 +90,9 @@ impl FlashFile {
             let file = match OpenOptions::new().read(true).write(true).open(path) {
                 Ok(file) => file,
                 Err(error) if error.kind() == ErrorKind::NotFound => {
+                    if let Ok(target) = std::fs::read_link(path) {
+                        bail!(Unfit::Link(target));
+                    }
                     create(path, None)?;
                     continue;
                 }
@@ -77,7 +113,9 @@ impl FlashFile {
             }
             let mut header = [0; HEADER.len()];
             let has_header = file.read_exact_at(&mut header, 0).is_ok() && header == *HEADER;
-            ensure!(has_header && file.metadata()?.len() == WHOLE as u64, "is no file of parameters");
+            let length = file.metadata()?.len();
+            ensure!(!has_header || length >= WHOLE as u64, Unfit::CutOff(length));
+            ensure!(has_header && length == WHOLE as u64, "is no file of parameters");
             return Ok(Self { file });
         }
         bail!("is being made by another `sim-host serve`")
@@ -220,12 +258,8 @@ impl ParameterFile {
             let loaded = block_on(store.load(settings)).map_err(explain)?;
             Ok((store, loaded))
         };
-        let (store, loaded) = open().map_err(|error| {
-            let path = path.display();
-            anyhow!(
-                "--params {path}: {error:#}: name a new file in a folder that is there, or one that `serve` has made"
-            )
-        })?;
+        let (store, loaded) =
+            open().map_err(|error| anyhow!("--params {}: {error:#}: {}", path.display(), remedy(&error)))?;
         Ok((Self { path: path.to_owned(), store }, loaded))
     }
 
@@ -321,6 +355,25 @@ mod tests {
         std::fs::write(&path, &HEADER[..10]).expect("written");
         ParameterFile::open(&path, &mut Settings::default()).expect_err("some text");
         std::fs::remove_file(&path).expect("removed");
+    }
+
+    #[test]
+    fn a_file_that_does_not_fit_is_refused_with_its_own_remedy() {
+        let (path, target) = (temporary("short"), temporary("target"));
+        let refused = || {
+            let error = ParameterFile::open(&path, &mut Settings::default()).expect_err("refused");
+            format!("{error:#}").replace(&path.display().to_string(), "F").replace(&target.display().to_string(), "T")
+        };
+        std::fs::write(&path, [&HEADER[..], &[0xff; 84]].concat()).expect("written");
+        let expected = "--params F: is cut off: it has 100 of its 65552 bytes: name a whole copy of it, or a new file";
+        assert_eq!(refused(), expected);
+        std::fs::remove_file(&path).expect("removed");
+        std::os::unix::fs::symlink(&target, &path).expect("linked");
+        let expected = "--params F: is a link to T, which is not there: remove the link, or name another file";
+        assert_eq!(refused(), expected);
+        std::fs::remove_file(&path).expect("removed");
+        let denied = std::io::Error::from(ErrorKind::PermissionDenied);
+        assert_eq!(remedy(&denied.into()), "name a file that you may write to");
     }
 
     #[test]

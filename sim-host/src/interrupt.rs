@@ -1,6 +1,6 @@
-//! Ctrl-C (SIGINT), SIGTERM, and SIGHUP of a terminal that is closed. A command that [`listen`]s ends its flight after a tick and reports it; the second
-//! signal, or the first in any other command, ends the program at once. Folders that are not whole are removed either
-//! way.
+//! Ctrl-C (SIGINT), SIGTERM, SIGHUP (its terminal is closed) and SIGQUIT. A command that [`listen`]s ends its flight after
+//! a tick and reports it; the second signal (but SIGHUP), or the first in any other command, ends the program at once.
+//! Folders that are not whole are removed either way.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use anyhow::{Context as _, Result};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
 use signal_hook::iterator::Signals;
 
 /// The signal that asked for an end; 0 before.
@@ -20,26 +20,24 @@ static LISTENING: AtomicBool = AtomicBool::new(false);
 /// Folders that are not whole.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Handles the signals from now on, in a thread of its own. To be called once, when the program starts. A SIGHUP that is
-/// ignored stays so: `nohup` works.
+/// Handles the signals from now on, in a thread of its own. To be called once, when the program starts. SIGHUP and
+/// SIGQUIT stay ignored where they are, so that `nohup` works.
 ///
 /// # Errors
 /// When the system does not let signals be handled.
 pub fn handle_signals() -> Result<()> {
-    let mut signals = Signals::new([SIGINT, SIGTERM]).context("cannot handle Ctrl-C")?;
-    if !ignores(SIGHUP) {
-        signals.add_signal(SIGHUP).context("cannot handle a terminal's end")?;
-    }
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let further = [SIGHUP, SIGQUIT].into_iter().filter(|signal| !ignores(&status, *signal));
+    let mut signals = Signals::new([SIGINT, SIGTERM].into_iter().chain(further)).context("cannot handle Ctrl-C")?;
     thread::spawn(move || signals.forever().for_each(handle));
     Ok(())
 }
 
-/// Whether this program was started with a signal ignored. Where the system does not tell, it was not.
-fn ignores(signal: i32) -> bool {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+/// Whether a process ignores a signal, by its status in `/proc`; also where nothing says so.
+fn ignores(status: &str, signal: i32) -> bool {
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);
-    mask >> (signal - 1) & 1 == 1
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_none_or(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 /// Promises that the command looks at [`requested`] and ends by itself.
@@ -48,13 +46,19 @@ pub fn listen() {
 }
 
 fn handle(signal: i32) {
-    let is_first = REQUESTED.swap(signal, Ordering::Relaxed) == 0;
-    if !is_first || !LISTENING.load(Ordering::Relaxed) {
+    let before = REQUESTED.swap(signal, Ordering::Relaxed);
+    if ends_at_once(before, signal) || !LISTENING.load(Ordering::Relaxed) {
         // Held until the end, so that no further folder is begun.
         let folders = unfinished();
         folders.iter().for_each(|folder| remove(folder));
         process::exit(i32::from(exit_code()));
     }
+}
+
+/// Whether a signal is a second one, after another or 0. A terminal that is closed makes several: SIGHUP of the system and of
+/// the shell, and nothing can be printed any more, which asks for an end too.
+fn ends_at_once(before: i32, signal: i32) -> bool {
+    before != 0 && signal != SIGHUP
 }
 
 /// Removes a folder, also while a flight still writes into it.
@@ -91,7 +95,8 @@ pub fn requested() -> bool {
     REQUESTED.load(Ordering::Relaxed) != 0
 }
 
-/// Exit code of a program that was interrupted, as shells have it: 128 + the signal, 130 for Ctrl-C, 143 for SIGTERM, 129 for SIGHUP.
+/// Exit code of a program that was interrupted, as shells have it: 128 + the signal, 130 for Ctrl-C, 143 for SIGTERM,
+/// 129 for SIGHUP, 131 for SIGQUIT.
 pub fn exit_code() -> u8 {
     u8::try_from(128 + REQUESTED.load(Ordering::Relaxed)).unwrap_or(u8::MAX)
 }
@@ -107,3 +112,22 @@ impl std::fmt::Display for Interrupted {
 }
 
 impl std::error::Error for Interrupted {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_signal_ends_at_once_but_for_those_of_a_closed_terminal() {
+        let ends = |(before, signal)| ends_at_once(before, signal);
+        assert_eq!([(0, SIGINT), (0, SIGHUP), (SIGINT, SIGHUP), (SIGHUP, SIGHUP)].map(ends), [false; 4]);
+        assert_eq!([(SIGINT, SIGINT), (SIGHUP, SIGTERM), (SIGINT, SIGQUIT)].map(ends), [true; 3]);
+    }
+
+    #[test]
+    fn a_signal_that_is_ignored_stays_so() {
+        let status = "Name:\tsim-host\nSigBlk:\t0000000000000000\nSigIgn:\t0000000000001001\nSigCgt:\t00\n";
+        assert_eq!([SIGHUP, SIGINT, SIGQUIT].map(|signal| ignores(status, signal)), [true, false, false]);
+        assert!(ignores("", SIGHUP), "where it is not known");
+    }
+}

@@ -43,6 +43,8 @@
 //! # Ok::<(), anyhow::Error>(())
 //! ```
 
+// They panic when nobody reads.
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 #![cfg_attr(
     test,
     allow(clippy::disallowed_methods, reason = "tests compare with bounds; what decides a flight may not")

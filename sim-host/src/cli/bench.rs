@@ -16,7 +16,10 @@ pub(super) fn run(seconds: f64, runs: usize, as_json: bool) -> Result<()> {
     let ticks = (seconds * 1e3) as u32;
     let bar = progress::of_flights(runs as u64, !as_json);
     if !as_json {
-        eprintln!("measuring {} of `helix`, {seconds} simulated s each, on one core", counted(runs, "flight"));
+        super::tell(&format!(
+            "measuring {} of `helix`, {seconds} simulated s each, on one core",
+            counted(runs, "flight")
+        ));
     }
     let timed = |_| {
         let factor = fly(&scenario, ticks);

@@ -86,6 +86,11 @@ pub(super) fn complain(line: &str) {
     let _ = writeln!(std::io::stderr(), "sim-host: {}", printable(line));
 }
 
+/// Writes what is no complaint to standard error. That nobody can read it ends nothing.
+pub(super) fn tell(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{}", text.trim_end());
+}
+
 /// An error with its causes, in a line.
 pub(super) fn one_line(error: &anyhow::Error) -> String {
     // The system's number of an error, "(os error 2)", tells nobody more than its text does.

@@ -31,7 +31,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 use clap::builder::{StringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
-use complaints::{complain, one_line, refuse};
+use complaints::{complain, one_line, refuse, tell};
 use numbers::{number, whole};
 
 use crate::interrupt::{self, Interrupted};

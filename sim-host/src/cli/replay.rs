@@ -25,5 +25,12 @@ pub(super) fn load(
     let seed = seed.unwrap_or(recording.header.seed);
     let flown = Header::new(&scenario, &which.settings.set, seed)?;
     recording.require(&flown).with_context(|| format!("recording `{}`", path.display()))?;
+    if !recording.has_ended {
+        super::complain(&format!(
+            "note: recording `{}` was cut off, it has no line `end`: it is flown to its last line, tick {}",
+            path.display(),
+            recording.ticks - 1
+        ));
+    }
     Ok((recording.onto(scenario), seed))
 }

@@ -21,6 +21,7 @@ use crate::link::{DEFAULT_PEERS, Links, Peer};
 use crate::recording::{Header, Recorder, arguments};
 use crate::scenario::Scenario;
 use crate::serve::{Flown, Member, Pacing, serve};
+use crate::words::counted;
 
 /// Distance between the homes of several vehicles, m: to the east, so that they stand side by side on a map.
 const APART_M: f64 = 5.0;
@@ -29,24 +30,13 @@ const METRES_A_DEGREE: f64 = 111_320.0;
 
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
     names::require(Kind::Scenario, &args.scenario)?;
+    require_ports(args)?;
     let mut set = args.settings.set.clone();
     set.extend(args.sysid.map(|system| format!("params.MAV_SYS_ID={system}")));
-    let mut scenario = Scenario::load(&args.scenario, &set)?;
+    let scenario = Scenario::load(&args.scenario, &set)?;
     scenario.require_rigid_body()?;
     super::note_mismatches(&scenario, &set);
-    let mut parameters = None;
-    if let Some(path) = &args.params {
-        ensure!(args.vehicles == 1, "--params is one vehicle's file: leave out --vehicles {}", args.vehicles);
-        let mut settings = scenario.settings();
-        let (file, loaded) = ParameterFile::open(path, &mut settings)?;
-        if let Some(system) = args.sysid {
-            // What is asked for now wins over what was kept; it is not kept by that.
-            settings.restore(MAV_SYS_ID, Value::Int(system.cast_signed())).map_err(|_| anyhow!("--sysid {system}"))?;
-        }
-        scenario = scenario.with_settings(&settings).with_context(|| format!("--params {}", path.display()))?;
-        tell(&kept(path, &loaded));
-        parameters = Some(file);
-    }
+    let (scenario, parameters) = with_parameters(args, scenario)?;
     let header = Header::new(&scenario, &set, args.seed)?;
     let recorder = recorder(args, &header)?;
     check_ports(args)?;
@@ -54,41 +44,60 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     for number in 0..args.vehicles {
         fleet.push(member(&scenario, args, number)?);
     }
+    greet(args, &scenario, &fleet)?;
     if let Some(first) = fleet.first_mut() {
-        tell(&greeting(&scenario, first.links.local_address()?, &peers(args, 0)));
         first.vehicle.keep_parameters(parameters);
         first.recorder = recorder;
-    }
-    if args.vehicles > 1 {
-        tell(&format!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles));
-    }
-    for (number, member) in (0..).zip(&fleet).skip(1) {
-        let addresses: Vec<String> = peers(args, number).iter().map(|peer| peer.address.to_string()).collect();
-        let (number, listen) = (number + 1, member.links.local_address()?);
-        tell(&format!("Vehicle {number} sends to {}, and listens on {listen}.", addresses.join(" and ")));
     }
     interrupt::listen();
     let mut terminal = Stdio::new();
     let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested);
+    // However it has ended: what was set in flight is not lost with a recording that cannot be written.
+    let saved = fleet.first_mut().map_or(Ok(0), |first| first.vehicle.save_at_end());
     drop(terminal);
-    // Before anything is told: what was set in flight is not lost with a recording that cannot be written.
-    let saved = fleet.first_mut().map_or(Ok(0), |first| first.vehicle.save_at_end())?;
-    match saved {
+    match saved? {
         0 => {}
-        1 => tell("1 parameter that was set in flight is saved"),
-        count => tell(&format!("{count} parameters that were set in flight are saved")),
+        1 => super::tell("1 parameter that was set in flight is saved"),
+        count => super::tell(&format!("{count} parameters that were set in flight are saved")),
     }
-    tell(&farewell(&flown?));
+    super::tell(&farewell(&flown?));
     let recorder = fleet.first().and_then(|first| first.recorder.as_ref());
     if let (Some(path), Some(true)) = (&args.record, recorder.map(Recorder::is_whole)) {
-        tell(&format!("recorded into {}: fly it again by sim-host {}", path.display(), again(args, &set, path)));
+        let again = again(args, &set, path);
+        super::tell(&format!("recorded into {}: fly it again by sim-host {again}", path.display()));
     }
     if interrupt::requested() { Err(Interrupted.into()) } else { Ok(()) }
 }
 
-/// Tells on standard error. Whoever reads it may have gone: that ends no flight.
-fn tell(text: &str) {
-    let _ = writeln!(io::stderr(), "{}", text.trim_end());
+/// The scenario with what a file of parameters keeps, and that file, if one is named.
+fn with_parameters(args: &ServeArgs, scenario: Scenario) -> Result<(Scenario, Option<ParameterFile>)> {
+    let Some(path) = &args.params else { return Ok((scenario, None)) };
+    ensure!(args.vehicles == 1, "--params is one vehicle's file: leave out --vehicles {}", args.vehicles);
+    let mut settings = scenario.settings();
+    let (file, loaded) = ParameterFile::open(path, &mut settings)?;
+    if let Some(system) = args.sysid {
+        // What is asked for now wins over what was kept; it is not kept by that.
+        settings.restore(MAV_SYS_ID, Value::Int(system.cast_signed())).map_err(|_| anyhow!("--sysid {system}"))?;
+    }
+    let scenario = scenario.with_settings(&settings).with_context(|| format!("--params {}", path.display()))?;
+    super::tell(&kept(path, &loaded));
+    Ok((scenario, Some(file)))
+}
+
+/// Says what flies, and where.
+fn greet(args: &ServeArgs, scenario: &Scenario, fleet: &[Member<Session>]) -> Result<()> {
+    if let Some(first) = fleet.first() {
+        super::tell(&greeting(scenario, first.links.local_address()?, &peers(args, 0)));
+    }
+    if args.vehicles > 1 {
+        super::tell(&format!("{} vehicles; `vehicle N` selects the one that typed lines are for.", args.vehicles));
+    }
+    for (number, member) in (0..).zip(fleet).skip(1) {
+        let addresses: Vec<String> = peers(args, number).iter().map(|peer| peer.address.to_string()).collect();
+        let (number, listen) = (number + 1, member.links.local_address()?);
+        super::tell(&format!("Vehicle {number} sends to {}, and listens on {listen}.", addresses.join(" and ")));
+    }
+    Ok(())
 }
 
 /// The vehicle with this number, from 0: each has the next system, seed and ports, and its home beside the last one's.
@@ -115,7 +124,7 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
     if let Some(listen) = args.tcp {
         let server = links.serve_tcp(further(listen, number))?;
         let whose = if args.vehicles > 1 { format!(" of vehicle {}", number + 1) } else { String::new() };
-        tell(&format!("Ground stations{whose} can connect by TCP to {server}."));
+        super::tell(&format!("Ground stations{whose} can connect by TCP to {server}."));
     }
     Ok(Member { vehicle, links, recorder: None })
 }
@@ -126,18 +135,18 @@ fn further(address: SocketAddr, number: u16) -> SocketAddr {
     SocketAddr::new(address.ip(), port)
 }
 
-/// Refuses ports beyond the last one: each vehicle has the next of every address.
-fn check_ports(args: &ServeArgs) -> Result<()> {
-    let listen = [("--listen", args.listen)].into_iter();
-    let tcp = args.tcp.map(|address| ("--tcp", address));
+/// Refuses addresses from which on there are not enough ports for all vehicles.
+fn require_ports(args: &ServeArgs) -> Result<()> {
     let onboard = args.onboard.iter().map(|address| ("--onboard", *address));
-    for (option, address) in listen.chain(tcp).chain(onboard).filter(|(_, address)| address.port() != 0) {
-        let most = u16::MAX - args.vehicles.saturating_sub(1);
+    let tcp = args.tcp.map(|address| ("--tcp", address));
+    for (key, address) in onboard.chain(tcp).chain([("--listen", args.listen)]) {
+        let highest = u16::MAX - (args.vehicles - 1);
         ensure!(
-            address.port() <= most,
-            "--vehicles {}: {option} {address} leaves no port for each of them: use {option} {} or lower",
+            address.port() <= highest,
+            "--vehicles {}: there is no port 65536 for vehicle {}: use {key} {} or lower",
             args.vehicles,
-            SocketAddr::new(address.ip(), most)
+            u16::MAX - address.port() + 2,
+            SocketAddr::new(address.ip(), highest)
         );
     }
     Ok(())
@@ -210,8 +219,7 @@ fn kept(path: &Path, loaded: &Loaded) -> String {
         1 => "; one of its two copies was damaged, and is rebuilt from the other",
         _ => "; both of its copies were damaged, and values may be lost",
     };
-    let are = if values == 1 { "parameter" } else { "parameters" };
-    format!("{values} {are} loaded from {}{left}{mended}", path.display())
+    format!("{} loaded from {}{left}{mended}", counted(values, "parameter"), path.display())
 }
 
 fn about(summary: &str) -> String {
@@ -222,4 +230,15 @@ fn about(summary: &str) -> String {
 fn farewell(flown: &Flown) -> String {
     let Flown { simulated_s, wall_s } = *flown;
     format!("flown {simulated_s:.1} s in {wall_s:.1} s: ran at {:.2} x real time", simulated_s / wall_s.max(1e-9))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_parameter_is_told_as_one() {
+        let says = |values| kept(Path::new("p"), &Loaded { values, ..Loaded::default() });
+        assert_eq!([says(0), says(1)], ["0 parameters loaded from p", "1 parameter loaded from p"]);
+    }
 }

@@ -67,8 +67,9 @@ pub struct Watch {
     position: Steady<bool>,
     /// Whether it was told that the position is unknown, and not yet that it is known again.
     lost: bool,
-    /// Where home is, m: the true position where it was armed, or the place that was made home since.
-    home: Vector3<f64>,
+    /// Where home is, m: the true position where it was armed. None once another place was made home: where that truly is
+    /// the vehicle does not know.
+    home: Option<Vector3<f64>>,
     /// Where it was armed: the true position, and what the vehicle took it for, m.
     armed_at: (Vector3<f64>, Vector3<f32>),
     touchdown: Option<Touchdown>,
@@ -89,7 +90,7 @@ impl Watch {
             reasons: Vec::new(),
             position: Steady { told: Some(true), seen: None },
             lost: false,
-            home: flight.plant().motion().position,
+            home: Some(flight.plant().motion().position),
             armed_at: stood(flight),
             touchdown: touchdown(flight),
             contact: None,
@@ -148,7 +149,7 @@ impl Watch {
         if let (true, true, Some(home)) = (self.armed, commander.armed, commander.home) {
             let (position, believed) = self.armed_at;
             let is_here = (home - believed).xy().norm() < HERE_M;
-            self.home = if is_here { position } else { home.cast() };
+            self.home = is_here.then_some(position);
         }
         if let Some((contact, place)) = self.contact
             && contact.descent_m_s >= HARDEST_M_S
@@ -177,8 +178,8 @@ impl Watch {
     }
 
     fn describe(&self, contact: &Contact, place: &Vector3<f64>) -> String {
-        let away = (place - self.home).xy().norm();
-        format!("touched down at {:.2} m/s, {away:.2} m from home", contact.descent_m_s)
+        let away = self.home.map(|home| format!(", {:.2} m from home", (place - home).xy().norm()));
+        format!("touched down at {:.2} m/s{}", contact.descent_m_s, away.unwrap_or_default())
     }
 
     fn look_at_mode(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
@@ -187,7 +188,7 @@ impl Watch {
         match (self.armed, armed) {
             (false, true) => {
                 self.armed_at = stood(flight);
-                self.home = self.armed_at.0;
+                self.home = Some(self.armed_at.0);
                 tell(Tone::Plain, "armed: the rotors idle".to_owned());
                 if mode != Mode::Idle {
                     tell(Tone::Plain, format!("mode: {} → {}", Mode::Idle.name(), mode.name()));

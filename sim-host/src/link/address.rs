@@ -5,7 +5,7 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr, ToSocketAddrs as _, UdpSocket};
 
 use anyhow::{Context as _, anyhow, bail, ensure};
 
-use super::{LISTEN_PORT, PEER_PORT};
+use super::{LISTEN_PORT, PEER_PORT, TCP_PORT};
 
 /// An address as a user writes it: `127.0.0.1:14550`, `localhost`, `[::1]:14550`; `:14580` for every interface.
 ///
@@ -52,7 +52,6 @@ pub(super) fn beside(address: SocketAddr) -> SocketAddr {
 }
 
 pub(super) fn cannot_listen(listen: SocketAddr, peers: &[SocketAddr], error: &std::io::Error) -> anyhow::Error {
-    let (ip, port) = (listen.ip(), listen.port());
     match error.kind() {
         ErrorKind::AddrInUse => {
             let peer = peers.first().copied().unwrap_or_else(|| elsewhere(listen));
@@ -63,13 +62,33 @@ pub(super) fn cannot_listen(listen: SocketAddr, peers: &[SocketAddr], error: &st
                 beside(peer)
             )
         }
-        ErrorKind::AddrNotAvailable => {
-            anyhow!("{ip} is no address of this machine: use --listen 127.0.0.1:{port}, or :{port} for all of its own")
-        }
+        _ => cannot_have("--listen", listen, LISTEN_PORT, error)
+            .unwrap_or_else(|| anyhow!("cannot listen on UDP address {listen}: {error}")),
+    }
+}
+
+pub(super) fn cannot_listen_by_tcp(listen: SocketAddr, error: &std::io::Error) -> anyhow::Error {
+    if error.kind() == ErrorKind::AddrInUse {
+        return anyhow!(
+            "--tcp {listen} is in use (another `sim-host serve`?): stop it, or use --tcp {}",
+            beside(listen)
+        );
+    }
+    cannot_have("--tcp", listen, TCP_PORT, error)
+        .unwrap_or_else(|| anyhow!("cannot listen on TCP address {listen}: {error}"))
+}
+
+/// Why no program can listen on an address, given by `option`.
+fn cannot_have(option: &str, listen: SocketAddr, usual: u16, error: &std::io::Error) -> Option<anyhow::Error> {
+    let (ip, port) = (listen.ip(), listen.port());
+    match error.kind() {
+        ErrorKind::AddrNotAvailable => Some(anyhow!(
+            "{ip} is no address of this machine: use {option} 127.0.0.1:{port}, or :{port} for all of its own"
+        )),
         ErrorKind::PermissionDenied => {
-            anyhow!("port {port} is for privileged programs: choose one from 1024 up, as --listen {ip}:14580")
+            Some(anyhow!("port {port} is for privileged programs: choose one from 1024 up, as {option} {ip}:{usual}"))
         }
-        _ => anyhow!("cannot listen on UDP address {listen}: {error}"),
+        _ => None,
     }
 }
 

@@ -8,7 +8,7 @@ use glissade_dialect::mavlink_core::{Message as _, calculate_crc, consts};
 const HEADER_V1: usize = consts::STX_SIZE + consts::v1::HEADER_SIZE;
 const HEADER_V2: usize = consts::STX_SIZE + consts::v2::MIN_HEADER_SIZE;
 
-/// Bytes of the longest frame.
+/// No frame is longer.
 pub const LONGEST: usize = HEADER_V2 + 255 + consts::CHECKSUM_SIZE + consts::v2::SIGNATURE_SIZE;
 
 /// A whole frame in a datagram.
@@ -38,6 +38,14 @@ pub fn whole(datagram: &[u8]) -> impl Iterator<Item = Frame> {
             }
         }
         None
+    })
+}
+
+/// The first valid frame of a stream, wherever it begins: what only looks like a header hides none.
+pub fn first_valid(stream: &[u8]) -> Option<Frame> {
+    (0..stream.len()).find_map(|at| {
+        let end = at + length(&stream[at..])?;
+        (end <= stream.len()).then(|| judge(stream, at..end)).filter(|frame| frame.valid)
     })
 }
 
@@ -117,6 +125,15 @@ mod tests {
                 Frame { range: 5 + one.len()..end, system: 255, valid: true },
             ]
         );
+    }
+
+    #[test]
+    fn a_valid_frame_is_found_behind_half_a_one() {
+        let (one, two) = (&heartbeat()[..12], heartbeat());
+        let stream = [one, &two].concat();
+        assert!(whole(&stream).all(|frame| !frame.valid), "the half swallows the rest");
+        assert_eq!(first_valid(&stream), Some(Frame { range: 12..12 + two.len(), system: 255, valid: true }));
+        assert_eq!(first_valid(&stream[..stream.len() - 1]), None);
     }
 
     #[test]

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, bail, ensure};
 use firmware::mavlink::port::{LINKS, LinkEvent, Ports, Profile, SENT_CAPACITY};
 
-use self::address::{cannot_listen, elsewhere, is_own};
+use self::address::{cannot_listen, cannot_listen_by_tcp, elsewhere, is_own};
 use self::tcp::Connection;
 use crate::stations::{News, Stations};
 
@@ -39,10 +39,30 @@ pub struct Peer {
 }
 
 impl Peer {
+    /// The option that names it.
+    fn option(&self) -> &'static str {
+        match self.profile {
+            Profile::Normal => "--peer",
+            Profile::Onboard => "--onboard",
+        }
+    }
+
     /// On this machine.
     const fn here(port: u16, profile: Profile) -> Self {
         Self { address: SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), port), profile }
     }
+}
+
+/// Refuses an address that is given twice: it would be sent everything twice.
+fn require_different(peers: &[Peer]) -> anyhow::Result<()> {
+    for (number, peer) in peers.iter().enumerate() {
+        if let Some(first) = peers[..number].iter().find(|first| first.address == peer.address) {
+            let (first, second, address) = (first.option(), peer.option(), peer.address);
+            ensure!(first == second, "{address} is given by {first} and by {second}: leave one of them out");
+            bail!("{first} {address} is given twice: leave one of them out");
+        }
+    }
+    Ok(())
 }
 
 /// The port of each, where an address is given without one.
@@ -64,6 +84,10 @@ const ANSWERED_AFTER: Duration = Duration::from_millis(250);
 const WAITING_MAX: usize = 8;
 /// See [`WAITING_MAX`].
 const WAIT_AT_MOST: Duration = Duration::from_secs(5);
+/// A link stays this long after its connection has ended and all of it was read, for the answers.
+const ANSWER_WITHIN: Duration = Duration::from_millis(250);
+/// Bytes of a stream in which a whole frame is looked for.
+const TAIL_MAX: usize = 2 * frames::LONGEST;
 /// Datagrams read at one go, so that a flood cannot hold up the flight.
 const BURST: usize = 256;
 /// No datagram is larger.
@@ -125,14 +149,30 @@ struct Slot {
     /// The connection of a peer that has come by TCP.
     connection: Option<Connection>,
     inbox: Vec<u8>,
-    lost: u32,
-    /// The end of what has come by TCP, in which a frame may have begun.
+    /// The end of what has come by the connection, in which no valid frame was found yet.
     tail: Vec<u8>,
-    /// When it has closed its connection: the link stays until the vehicle has read what was sent before, and answered.
-    ended: Option<Instant>,
+    lost: u32,
+    /// It has closed its connection, or its half of it: the link stays until the vehicle has read what was sent before,
+    /// and for its answers.
+    ended: bool,
+    /// When the vehicle had read all from one that has ended.
+    read: Option<Instant>,
 }
 
 impl Slot {
+    /// The system of the first valid frame in what has come by the connection, the last bytes in the inbox from `from` on
+    /// among it.
+    fn find_frame(&mut self, from: usize) -> Option<u8> {
+        self.tail.extend_from_slice(&self.inbox[from..]);
+        let (mut found, mut passed) = (None, 0);
+        while let Some(frame) = frames::first_valid(&self.tail[passed..]) {
+            found = found.or(Some(frame.system));
+            passed += frame.range.end;
+        }
+        self.tail.drain(..passed.max(self.tail.len().saturating_sub(TAIL_MAX)));
+        found
+    }
+
     /// Whether who is there has not taken what was sent before.
     fn is_busy(&mut self) -> bool {
         self.connection.as_mut().is_some_and(Connection::is_busy)
@@ -171,9 +211,12 @@ impl Links {
     /// One line that names the address, and what to do, if it cannot be listened on; more peers than links.
     pub fn bind(listen: SocketAddr, peers: &[Peer]) -> anyhow::Result<Self> {
         let addresses: Vec<SocketAddr> = peers.iter().map(|peer| peer.address).collect();
-        if let Some(peer) = addresses.iter().find(|peer| peer.port() == 0) {
-            bail!("--peer {peer} has no port from 1 to 65535: use {}", SocketAddr::new(peer.ip(), PEER_PORT));
+        if let Some(peer) = peers.iter().find(|peer| peer.address.port() == 0) {
+            let (option, address) = (peer.option(), peer.address);
+            let port = if peer.profile == Profile::Onboard { ONBOARD_PORT } else { PEER_PORT };
+            bail!("{option} {address} has no port from 1 to 65535: use {}", SocketAddr::new(address.ip(), port));
         }
+        require_different(peers)?;
         if let Some(peer) = addresses.iter().find(|peer| peer.is_ipv4() != listen.is_ipv4()) {
             bail!("cannot send from {listen} to {peer}: one is IPv4, the other IPv6: give both of one kind");
         }
@@ -186,9 +229,11 @@ impl Links {
         ensure!(peers.len() <= LINKS, "{} peers are given, but the vehicle has {LINKS} links", peers.len());
         let socket = UdpSocket::bind(listen).map_err(|error| cannot_listen(listen, &addresses, &error))?;
         let own = socket.local_addr().unwrap_or(listen);
-        if let Some(peer) = addresses.iter().find(|peer| is_own(own, peer)) {
+        if let Some(peer) = peers.iter().find(|peer| is_own(own, &peer.address)) {
             bail!(
-                "--peer {peer} is where the vehicle itself listens: give the ground station's address, as {}",
+                "{} {} is where the vehicle itself listens: give the ground station's address, as {}",
+                peer.option(),
+                peer.address,
                 elsewhere(own)
             );
         }
@@ -218,9 +263,9 @@ impl Links {
     /// Takes connections over TCP too.
     ///
     /// # Errors
-    /// One line that names the address if it cannot be listened on.
+    /// One line that names the address, and what to do, if it cannot be listened on.
     pub fn serve_tcp(&mut self, listen: SocketAddr) -> anyhow::Result<SocketAddr> {
-        let server = TcpListener::bind(listen).with_context(|| format!("cannot listen on TCP address {listen}"))?;
+        let server = TcpListener::bind(listen).map_err(|error| cannot_listen_by_tcp(listen, &error))?;
         server.set_nonblocking(true).with_context(|| format!("cannot use TCP address {listen}"))?;
         let address = server.local_addr().context("the server has no address")?;
         self.server = Some(server);
@@ -291,21 +336,21 @@ impl Links {
     fn read_connections(&mut self) {
         let now = Instant::now();
         for slot in &mut self.slots {
-            let (Some(connection), Some(peer)) = (&mut slot.connection, &mut slot.peer) else { continue };
+            let Some(connection) = &mut slot.connection else { continue };
             let before = slot.inbox.len();
-            if !connection.read(&mut slot.inbox, INBOX_MAX) {
-                slot.ended.get_or_insert(now);
+            slot.ended = slot.ended || !connection.read(&mut slot.inbox, INBOX_MAX);
+            if slot.inbox.len() == before {
+                continue;
             }
             // No frame begins so, and none has come yet: this is no station.
             let begins_wrong = slot.inbox.get(before).is_some_and(|byte| ![0xfd, 0xfe].contains(byte));
+            let system = slot.find_frame(before);
+            let Some(peer) = &mut slot.peer else { continue };
             peer.junk |= begins_wrong && !peer.spoken;
-            peer.spoken |= slot.inbox.len() > before;
-            slot.tail.extend_from_slice(&slot.inbox[before..]);
-            let valid = frames::whole(&slot.tail).filter(|frame| frame.valid).last();
-            if let Some(frame) = valid {
+            peer.spoken = true;
+            if let Some(system) = system {
                 (peer.heard, peer.junk) = (now, false);
-                self.stations.hear(peer.address, frame.system, now);
-                slot.tail.drain(..frame.range.end);
+                self.stations.hear(peer.address, system, now);
             }
             let longest = slot.tail.len().saturating_sub(frames::LONGEST);
             slot.tail.drain(..longest);
@@ -357,7 +402,7 @@ impl Links {
             return Some(free);
         }
         let silent = |slot: &Slot| match slot.peer {
-            Some(peer) if peer.is_nobody() || peer.junk => Some(Duration::MAX),
+            Some(peer) if peer.is_nobody() || peer.junk || slot.read.is_some() => Some(Duration::MAX),
             Some(peer) if peer.guest => Some(now.saturating_duration_since(peer.heard)),
             _ => None,
         };
@@ -369,7 +414,11 @@ impl Links {
 
     /// Hands on what has arrived, as much as the vehicle takes, and tells it which links are open. Of each link's events
     /// `note` is told too, with its number.
-    pub fn deliver(&mut self, ports: &Ports, mut note: impl FnMut(usize, LinkEvent)) {
+    pub fn deliver(&mut self, ports: &Ports, note: impl FnMut(usize, LinkEvent)) {
+        self.deliver_at(Instant::now(), ports, note);
+    }
+
+    fn deliver_at(&mut self, now: Instant, ports: &Ports, mut note: impl FnMut(usize, LinkEvent)) {
         for (number, (slot, port)) in self.slots.iter_mut().zip(ports).enumerate() {
             let mut hand_on = |event: LinkEvent| {
                 port.take_in(event);
@@ -393,10 +442,12 @@ impl Links {
                 hand_on(LinkEvent::Received(&slot.inbox[..count]));
                 slot.inbox.drain(..count);
             }
-            let answered = slot.ended.is_some_and(|at| at.elapsed() > ANSWERED_AFTER);
-            if answered && slot.inbox.is_empty() && port.received().held() == 0 {
-                hand_on(LinkEvent::Close);
-                *slot = Slot::default();
+            if slot.ended && slot.inbox.is_empty() && port.received().held() == 0 {
+                let read = *slot.read.get_or_insert(now);
+                if now.saturating_duration_since(read) >= ANSWER_WITHIN {
+                    hand_on(LinkEvent::Close);
+                    *slot = Slot::default();
+                }
             }
         }
     }

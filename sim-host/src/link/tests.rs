@@ -1,5 +1,5 @@
 use std::io::{Read as _, Write as _};
-use std::net::TcpStream;
+use std::net::{Shutdown, TcpStream};
 
 use glissade_dialect::HEARTBEAT_DATA;
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
@@ -144,6 +144,24 @@ fn a_busy_address_is_named_with_a_remedy_in_one_line() {
         beside(address)
     );
     assert_eq!(error, expected);
+}
+
+#[test]
+fn a_busy_tcp_address_is_named_with_a_remedy_and_an_address_given_twice_is_refused() {
+    let held = TcpListener::bind(local()).expect("a free port");
+    let taken = held.local_addr().expect("bound");
+    let mut links = Links::bind(local(), &[]).expect("a free port");
+    let error = format!("{:#}", links.serve_tcp(taken).expect_err("in use"));
+    let next = beside(taken);
+    assert_eq!(error, format!("--tcp {taken} is in use (another `sim-host serve`?): stop it, or use --tcp {next}"));
+    let onboard = DEFAULT_PEERS[1];
+    for (other, expected) in [
+        (onboard, "--onboard 127.0.0.1:14540 is given twice: leave one of them out"),
+        (station_at(onboard.address), "127.0.0.1:14540 is given by --onboard and by --peer: leave one of them out"),
+    ] {
+        let error = format!("{:#}", Links::bind(local(), &[onboard, other]).expect_err("twice"));
+        assert_eq!(error, expected);
+    }
 }
 
 #[test]
@@ -298,24 +316,71 @@ fn what_a_station_has_sent_before_it_hung_up_is_read() {
         bench.links.receive();
         bench.links.deliver(&bench.ports, |_, _| {});
     }
-    // It stays until that has been read, and no longer.
-    for _ in 0..3 {
+    // It stays until that has been read, however long that takes, and a little for the answers.
+    let now = Instant::now();
+    let after = |part: u32| now + ANSWER_WITHIN * part / 2;
+    for part in [0, 4, 8] {
         bench.links.receive();
-        bench.links.deliver(&bench.ports, |_, _| {});
+        bench.links.deliver_at(after(part), &bench.ports, |_, _| {});
     }
     bench.ports.release();
     assert!(port.is_open());
     assert_eq!(port.received().copy(&mut [0; 99]), heartbeat(255));
     port.received().skip(99);
-    // Time to answer.
-    bench.links.receive();
-    bench.links.deliver(&bench.ports, |_, _| {});
-    assert!(port.is_open());
-    let start = Instant::now();
-    while port.is_open() && start.elapsed() < Duration::from_secs(5) {
-        bench.links.deliver(&bench.ports, |_, _| {});
+    for (part, stays) in [(10, true), (11, true), (12, false)] {
+        bench.links.receive();
+        bench.links.deliver_at(after(part), &bench.ports, |_, _| {});
+        assert_eq!(port.is_open(), stays, "{part}");
     }
-    assert!(!port.is_open());
+}
+
+#[test]
+fn a_station_that_has_said_all_it_wants_hears_the_answer() {
+    let mut bench = Bench::new(&[]);
+    let server = bench.links.serve_tcp(local()).expect("a free port");
+    let mut station = TcpStream::connect(server).expect("somebody listens");
+    station.set_read_timeout(Some(Duration::from_secs(5))).expect("a socket");
+    station.write_all(&heartbeat(255)).expect("sent");
+    station.shutdown(Shutdown::Write).expect("connected");
+    assert_eq!(bench.receive(0), heartbeat(255));
+    let (start, now) = (Instant::now(), Instant::now());
+    while bench.links.slots[0].read.is_none() && start.elapsed() < Duration::from_secs(5) {
+        bench.links.receive();
+        bench.links.deliver_at(now, &bench.ports, |_, _| {});
+    }
+    let port = bench.ports.first();
+    port.sent().write(&heartbeat(1));
+    bench.ports.publish();
+    bench.links.send(&bench.ports);
+    let mut heard = vec![0; heartbeat(1).len()];
+    station.read_exact(&mut heard).expect("something was sent");
+    assert_eq!(heard, heartbeat(1));
+}
+
+#[test]
+fn a_connection_whose_frames_come_in_pieces_is_heard() {
+    let mut bench = Bench::new(&[]);
+    let server = bench.links.serve_tcp(local()).expect("a free port");
+    let mut station = TcpStream::connect(server).expect("somebody listens");
+    station.set_nodelay(true).expect("a socket");
+    // It begins within a frame, as a radio's line does.
+    let stream = [&heartbeat(255)[7..], &heartbeat(255).repeat(3)].concat();
+    let mut heard = Vec::new();
+    for piece in stream.chunks(7) {
+        station.write_all(piece).expect("sent");
+        assert_eq!(bench.receive(0), piece);
+        heard.extend(core::iter::from_fn(|| bench.links.news()));
+        assert!(bench.links.slots[0].tail.len() <= TAIL_MAX);
+    }
+    assert!(matches!(heard[..], [News::Heard { system: 255, .. }]), "{heard:?}");
+    let peer = bench.links.slots[0].peer.expect("it is there");
+    assert!(!peer.junk && bench.links.slots[0].tail.is_empty());
+}
+
+#[test]
+fn a_stream_without_a_frame_takes_no_more_memory_for_ever() {
+    let mut slot = Slot { inbox: vec![0xfd; 5000], ..Slot::default() };
+    assert_eq!((slot.find_frame(0), slot.tail.len()), (None, TAIL_MAX));
 }
 
 #[test]

@@ -25,6 +25,8 @@ pub struct Recording {
     pub entries: Vec<Entry>,
     /// Ticks that were flown: to its `end`, or to its last line.
     pub ticks: Tick,
+    /// Whether it has an `end`: one without was cut off.
+    pub has_ended: bool,
 }
 
 impl Recording {
@@ -62,7 +64,7 @@ impl Recording {
         // The tick before which the last line came was flown, if nothing says otherwise.
         let ticks = ticks.saturating_add(Tick::from(!has_ended && !entries.is_empty()));
         ensure!(ticks > 0, "no tick was flown");
-        Ok(Self { header, entries, ticks })
+        Ok(Self { header, entries, ticks, has_ended })
     }
 
     /// Refuses to be flown again by another scenario, other settings or another seed than its own.

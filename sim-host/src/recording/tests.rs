@@ -49,13 +49,16 @@ fn what_is_read_is_what_was_written() {
     }
     recorder.finish(1000).expect("memory");
     let text = String::from_utf8(recorder.into_inner()).expect("text");
-    assert_eq!(Recording::parse(&text).expect("read"), Recording { header: header(), entries, ticks: 1000 });
+    assert_eq!(
+        Recording::parse(&text).expect("read"),
+        Recording { header: header(), entries, ticks: 1000, has_ended: true }
+    );
 }
 
 #[test]
 fn a_recording_without_an_end_was_flown_to_its_last_line() {
     let recording = Recording::parse(&(head() + "12 ask arm\n12 ask hold\n")).expect("read");
-    assert_eq!((recording.ticks, recording.entries.len()), (13, 2));
+    assert_eq!((recording.ticks, recording.entries.len(), recording.has_ended), (13, 2, false));
 }
 
 #[test]

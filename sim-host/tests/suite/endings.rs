@@ -1,7 +1,8 @@
 //! How flights end, and what they leave: verdicts by the truth, folders that are whole, and Ctrl-C.
 
-use std::fs;
-use std::process::{Child, Command};
+use std::fs::{self, File};
+use std::io::Write as _;
+use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use serde_json::Value;
@@ -191,12 +192,14 @@ fn an_interrupted_flight_keeps_what_was_flown() {
 
 #[test]
 fn a_flight_ended_by_the_system_says_so_in_its_exit_code() {
-    let folder = Folder::new("terminated");
-    let child = flying(&folder, "out");
-    signal(&child, "TERM");
-    // 128 + SIGTERM.
-    assert_eq!(child.wait_with_output().expect("it ends").status.code(), Some(143));
-    assert_eq!(folder.names(), ["out"]);
+    // 128 + the signal.
+    for (name, code) in [("TERM", 143), ("HUP", 129), ("QUIT", 131)] {
+        let folder = Folder::new("terminated");
+        let child = flying(&folder, "out");
+        signal(&child, name);
+        assert_eq!(child.wait_with_output().expect("it ends").status.code(), Some(code));
+        assert_eq!(folder.names(), ["out"]);
+    }
 }
 
 #[test]
@@ -209,6 +212,22 @@ fn a_command_that_reports_nothing_half_done_leaves_nothing() {
     signal(&child, "INT");
     assert_eq!(child.wait_with_output().expect("it ends").status.code(), Some(130));
     assert_eq!(folder.names(), [""; 0]);
+}
+
+#[test]
+fn what_flies_ends_as_it_should_when_nothing_can_be_printed() {
+    let folder = Folder::new("mute");
+    for full in [false, true] {
+        let (listen, file) = (["--listen", "127.0.0.1:0", "--peer", "127.0.0.1:9"], format!("{full}.txt"));
+        let mut command = folder.command(&[&["serve"], &listen[..], &["--record", &file]].concat());
+        let error = if full { Stdio::from(File::create("/dev/full").expect("there")) } else { Stdio::piped() };
+        let mut child = command.stdin(Stdio::piped()).stderr(error).spawn().expect("the program starts");
+        // Nobody reads it.
+        drop(child.stderr.take());
+        child.stdin.take().expect("piped").write_all(b"quit\n").expect("it reads");
+        assert_eq!(child.wait_with_output().expect("it ends").status.code(), Some(0));
+        assert!(fs::read_to_string(folder.0.join(&file)).expect("there").ends_with(" end\n"));
+    }
 }
 
 #[test]

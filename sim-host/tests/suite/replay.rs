@@ -149,6 +149,10 @@ fn serve_records_what_run_flies_again() {
     folder.refuses(&["serve", "pad", "--listen", "127.0.0.1:0", "--record", "r.txt"], &["r.txt", "name another"]);
     let json = folder.json(&["run", "pad", "--replay", "r.txt", "--json"]);
     assert_eq!(json["seed"], 7);
+    let (cut, _) = recording.trim_end().rsplit_once('\n').expect("lines");
+    folder.file("cut.txt", format!("{cut}\n"));
+    let (_, said) = folder.prints(&["run", "pad", "--replay", "cut.txt", "--json"]);
+    assert!(said.contains("`cut.txt` was cut off"), "{said}");
 }
 
 #[test]

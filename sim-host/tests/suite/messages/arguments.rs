@@ -158,4 +158,13 @@ fn addresses_say_the_cure() {
     );
     folder.refuses(&["serve", "--peer", ":14550"], &["--peer", "host is missing", "127.0.0.1:14550"]);
     folder.refuses(&["serve", "--listen", "[::1]:0"], &["[::1]:0", "127.0.0.1:14550", "IPv6"]);
+    for (key, vehicle) in [("--listen", 2), ("--tcp", 3), ("--onboard", 3)] {
+        let port = 65537 - vehicle;
+        folder.refuses(
+            &["serve", "--vehicles", "3", key, &format!("127.0.0.1:{port}")],
+            &[&format!(
+                "--vehicles 3: there is no port 65536 for vehicle {vehicle}: use {key} 127.0.0.1:65533 or lower"
+            )],
+        );
+    }
 }
