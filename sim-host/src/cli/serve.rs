@@ -1,6 +1,5 @@
 //! `serve`: flies in real time, with a console and for ground stations.
 
-use std::io::{self, Write as _};
 use std::net::SocketAddr;
 use std::path::Path;
 
@@ -39,7 +38,6 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let (scenario, parameters) = with_parameters(args, scenario)?;
     let header = Header::new(&scenario, &set, args.seed)?;
     let recorder = recorder(args, &header)?;
-    check_ports(args)?;
     let mut fleet = Vec::new();
     for number in 0..args.vehicles {
         fleet.push(member(&scenario, args, number)?);

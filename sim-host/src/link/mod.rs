@@ -78,8 +78,6 @@ pub const ONBOARD_PORT: u16 = 14540;
 const FORGET_AFTER: Duration = Duration::from_secs(10);
 /// A guest that has been silent this long gives way to a new one.
 const YIELD_AFTER: Duration = Duration::from_secs(3);
-/// What a station has sent before it closed its connection is answered after this time.
-const ANSWERED_AFTER: Duration = Duration::from_millis(250);
 /// Connections that wait for a link, and how long: silent guests give way meanwhile.
 const WAITING_MAX: usize = 8;
 /// See [`WAITING_MAX`].
@@ -352,8 +350,6 @@ impl Links {
                 (peer.heard, peer.junk) = (now, false);
                 self.stations.hear(peer.address, system, now);
             }
-            let longest = slot.tail.len().saturating_sub(frames::LONGEST);
-            slot.tail.drain(..longest);
         }
     }
 

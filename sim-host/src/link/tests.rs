@@ -382,16 +382,3 @@ fn a_stream_without_a_frame_takes_no_more_memory_for_ever() {
     let mut slot = Slot { inbox: vec![0xfd; 5000], ..Slot::default() };
     assert_eq!((slot.find_frame(0), slot.tail.len()), (None, TAIL_MAX));
 }
-
-#[test]
-fn a_station_on_tcp_whose_frames_come_in_pieces_is_heard() {
-    let mut bench = Bench::new(&[]);
-    let server = bench.links.serve_tcp(local()).expect("a free port");
-    let mut station = TcpStream::connect(server).expect("somebody listens");
-    station.set_nodelay(true).expect("a socket");
-    for piece in heartbeat(255).chunks(5) {
-        station.write_all(piece).expect("sent");
-        assert_eq!(bench.receive(0), piece);
-    }
-    assert!(matches!(bench.links.news(), Some(News::Heard { .. })));
-}
