@@ -98,21 +98,21 @@ impl Autopilot {
     /// # Errors
     /// The first field of the configuration that is out of range.
     pub fn new(config: &FlightConfig) -> Result<Self, ConfigError> {
-        Autopilot::on(config, Ports::new())
+        Autopilot::on(config, Settings::of(config), Ports::new())
     }
 }
 
 impl<L: Borrow<Ports>> Autopilot<SlidingAttitude, SlidingPosition, L> {
-    /// The same with links that are kept elsewhere.
+    /// The same with its settings, of which the configuration was made, and with links that are kept elsewhere.
     ///
     /// # Errors
     /// The first field of the configuration that is out of range.
-    pub fn on(config: &FlightConfig, ports: L) -> Result<Self, ConfigError> {
+    pub fn on(config: &FlightConfig, settings: Settings, ports: L) -> Result<Self, ConfigError> {
         // The laws are made of valid values only.
         config.validate()?;
         let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
         let position = SlidingPosition::new(&config.airframe, &config.position);
-        Self::assemble(config, attitude, position, ports)
+        Self::assemble(config, settings, attitude, position, ports)
     }
 }
 
@@ -123,14 +123,19 @@ impl<A: AttitudeLaw, P: PositionLaw> Autopilot<A, P> {
     /// The first field of the configuration that is out of range.
     pub fn with_laws(config: &FlightConfig, attitude: A, position: P) -> Result<Self, ConfigError> {
         config.validate()?;
-        Self::assemble(config, attitude, position, Ports::new())
+        Self::assemble(config, Settings::of(config), attitude, position, Ports::new())
     }
 }
 
 impl<A: AttitudeLaw, P: PositionLaw, L: Borrow<Ports>> Autopilot<A, P, L> {
     /// The partitions of a valid configuration.
-    fn assemble(config: &FlightConfig, attitude: A, position: P, ports: L) -> Result<Self, ConfigError> {
-        let settings = Settings::of(config);
+    fn assemble(
+        config: &FlightConfig,
+        settings: Settings,
+        attitude: A,
+        position: P,
+        ports: L,
+    ) -> Result<Self, ConfigError> {
         let mut commander = Commander::new(config);
         commander.configure(&settings);
         let mut outer = Outer::new(config, position)?;

@@ -12,6 +12,7 @@ mod image {
     use firmware::estimator::EstimatorSettings;
     use firmware::mavlink::port::Ports;
     use firmware::sensors::Measurements;
+    use firmware::settings::Settings;
     use firmware::signals::{NavState, SensorFrame};
 
     static PORTS: Ports = Ports::new();
@@ -19,7 +20,8 @@ mod image {
     #[cortex_m_rt::entry]
     fn main() -> ! {
         let config = FlightConfig { estimator: Some(EstimatorSettings::default()), ..FlightConfig::default() };
-        let Ok(Autopilot { mut inner, mut mail, ports, .. }) = Autopilot::on(&black_box(config), &PORTS) else { end() };
+        let (config, settings) = (black_box(&config), Settings::of(&config));
+        let Ok(Autopilot { mut inner, mut mail, ports, .. }) = Autopilot::on(config, settings, &PORTS) else { end() };
         let motion = SensorFrame::Motion(NavState::at_rest());
         let measured = SensorFrame::Measured(Measurements::default());
         loop {

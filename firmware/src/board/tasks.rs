@@ -86,8 +86,8 @@ impl<B: Sensors + Rotors + Companion, K: Clock, T: Ticker, D: Diagnostics + Clon
     /// The first field of the configuration that is out of range.
     pub fn new(start: Start<B, D>, clock: K, ticker: T, ports: &'static Ports) -> Result<Self, ConfigError> {
         let Start { config, settings, injectable, board, diagnostics } = start;
-        let pilot = Autopilot::on(&config, ports)?.with_settings(settings);
-        let Autopilot { mut inner, filter, outer, commander, ground, mail, .. } = pilot;
+        let Autopilot { mut inner, filter, outer, commander, ground, mail, .. } =
+            Autopilot::on(&config, settings, ports)?;
         inner.allow_failures(injectable);
         let line = (!B::HAS_ALL_LINKS).then(|| ports.first());
         if let Some(port) = line {
@@ -236,14 +236,16 @@ impl<R: SerialReceiver> Receive<R> {
         // In a loop: a byte that arrives while this task runs may not interrupt again.
         while let Ok(true) = self.serial.read_ready() {
             let mut bytes = [0; 32];
-            match (self.serial.read(&mut bytes), self.line) {
-                (Ok(count @ 1..), Some(port)) => {
-                    port.receive(bytes.get(..count).unwrap_or_default());
+            match self.serial.read(&mut bytes) {
+                Ok(0) => return,
+                Ok(count) => {
+                    if let Some(port) = self.line {
+                        port.receive(bytes.get(..count).unwrap_or_default());
+                    }
                 }
-                (Ok(1..), None) => {}
-                // The next interrupt goes on: one that lasts must not stop the tasks below.
-                (error, line) => {
-                    if let (Err(_), Some(port)) = (error, line) {
+                // The next interrupt goes on: an error that lasts must not stop the tasks below.
+                Err(_) => {
+                    if let Some(port) = self.line {
                         port.lose(1);
                     }
                     return;

@@ -95,7 +95,7 @@ pub(super) struct Outbox {
     lost: u32,
 }
 
-/// Acknowledgements that can wait: more than the commands with parameters that one job can read, which are 35 bytes at least.
+/// Acknowledgements that can wait: more than the commands with parameters that one job can read, which are 41 bytes at least.
 /// Shorter ones, as `SET_MODE`, can be more: what is beyond is counted as lost.
 pub(super) const ACKS: usize = 64;
 

@@ -296,3 +296,35 @@ fn what_is_set_by_mavlink_is_in_the_flash_after_a_while_and_not_while_armed() {
     };
     assert_eq!(stored(&mut flash.clone()), Some(Value::Real(3.5)));
 }
+
+/// A serial port whose error lasts.
+struct Broken;
+
+impl ErrorType for Broken {
+    type Error = embedded_io::ErrorKind;
+}
+
+impl ReadReady for Broken {
+    fn read_ready(&mut self) -> Result<bool, embedded_io::ErrorKind> {
+        Ok(true)
+    }
+}
+
+impl Read for Broken {
+    fn read(&mut self, _buffer: &mut [u8]) -> Result<usize, embedded_io::ErrorKind> {
+        Err(embedded_io::ErrorKind::Other)
+    }
+}
+
+impl SerialReceiver for Broken {
+    fn acknowledge(&mut self) {}
+}
+
+#[test]
+fn an_error_of_a_serial_port_that_lasts_is_counted_and_stops_no_task() {
+    let ports: &'static Ports = Box::leak(Box::default());
+    let mut receive = Receive::new(Broken, Some(ports.first()));
+    receive.run();
+    receive.run();
+    assert_eq!(ports.first().received().lost(), 2);
+}
