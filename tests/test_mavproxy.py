@@ -37,22 +37,23 @@ class Mavproxy:
         ]
         command += [f"--state-basedir={folder}", "--logfile=flight.tlog"]
         pipe = subprocess.PIPE
-        self.process = subprocess.Popen(
-            command, stdin=pipe, stdout=pipe, stderr=subprocess.STDOUT, text=True, cwd=folder, errors="replace"
-        )
+        self.process = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.STDOUT, cwd=folder)
         self.output, self.read = "", 0
         self.grown = threading.Condition()
         self.thread = threading.Thread(target=self.collect, daemon=True)
         self.thread.start()
 
     def collect(self):
-        for text in iter(lambda: self.process.stdout.readline(), ""):
+        # By whole lines, and prompts, which end none.
+        rest = ""
+        for text in iter(lambda: os.read(self.process.stdout.fileno(), 65_536), b""):
+            whole, _, rest = re.match(r"(?s)(.*(\n|> )|)(.*)", rest + text.decode("ascii", errors="replace")).groups()
             with self.grown:
-                self.output += text
+                self.output += whole
                 self.grown.notify()
 
     def type(self, line):
-        self.process.stdin.write(line + "\n")
+        self.process.stdin.write(f"{line}\n".encode())
         self.process.stdin.flush()
 
     def has_said(self, pattern):
@@ -199,8 +200,9 @@ def test_it_flies(connected):
         mavproxy.type(f"long MAV_CMD_DO_SET_MODE 1 4 {SUB_MODE[name]} 0 0 0 0")
         mavproxy.says("Got COMMAND_ACK: DO_SET_MODE: ACCEPTED")
         if name != "LOITER":
-            # Which of heartbeat and acknowledgement comes first is chance.
-            mavproxy.says(f"Mode {name}", since=asked)
+            # Which of heartbeat and acknowledgement comes first is chance. By its prompt: that names every mode, while
+            # "Mode RTL" is said only where the last such line is 2 s old.
+            mavproxy.says(f"{name}> ", since=asked)
     mavproxy.says(r"\bDISARMED", since=airborne)
 
 
