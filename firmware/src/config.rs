@@ -32,8 +32,10 @@ pub enum Start {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default, deny_unknown_fields))]
 pub struct ModeSettings {
-    /// Greatest horizontal speed, m/s.
+    /// Horizontal speed on the way to a place, m/s.
     pub cruise_m_s: f32,
+    /// Greatest horizontal speed that can be asked for, m/s.
+    pub fastest_m_s: f32,
     /// Greatest speed upwards, m/s.
     pub climb_m_s: f32,
     /// Greatest speed downwards, m/s.
@@ -73,6 +75,7 @@ impl Default for ModeSettings {
     fn default() -> Self {
         Self {
             cruise_m_s: 5.0,
+            fastest_m_s: 12.0,
             climb_m_s: 2.0,
             sink_m_s: 1.5,
             take_off_m_s: 1.5,

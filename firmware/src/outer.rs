@@ -208,16 +208,16 @@ impl<P: PositionLaw> Outer<P> {
                 let authority = if heading_free { Authority::Full } else { Authority::Gentle };
                 OuterOutput { authority, heading_free, ..output }
             }
-            Directive::GoTo { position, yaw } => {
-                let reference = self.steer(input, &Target::Place { position, yaw });
+            Directive::GoTo { position, yaw, speeds } => {
+                let reference = self.steer(input, &Target::Place { position, yaw, speeds });
                 self.follow(effective, input, &reference)
             }
             Directive::Velocity { velocity: wanted, yaw_rate } => {
                 let reference = self.steer(input, &velocity(wanted, yaw_rate));
                 self.follow(effective, input, &reference)
             }
-            Directive::Climb { height_m, speed_m_s } => {
-                let reference = self.steer(input, &Target::Height { height_m, speed_m_s });
+            Directive::Climb { height_m, speed_m_s, yaw } => {
+                let reference = self.steer(input, &Target::Height { height_m, speed_m_s, yaw });
                 self.follow(effective, input, &reference)
             }
         }

@@ -29,7 +29,7 @@ use words::{Reader, Words, Writer, as_words};
 
 /// Incremented with every change of what the bytes of a frame or of a flight's configuration mean. A frame that changes
 /// its size changes [`VERSION`] by itself.
-const LAYOUT: u32 = 7;
+const LAYOUT: u32 = 8;
 
 /// Protocol version: host and image of different versions refuse each other.
 pub const VERSION: u32 = LAYOUT << 16 | (REQUEST_BYTES + REPLY_BYTES) as u32;

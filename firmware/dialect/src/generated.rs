@@ -63,14 +63,22 @@ pub enum MavCmd {
     MAV_CMD_NAV_LAND = 21,
     #[doc = "Take off to a height."]
     MAV_CMD_NAV_TAKEOFF = 22,
+    #[doc = "Fly a circle."]
+    MAV_CMD_DO_ORBIT = 34,
+    #[doc = "Turn to a heading."]
+    MAV_CMD_CONDITION_YAW = 115,
     #[doc = "Set the mode, in the autopilot type's coding."]
     MAV_CMD_DO_SET_MODE = 176,
+    #[doc = "Set a speed."]
+    MAV_CMD_DO_CHANGE_SPEED = 178,
     #[doc = "Set where the vehicle returns to."]
     MAV_CMD_DO_SET_HOME = 179,
     #[doc = "Stop the rotors at once."]
     MAV_CMD_DO_FLIGHTTERMINATION = 185,
     #[doc = "Go to a place, and stay."]
     MAV_CMD_DO_REPOSITION = 192,
+    #[doc = "Turn a motor for a while."]
+    MAV_CMD_DO_MOTOR_TEST = 209,
     #[doc = "Load, store or reset parameters."]
     MAV_CMD_PREFLIGHT_STORAGE = 245,
     #[doc = "Reboot."]
@@ -4862,6 +4870,89 @@ impl MessageData for ODOMETRY_DATA {
         }
     }
 }
+#[doc = "The circle that is flown."]
+#[doc = ""]
+#[doc = "ID: 360"]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "arbitrary", derive(Arbitrary))]
+#[cfg_attr(feature = "ts-rs", derive(TS))]
+#[cfg_attr(feature = "ts-rs", ts(export))]
+pub struct ORBIT_EXECUTION_STATUS_DATA {
+    #[doc = "Time since boot."]
+    pub time_usec: u64,
+    #[doc = "Radius, negative if it is flown counter-clockwise."]
+    pub radius: f32,
+    #[doc = "x of the centre, or latitude."]
+    pub x: i32,
+    #[doc = "y of the centre, or longitude."]
+    pub y: i32,
+    #[doc = "Height of the centre."]
+    pub z: f32,
+    #[doc = "MAV_FRAME of x, y and z."]
+    pub frame: u8,
+}
+impl ORBIT_EXECUTION_STATUS_DATA {
+    pub const ENCODED_LEN: usize = 25usize;
+    pub const DEFAULT: Self = Self { time_usec: 0_u64, radius: 0.0_f32, x: 0_i32, y: 0_i32, z: 0.0_f32, frame: 0_u8 };
+    #[cfg(feature = "arbitrary")]
+    pub fn random<R: rand::Rng>(rng: &mut R) -> Self {
+        use arbitrary::{Arbitrary, Unstructured};
+        let mut buf = [0u8; 1024];
+        rng.fill_bytes(&mut buf);
+        let mut unstructured = Unstructured::new(&buf);
+        Self::arbitrary(&mut unstructured).unwrap_or_default()
+    }
+}
+impl Default for ORBIT_EXECUTION_STATUS_DATA {
+    fn default() -> Self {
+        Self::DEFAULT.clone()
+    }
+}
+impl MessageData for ORBIT_EXECUTION_STATUS_DATA {
+    type Message = MavMessage;
+    const ID: u32 = 360u32;
+    const NAME: &'static str = "ORBIT_EXECUTION_STATUS";
+    const EXTRA_CRC: u8 = 11u8;
+    const ENCODED_LEN: usize = 25usize;
+    fn deser(_version: MavlinkVersion, __input: &[u8]) -> Result<Self, ::mavlink_core::error::ParserError> {
+        let avail_len = __input.len();
+        let mut payload_buf;
+        let mut buf = if avail_len < Self::ENCODED_LEN {
+            payload_buf = [0; Self::ENCODED_LEN];
+            payload_buf[0..avail_len].copy_from_slice(__input);
+            Bytes::new(&payload_buf)
+        } else {
+            Bytes::new(__input)
+        };
+        let mut __struct = Self::default();
+        __struct.time_usec = buf.get_u64_le()?;
+        __struct.radius = buf.get_f32_le()?;
+        __struct.x = buf.get_i32_le()?;
+        __struct.y = buf.get_i32_le()?;
+        __struct.z = buf.get_f32_le()?;
+        __struct.frame = buf.get_u8()?;
+        Ok(__struct)
+    }
+    fn ser(&self, version: MavlinkVersion, bytes: &mut [u8]) -> usize {
+        let mut __tmp = BytesMut::new(bytes);
+        if __tmp.remaining() < Self::ENCODED_LEN {
+            panic!("buffer is too small (need {} bytes, but got {})", Self::ENCODED_LEN, __tmp.remaining(),)
+        }
+        __tmp.put_u64_le(self.time_usec);
+        __tmp.put_f32_le(self.radius);
+        __tmp.put_i32_le(self.x);
+        __tmp.put_i32_le(self.y);
+        __tmp.put_f32_le(self.z);
+        __tmp.put_u8(self.frame);
+        if matches!(version, MavlinkVersion::V2) {
+            let len = __tmp.len();
+            ::mavlink_core::utils::remove_trailing_zeroes(&bytes[..len])
+        } else {
+            __tmp.len()
+        }
+    }
+}
 #[doc = "Why a parameter was refused."]
 #[doc = ""]
 #[doc = "ID: 345"]
@@ -8459,6 +8550,10 @@ pub enum MavMessage {
     #[doc = ""]
     #[doc = "ID: 331"]
     ODOMETRY(ODOMETRY_DATA),
+    #[doc = "The circle that is flown."]
+    #[doc = ""]
+    #[doc = "ID: 360"]
+    ORBIT_EXECUTION_STATUS(ORBIT_EXECUTION_STATUS_DATA),
     #[doc = "Why a parameter was refused."]
     #[doc = ""]
     #[doc = "ID: 345"]
@@ -8600,7 +8695,7 @@ impl MavMessage {
             66u32, 69u32, 70u32, 73u32, 74u32, 75u32, 76u32, 77u32, 82u32, 83u32, 84u32, 85u32, 86u32, 105u32, 108u32,
             110u32, 111u32, 115u32, 117u32, 118u32, 119u32, 121u32, 122u32, 126u32, 141u32, 147u32, 148u32, 230u32,
             231u32, 241u32, 242u32, 244u32, 245u32, 251u32, 252u32, 253u32, 291u32, 300u32, 320u32, 321u32, 322u32,
-            323u32, 324u32, 331u32, 345u32, 350u32, 435u32, 436u32, 437u32,
+            323u32, 324u32, 331u32, 345u32, 350u32, 360u32, 435u32, 436u32, 437u32,
         ]
     }
     pub const fn all_messages() -> &'static [(&'static str, u32)] {
@@ -8682,6 +8777,7 @@ impl MavMessage {
             (ODOMETRY_DATA::NAME, ODOMETRY_DATA::ID),
             (PARAM_ERROR_DATA::NAME, PARAM_ERROR_DATA::ID),
             (DEBUG_FLOAT_ARRAY_DATA::NAME, DEBUG_FLOAT_ARRAY_DATA::ID),
+            (ORBIT_EXECUTION_STATUS_DATA::NAME, ORBIT_EXECUTION_STATUS_DATA::ID),
             (AVAILABLE_MODES_DATA::NAME, AVAILABLE_MODES_DATA::ID),
             (CURRENT_MODE_DATA::NAME, CURRENT_MODE_DATA::ID),
             (AVAILABLE_MODES_MONITOR_DATA::NAME, AVAILABLE_MODES_MONITOR_DATA::ID),
@@ -8762,6 +8858,9 @@ impl Message for MavMessage {
             NAMED_VALUE_FLOAT_DATA::ID => NAMED_VALUE_FLOAT_DATA::deser(version, payload).map(Self::NAMED_VALUE_FLOAT),
             NAMED_VALUE_INT_DATA::ID => NAMED_VALUE_INT_DATA::deser(version, payload).map(Self::NAMED_VALUE_INT),
             ODOMETRY_DATA::ID => ODOMETRY_DATA::deser(version, payload).map(Self::ODOMETRY),
+            ORBIT_EXECUTION_STATUS_DATA::ID => {
+                ORBIT_EXECUTION_STATUS_DATA::deser(version, payload).map(Self::ORBIT_EXECUTION_STATUS)
+            }
             PARAM_ERROR_DATA::ID => PARAM_ERROR_DATA::deser(version, payload).map(Self::PARAM_ERROR),
             PARAM_EXT_ACK_DATA::ID => PARAM_EXT_ACK_DATA::deser(version, payload).map(Self::PARAM_EXT_ACK),
             PARAM_EXT_REQUEST_LIST_DATA::ID => {
@@ -8869,6 +8968,7 @@ impl Message for MavMessage {
             Self::NAMED_VALUE_FLOAT(..) => NAMED_VALUE_FLOAT_DATA::NAME,
             Self::NAMED_VALUE_INT(..) => NAMED_VALUE_INT_DATA::NAME,
             Self::ODOMETRY(..) => ODOMETRY_DATA::NAME,
+            Self::ORBIT_EXECUTION_STATUS(..) => ORBIT_EXECUTION_STATUS_DATA::NAME,
             Self::PARAM_ERROR(..) => PARAM_ERROR_DATA::NAME,
             Self::PARAM_EXT_ACK(..) => PARAM_EXT_ACK_DATA::NAME,
             Self::PARAM_EXT_REQUEST_LIST(..) => PARAM_EXT_REQUEST_LIST_DATA::NAME,
@@ -8953,6 +9053,7 @@ impl Message for MavMessage {
             Self::NAMED_VALUE_FLOAT(..) => NAMED_VALUE_FLOAT_DATA::ID,
             Self::NAMED_VALUE_INT(..) => NAMED_VALUE_INT_DATA::ID,
             Self::ODOMETRY(..) => ODOMETRY_DATA::ID,
+            Self::ORBIT_EXECUTION_STATUS(..) => ORBIT_EXECUTION_STATUS_DATA::ID,
             Self::PARAM_ERROR(..) => PARAM_ERROR_DATA::ID,
             Self::PARAM_EXT_ACK(..) => PARAM_EXT_ACK_DATA::ID,
             Self::PARAM_EXT_REQUEST_LIST(..) => PARAM_EXT_REQUEST_LIST_DATA::ID,
@@ -9037,6 +9138,7 @@ impl Message for MavMessage {
             NAMED_VALUE_FLOAT_DATA::NAME => Some(NAMED_VALUE_FLOAT_DATA::ID),
             NAMED_VALUE_INT_DATA::NAME => Some(NAMED_VALUE_INT_DATA::ID),
             ODOMETRY_DATA::NAME => Some(ODOMETRY_DATA::ID),
+            ORBIT_EXECUTION_STATUS_DATA::NAME => Some(ORBIT_EXECUTION_STATUS_DATA::ID),
             PARAM_ERROR_DATA::NAME => Some(PARAM_ERROR_DATA::ID),
             PARAM_EXT_ACK_DATA::NAME => Some(PARAM_EXT_ACK_DATA::ID),
             PARAM_EXT_REQUEST_LIST_DATA::NAME => Some(PARAM_EXT_REQUEST_LIST_DATA::ID),
@@ -9130,6 +9232,9 @@ impl Message for MavMessage {
             NAMED_VALUE_FLOAT_DATA::ID => Some(Self::NAMED_VALUE_FLOAT(NAMED_VALUE_FLOAT_DATA::default())),
             NAMED_VALUE_INT_DATA::ID => Some(Self::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA::default())),
             ODOMETRY_DATA::ID => Some(Self::ODOMETRY(ODOMETRY_DATA::default())),
+            ORBIT_EXECUTION_STATUS_DATA::ID => {
+                Some(Self::ORBIT_EXECUTION_STATUS(ORBIT_EXECUTION_STATUS_DATA::default()))
+            }
             PARAM_ERROR_DATA::ID => Some(Self::PARAM_ERROR(PARAM_ERROR_DATA::default())),
             PARAM_EXT_ACK_DATA::ID => Some(Self::PARAM_EXT_ACK(PARAM_EXT_ACK_DATA::default())),
             PARAM_EXT_REQUEST_LIST_DATA::ID => {
@@ -9234,6 +9339,9 @@ impl Message for MavMessage {
             NAMED_VALUE_FLOAT_DATA::ID => Some(Self::NAMED_VALUE_FLOAT(NAMED_VALUE_FLOAT_DATA::random(rng))),
             NAMED_VALUE_INT_DATA::ID => Some(Self::NAMED_VALUE_INT(NAMED_VALUE_INT_DATA::random(rng))),
             ODOMETRY_DATA::ID => Some(Self::ODOMETRY(ODOMETRY_DATA::random(rng))),
+            ORBIT_EXECUTION_STATUS_DATA::ID => {
+                Some(Self::ORBIT_EXECUTION_STATUS(ORBIT_EXECUTION_STATUS_DATA::random(rng)))
+            }
             PARAM_ERROR_DATA::ID => Some(Self::PARAM_ERROR(PARAM_ERROR_DATA::random(rng))),
             PARAM_EXT_ACK_DATA::ID => Some(Self::PARAM_EXT_ACK(PARAM_EXT_ACK_DATA::random(rng))),
             PARAM_EXT_REQUEST_LIST_DATA::ID => {
@@ -9331,6 +9439,7 @@ impl Message for MavMessage {
             Self::NAMED_VALUE_FLOAT(body) => body.ser(version, bytes),
             Self::NAMED_VALUE_INT(body) => body.ser(version, bytes),
             Self::ODOMETRY(body) => body.ser(version, bytes),
+            Self::ORBIT_EXECUTION_STATUS(body) => body.ser(version, bytes),
             Self::PARAM_ERROR(body) => body.ser(version, bytes),
             Self::PARAM_EXT_ACK(body) => body.ser(version, bytes),
             Self::PARAM_EXT_REQUEST_LIST(body) => body.ser(version, bytes),
@@ -9415,6 +9524,7 @@ impl Message for MavMessage {
             NAMED_VALUE_FLOAT_DATA::ID => NAMED_VALUE_FLOAT_DATA::EXTRA_CRC,
             NAMED_VALUE_INT_DATA::ID => NAMED_VALUE_INT_DATA::EXTRA_CRC,
             ODOMETRY_DATA::ID => ODOMETRY_DATA::EXTRA_CRC,
+            ORBIT_EXECUTION_STATUS_DATA::ID => ORBIT_EXECUTION_STATUS_DATA::EXTRA_CRC,
             PARAM_ERROR_DATA::ID => PARAM_ERROR_DATA::EXTRA_CRC,
             PARAM_EXT_ACK_DATA::ID => PARAM_EXT_ACK_DATA::EXTRA_CRC,
             PARAM_EXT_REQUEST_LIST_DATA::ID => PARAM_EXT_REQUEST_LIST_DATA::EXTRA_CRC,

@@ -1,6 +1,9 @@
 //! Decisions on requests: refused with a reason, or the new intent and the state that it leads to.
 
-use super::{Commander, CommanderInput, Intent, Outcome, Override, Refusal, Request, State, VELOCITY_TIMEOUT_S};
+use super::{
+    Commander, CommanderInput, Course, Goal, Intent, Outcome, Override, Refusal, Request, SpeedKind, State,
+    VELOCITY_TIMEOUT_S,
+};
 use super::{after_landing, ticks};
 use crate::signals::Tick;
 
@@ -17,6 +20,10 @@ impl Commander {
             (_, Some(intent)) => self.intend(intent, effective, input),
             (Request::Arm { force }, None) => self.arm(*force, effective, input),
             (Request::SetHome { position_m }, None) => self.set_home(*position_m, input),
+            (Request::Speed { kind, speed_m_s }, None) => {
+                self.speeds.choose(*kind, *speed_m_s);
+                Ok(())
+            }
             (_, None) => self.disarm(),
         };
         done.map_or_else(Outcome::TemporarilyRejected, |()| Outcome::Accepted)
@@ -79,7 +86,8 @@ impl Commander {
                 self.check_take_off(&intent, input)?;
                 self.keep(intent, Some(effective.wrapping_add(ticks(LAUNCH_HELD_S))));
             }
-            Intent::GoTo { .. } | Intent::Velocity { .. } | Intent::Return => return Err(Refusal::Disarmed),
+            Intent::LandAt(_) => self.keep(Intent::Land, None),
+            Intent::GoTo(_) | Intent::Velocity { .. } | Intent::Return => return Err(Refusal::Disarmed),
         }
         Ok(())
     }
@@ -88,8 +96,8 @@ impl Commander {
         match intent {
             Intent::Hold => self.keep(intent, None),
             // On the ground it is landed already, and is disarmed as after a landing.
-            Intent::Land => {
-                self.keep(intent, None);
+            Intent::Land | Intent::LandAt(_) => {
+                self.keep(Intent::Land, None);
                 if let State::Idle { disarm_at } = &mut self.state {
                     disarm_at.get_or_insert(after_landing(effective));
                 }
@@ -98,7 +106,7 @@ impl Commander {
                 self.check_take_off(&intent, input)?;
                 self.engage(intent, effective, input);
             }
-            Intent::GoTo { .. } | Intent::Velocity { .. } | Intent::Return => return Err(Refusal::OnGround),
+            Intent::GoTo(_) | Intent::Velocity { .. } | Intent::Return => return Err(Refusal::OnGround),
         }
         Ok(())
     }
@@ -112,7 +120,7 @@ impl Commander {
         }
         match (self.state, intent) {
             // It comes down already, by what is known and what works.
-            (State::Descent | State::MotorOut, Intent::Land) => {
+            (State::Descent | State::MotorOut, Intent::Land) | (State::MotorOut, Intent::LandAt(_)) => {
                 self.keep(intent, None);
                 return Ok(());
             }
@@ -145,6 +153,9 @@ impl Commander {
     /// Begins with what the pilot wants, and ends what has overridden it.
     fn engage(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) {
         self.state = self.state_for(&intent, effective, input.nav.position.z);
+        if let Intent::GoTo(Goal { speed_m_s: Some(speed_m_s), .. }) = intent {
+            self.speeds.choose(SpeedKind::Horizontal, Some(speed_m_s));
+        }
         let expires = matches!(intent, Intent::Velocity { .. });
         self.keep(intent, expires.then(|| effective.wrapping_add(ticks(VELOCITY_TIMEOUT_S))));
         self.overridden = None;
@@ -170,13 +181,28 @@ impl Commander {
                 let from_m = if let State::TakeOff { from_m, .. } = self.state { from_m } else { height };
                 State::TakeOff { from_m, to_m: from_m + height_m }
             }
-            Intent::GoTo { position, yaw } => State::GoTo { position, yaw },
+            Intent::GoTo(goal) => State::GoTo(self.course_to(&goal, height)),
+            Intent::LandAt(goal) => State::Approach(self.course_to(&goal, height)),
             Intent::Velocity { velocity, yaw_rate } => State::Velocity { velocity, yaw_rate },
             Intent::Return => self.return_from(height),
             Intent::Follow if matches!(self.state, State::Idle { .. }) => State::Follow { since: effective },
             Intent::Follow => State::Join,
             Intent::Land => State::Land,
             Intent::Hold => State::Hold,
+        }
+    }
+
+    /// The course to a goal, at a height (z, m): what the goal leaves open is as on the course before.
+    fn course_to(&self, goal: &Goal, height: f32) -> Course {
+        let before = match self.state {
+            State::GoTo(course) => course,
+            State::TakeOff { to_m, .. } => Course { place_m: None, height_m: to_m, yaw: None },
+            _ => Course { place_m: None, height_m: height, yaw: None },
+        };
+        Course {
+            place_m: goal.place_m.or(before.place_m),
+            height_m: goal.height_m.unwrap_or(before.height_m),
+            yaw: goal.yaw_rad.or(before.yaw),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::guidance::setpoint::Speeds;
 use crate::signals::{NavHealth, Tick};
 
 /// How much of the motion is known, from most to least. Only what is known is controlled.
@@ -54,6 +55,8 @@ pub enum Directive {
         position: Vector3<f32>,
         /// ψ, rad; `None` to keep the heading.
         yaw: Option<f32>,
+        /// Greatest speeds.
+        speeds: Speeds,
     },
     /// Fly with a velocity; zero brakes and holds the place where the vehicle stops.
     Velocity {
@@ -68,6 +71,8 @@ pub enum Directive {
         height_m: f32,
         /// Greatest speed, m/s.
         speed_m_s: f32,
+        /// ψ, rad; `None` to keep the heading.
+        yaw: Option<f32>,
     },
     /// Descend to the ground, over one place if the position is known.
     Descend {
@@ -88,13 +93,15 @@ impl Directive {
     pub fn is_finite(&self) -> bool {
         match self {
             Self::Stop | Self::Idle | Self::Follow { .. } => true,
-            Self::GoTo { position, yaw } => {
+            Self::GoTo { position, yaw, .. } => {
                 crate::math::all_finite(position.as_slice()) && yaw.is_none_or(f32::is_finite)
             }
             Self::Velocity { velocity, yaw_rate } => {
                 crate::math::all_finite(velocity.as_slice()) && yaw_rate.is_finite()
             }
-            Self::Climb { height_m, speed_m_s } => height_m.is_finite() && speed_m_s.is_finite(),
+            Self::Climb { height_m, speed_m_s, yaw } => {
+                crate::math::all_finite(&[*height_m, *speed_m_s]) && yaw.is_none_or(f32::is_finite)
+            }
             Self::Descend { rate_m_s, .. } => rate_m_s.is_finite(),
         }
     }

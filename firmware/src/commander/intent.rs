@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Known, Mode, Request, StationAction};
+use super::{Goal, Known, Mode, Request, StationAction};
 
 /// What the pilot wants: the last request to fly that was accepted. It is kept while a failure overrides it. A landing
 /// and a disarming end it; then it is [`Hold`](Self::Hold), as before the first request.
@@ -15,13 +15,8 @@ pub enum Intent {
         /// Over the ground, m.
         height_m: f32,
     },
-    /// Go to a place, and stay.
-    GoTo {
-        /// In the world, m.
-        position: Vector3<f32>,
-        /// ψ, rad.
-        yaw: f32,
-    },
+    /// Go to a place, a height or a heading, and stay.
+    GoTo(Goal),
     /// Fly with a velocity.
     Velocity {
         /// In the world, m/s.
@@ -35,22 +30,25 @@ pub enum Intent {
     Return,
     /// Land.
     Land,
+    /// Go to a place and a heading, and land there.
+    LandAt(Goal),
 }
 
 impl Intent {
     /// What a request to fly wants; `None` for any other.
     pub(super) fn of(request: &Request) -> Option<Self> {
         Some(match *request {
-            Request::Arm { .. } | Request::Disarm | Request::SetHome { .. } => return None,
+            Request::Arm { .. } | Request::Disarm | Request::SetHome { .. } | Request::Speed { .. } => return None,
             Request::Hold => Self::Hold,
             Request::TakeOff { height_m } => Self::TakeOff { height_m },
-            Request::GoTo { position_m, yaw_rad } => Self::GoTo { position: position_m.into(), yaw: yaw_rad },
+            Request::GoTo(goal) => Self::GoTo(goal),
             Request::Velocity { velocity_m_s, yaw_rate_rad_s } => {
                 Self::Velocity { velocity: velocity_m_s.into(), yaw_rate: yaw_rate_rad_s }
             }
             Request::Follow => Self::Follow,
             Request::Return => Self::Return,
             Request::Land => Self::Land,
+            Request::LandAt(goal) => Self::LandAt(goal),
         })
     }
 
@@ -59,11 +57,11 @@ impl Intent {
         match self {
             Self::Hold => Mode::Hold,
             Self::TakeOff { .. } => Mode::TakeOff,
-            Self::GoTo { .. } => Mode::GoTo,
+            Self::GoTo(_) => Mode::GoTo,
             Self::Velocity { .. } => Mode::Velocity,
             Self::Follow => Mode::Follow,
             Self::Return => Mode::Return,
-            Self::Land => Mode::Land,
+            Self::Land | Self::LandAt(_) => Mode::Land,
         }
     }
 

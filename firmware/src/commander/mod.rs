@@ -14,6 +14,7 @@ mod checks;
 mod decide;
 mod directive;
 mod failsafe;
+mod goal;
 mod home;
 mod intent;
 mod request;
@@ -27,21 +28,24 @@ mod tests;
 
 pub use decide::LAUNCH_HELD_S;
 pub use directive::{Directive, Known, Mode};
+pub use goal::{Goal, SpeedKind};
 pub use intent::{Intent, Override};
 pub use request::{
     Answers, Asked, Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies,
     Reply, Request, StationReply, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
 };
-pub use state::State;
+pub use state::{Course, State};
 pub use station::StationAction;
 
 use nalgebra::Vector3;
 
 use self::checks::is_slow;
+use self::goal::ChosenSpeeds;
 use self::station::StationLoss;
 use self::watch::{BatteryWatch, Charge, GroundWatch, NavWatch};
 use crate::config::{FlightConfig, ModeSettings, Start};
-use crate::guidance::{Guidance, setpoint};
+use crate::guidance::Guidance;
+use crate::guidance::setpoint::{self, Speeds};
 use crate::latest::Latest;
 use crate::math;
 use crate::schedule::COMMANDER;
@@ -142,6 +146,8 @@ pub struct Commander {
     home: Vector3<f32>,
     /// Whether a pilot has set it since the vehicle was last disarmed.
     home_is_set: bool,
+    /// The speeds that a pilot has set since then.
+    speeds: ChosenSpeeds,
     /// z of the ground where it was armed, or has landed since, m.
     ground_m: f32,
     navigation: NavWatch,
@@ -210,6 +216,7 @@ impl Commander {
             killed_until: None,
             home: start,
             home_is_set: false,
+            speeds: ChosenSpeeds::default(),
             ground_m: start.z,
             navigation: NavWatch::default(),
             battery: BatteryWatch::default(),
@@ -327,6 +334,7 @@ impl Commander {
     fn stop(&mut self) {
         self.state = State::Disarmed;
         self.home_is_set = false;
+        self.speeds = ChosenSpeeds::default();
         self.forget_intent();
     }
 
@@ -350,6 +358,10 @@ impl Commander {
                 State::Return { at_m, climbs: false }
             }
             State::Return { at_m, climbs: false } if is_at(self.over_home(at_m)) && is_slow(nav) => State::Land,
+            State::Approach(course) if is_slow(nav) && course.yaw.is_none_or(heads) => {
+                let place = course.place_m.map(|[x, y]| Vector3::new(x, y, nav.position.z));
+                if place.is_none_or(is_at) { State::Land } else { self.state }
+            }
             State::Land | State::Descent | State::MotorOut if !self.ground.is_airborne() => {
                 self.ground_m = nav.position.z;
                 self.forget_intent();
@@ -366,21 +378,34 @@ impl Commander {
     /// The directive for guidance, at a height (z, m).
     fn directive(&self, height: f32) -> Directive {
         let settings = &self.settings;
+        let climb = |height_m: f32, speed_m_s: f32| Directive::Climb { height_m, speed_m_s, yaw: None };
+        let go_to = |position, yaw| Directive::GoTo { position, yaw, speeds: Speeds::usual(settings) };
         match self.state {
             State::Disarmed => Directive::Stop,
             State::Idle { .. } => Directive::Idle,
-            State::TakeOff { to_m, .. } => Directive::Climb { height_m: to_m, speed_m_s: settings.take_off_m_s },
+            State::TakeOff { to_m, .. } => climb(to_m, settings.take_off_m_s),
             State::Hold => Directive::HOLD,
-            State::GoTo { position, yaw } => Directive::GoTo { position, yaw: Some(yaw) },
+            State::GoTo(course) | State::Approach(course) => self.steer(&course, height),
             State::Velocity { velocity, yaw_rate } => Directive::Velocity { velocity, yaw_rate },
-            State::Join => Directive::GoTo { position: self.entry, yaw: Some(self.entry_yaw) },
+            State::Join => go_to(self.entry, Some(self.entry_yaw)),
             State::Follow { since } => Directive::Follow { since },
-            State::Return { at_m, climbs: true } => Directive::Climb { height_m: at_m, speed_m_s: settings.climb_m_s },
-            State::Return { at_m, climbs: false } => Directive::GoTo { position: self.over_home(at_m), yaw: None },
+            State::Return { at_m, climbs: true } => climb(at_m, settings.climb_m_s),
+            State::Return { at_m, climbs: false } => go_to(self.over_home(at_m), None),
             State::Land => self.descend(settings.landing_m_s, height, false),
             State::Descent => self.descend(settings.descent_m_s, height, false),
             State::MotorOut => self.descend(settings.descent_m_s, height, true),
         }
+    }
+
+    /// The directive to go on a course, at a height (z, m).
+    fn steer(&self, course: &Course, height: f32) -> Directive {
+        let (height_m, yaw) = (course.height_m, course.yaw);
+        let speeds = self.speeds.within(&self.settings);
+        let Some([x, y]) = course.place_m else {
+            let speed_m_s = if height_m > height { speeds.up_m_s } else { speeds.down_m_s };
+            return Directive::Climb { height_m, speed_m_s, yaw };
+        };
+        Directive::GoTo { position: Vector3::new(x, y, height_m), yaw, speeds }
     }
 
     fn descend(&self, rate_m_s: f32, height: f32, heading_free: bool) -> Directive {

@@ -2,7 +2,7 @@
 
 use core::ops::RangeInclusive;
 
-use super::StationAction;
+use super::{Goal, SpeedKind, StationAction};
 use crate::math;
 
 /// Default height of a take-off, m.
@@ -14,6 +14,8 @@ pub const TAKE_OFF_HEIGHTS_M: RangeInclusive<f32> = 0.3..=100.0;
 pub const FARTHEST_M: f32 = 10_000.0;
 /// Greatest accepted speed, m/s: above any limit that may be configured.
 pub const FASTEST_M_S: f32 = 100.0;
+/// Accepted speeds on the way to a goal, m/s: slower, nothing would ever arrive.
+pub(super) const SPEEDS_M_S: RangeInclusive<f32> = 0.05..=FASTEST_M_S;
 
 /// A request of a ground station or of a program on board. World frame NWU.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,12 +34,14 @@ pub enum Request {
     },
     /// Brake, and stay.
     Hold,
-    /// Go to a place, and stay.
-    GoTo {
-        /// m.
-        position_m: [f32; 3],
-        /// ψ, rad.
-        yaw_rad: f32,
+    /// Go to a place, a height or a heading, and stay.
+    GoTo(Goal),
+    /// Set a speed for the way to a goal.
+    Speed {
+        /// Which.
+        kind: SpeedKind,
+        /// m/s; `None` for that of the settings.
+        speed_m_s: Option<f32>,
     },
     /// Fly with a velocity; expires after [`VELOCITY_TIMEOUT_S`](super::VELOCITY_TIMEOUT_S) unless it is repeated.
     Velocity {
@@ -48,6 +52,8 @@ pub enum Request {
     },
     /// Land here.
     Land,
+    /// Go to a place and a heading at this height, and land there.
+    LandAt(Goal),
     /// Return home, and land: to where it was armed, or to where home was set.
     Return,
     /// Fly the configured trajectory.
@@ -59,19 +65,24 @@ pub enum Request {
     },
 }
 
+/// Greatest accepted angle or rate: two turns, or two turns per second.
+pub(super) const TURN_MAX: f32 = 4.0 * core::f32::consts::PI;
+
+/// Whether all values are finite and within ±`most`: a comparison with NaN is false.
+pub(super) fn within(values: &[f32], most: f32) -> bool {
+    values.iter().all(|value| math::abs(*value) <= most)
+}
+
 impl Request {
     /// True if every value is finite and within the accepted range.
     pub fn is_sane(&self) -> bool {
-        /// Two turns, or two turns per second.
-        const ANGLE: f32 = 4.0 * core::f32::consts::PI;
-        // A comparison with NaN is false.
-        let within = |values: &[f32], most: f32| values.iter().all(|value| math::abs(*value) <= most);
         match self {
             Self::TakeOff { height_m } => TAKE_OFF_HEIGHTS_M.contains(height_m),
-            Self::GoTo { position_m, yaw_rad } => within(position_m, FARTHEST_M) && within(&[*yaw_rad], ANGLE),
+            Self::GoTo(goal) | Self::LandAt(goal) => goal.is_sane(),
             Self::Velocity { velocity_m_s, yaw_rate_rad_s } => {
-                within(velocity_m_s, FASTEST_M_S) && within(&[*yaw_rate_rad_s], ANGLE)
+                within(velocity_m_s, FASTEST_M_S) && within(&[*yaw_rate_rad_s], TURN_MAX)
             }
+            Self::Speed { speed_m_s, .. } => speed_m_s.is_none_or(|speed| SPEEDS_M_S.contains(&speed)),
             Self::SetHome { position_m } => position_m.is_none_or(|position_m| within(&position_m, FARTHEST_M)),
             Self::Arm { .. } | Self::Disarm | Self::Hold | Self::Land | Self::Return | Self::Follow => true,
         }

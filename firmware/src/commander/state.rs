@@ -11,7 +11,7 @@
 //! TakeOff                      ─ arrived ──────────► Hold
 //! Velocity                     ─ timeout ──────────► Hold
 //! Join                         ─ arrived ──────────► Follow
-//! Return                       ─ arrived ──────────► Land
+//! Return, Approach             ─ arrived ──────────► Land
 //! Land, Descent, MotorOut      ─ touchdown ────────► Idle
 //!
 //! Cruise, TakeOff, Land, Descent ─ hold ───────────► Hold
@@ -19,20 +19,21 @@
 //! Cruise, TakeOff, Land, Descent ─ velocity ───────► Velocity
 //! Cruise, TakeOff, Land, Descent ─ return ─────────► Return
 //! Cruise, TakeOff                ─ land ───────────► Land
-//! Hold, GoTo, Velocity, Return, TakeOff, Land, Descent ─ follow ► Join
+//! Cruise, TakeOff, Land, Descent ─ land there ─────► Approach
+//! Hold, GoTo, Velocity, Return, Approach, TakeOff, Land, Descent ─ follow ► Join
 //!
 //! Cruise, TakeOff              ─ battery critical ─► Land by BatteryCritical
-//! Hold, GoTo, Velocity, Join, Follow, TakeOff ─ battery low ► Return by BatteryLow
-//! GoTo, Velocity, Join, Follow, TakeOff ─ station lost: hold ► Hold by StationLost
-//! Hold, GoTo, Velocity, Join, Follow, TakeOff ─ station lost: return ► Return by StationLost
-//! Hold, GoTo, Velocity, Join, Follow, TakeOff ─ station lost: land ► Land by StationLost
+//! Hold, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ battery low ► Return by BatteryLow
+//! GoTo, Velocity, Join, Follow, Approach, TakeOff ─ station lost: hold ► Hold by StationLost
+//! Hold, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ station lost: return ► Return by StationLost
+//! Hold, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ station lost: land ► Land by StationLost
 //! Cruise, TakeOff, Land        ─ loss ─────────────► Descent by Loss
 //! Cruise, TakeOff, Land        ─ hung ─────────────► Descent by OuterHung
 //! Cruise, TakeOff, Land, Descent ─ rotor failed ───► MotorOut by RotorFailed
 //! Cruise, TakeOff, Land, Descent, MotorOut ─ gone ─► Disarmed by SensorsGone
 //! Idle, Cruise, TakeOff, Land, Descent, MotorOut ─ kill ────────► Disarmed
 //!
-//! Cruise = Hold, GoTo, Velocity, Join, Follow, Return
+//! Cruise = Hold, GoTo, Velocity, Join, Follow, Return, Approach
 //! ```
 //!
 //! A test checks this diagram against the code.
@@ -73,13 +74,8 @@ pub enum State {
     },
     /// Holding the place where the vehicle has stopped.
     Hold,
-    /// Going to a place.
-    GoTo {
-        /// m.
-        position: Vector3<f32>,
-        /// ψ, rad.
-        yaw: f32,
-    },
+    /// Going to a place, a height and a heading.
+    GoTo(Course),
     /// Flying with a velocity.
     Velocity {
         /// m/s.
@@ -101,12 +97,25 @@ pub enum State {
         /// Whether it is still climbing.
         climbs: bool,
     },
+    /// Going to where it is to land.
+    Approach(Course),
     /// Landing.
     Land,
     /// Descending because part of the motion is unknown, or guidance hangs.
     Descent,
     /// Descending with a failed rotor.
     MotorOut,
+}
+
+/// Where a vehicle is going.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Course {
+    /// x and y, m; `None` for where it stops.
+    pub place_m: Option<[f32; 2]>,
+    /// z, m.
+    pub height_m: f32,
+    /// ψ, rad; `None` for as it heads.
+    pub yaw: Option<f32>,
 }
 
 impl State {
@@ -117,11 +126,11 @@ impl State {
             Self::Idle { .. } => Mode::Idle,
             Self::TakeOff { .. } => Mode::TakeOff,
             Self::Hold => Mode::Hold,
-            Self::GoTo { .. } => Mode::GoTo,
+            Self::GoTo(_) => Mode::GoTo,
             Self::Velocity { .. } => Mode::Velocity,
             Self::Join | Self::Follow { .. } => Mode::Follow,
             Self::Return { .. } => Mode::Return,
-            Self::Land => Mode::Land,
+            Self::Approach(_) | Self::Land => Mode::Land,
             Self::Descent => Mode::Descent,
             Self::MotorOut => Mode::MotorOut,
         }

@@ -84,7 +84,8 @@ fn wanted(state: &State) -> (Intent, Option<Override>) {
     match *state {
         State::Disarmed | State::Idle { .. } | State::Hold => (Intent::Hold, None),
         State::TakeOff { from_m, to_m } => (Intent::TakeOff { height_m: to_m - from_m }, None),
-        State::GoTo { position, yaw } => (Intent::GoTo { position, yaw }, None),
+        State::GoTo(course) => (Intent::GoTo(goal(&course)), None),
+        State::Approach(course) => (Intent::LandAt(goal(&course)), None),
         State::Velocity { velocity, yaw_rate } => (Intent::Velocity { velocity, yaw_rate }, None),
         State::Join | State::Follow { .. } => (Intent::Follow, None),
         State::Return { .. } => (Intent::Return, None),
@@ -94,8 +95,19 @@ fn wanted(state: &State) -> (Intent, Option<Override>) {
     }
 }
 
+fn goal(course: &Course) -> Goal {
+    Goal { place_m: course.place_m, height_m: Some(course.height_m), yaw_rad: course.yaw, speed_m_s: None }
+}
+
+/// The course to a place, m, and a heading, rad.
+fn course([x, y, z]: [f32; 3], yaw: f32) -> Course {
+    Course { place_m: Some([x, y]), height_m: z, yaw: Some(yaw) }
+}
+
 const ARM: Request = Request::Arm { force: false };
-const GO_TO: Request = Request::GoTo { position_m: [1.0, 2.0, 3.0], yaw_rad: 0.5 };
+const GO_TO: Request = Request::GoTo(Goal::at([1.0, 2.0, 3.0], 0.5));
+const LAND_AT: Request =
+    Request::LandAt(Goal { place_m: Some([4.0, 5.0]), height_m: None, yaw_rad: Some(0.5), speed_m_s: None });
 const VELOCITY: Request = Request::Velocity { velocity_m_s: [1.0, 0.0, 0.0], yaw_rate_rad_s: 0.1 };
 const TAKE_OFF: Request = Request::TakeOff { height_m: 2.0 };
 
@@ -107,7 +119,8 @@ fn states() -> Vec<State> {
         State::Idle { disarm_at: None },
         State::TakeOff { from_m: 0.0, to_m: 100.0 },
         State::Hold,
-        State::GoTo { position: velocity, yaw: 0.0 },
+        State::GoTo(course(velocity.into(), 0.0)),
+        State::Approach(course(velocity.into(), 0.0)),
         State::Velocity { velocity, yaw_rate: 0.0 },
         State::Join,
         State::Follow { since: 0 },
@@ -120,7 +133,7 @@ fn states() -> Vec<State> {
 
 fn name(state: &State) -> String {
     let text = format!("{state:?}");
-    text.split([' ', '{']).next().expect("a name").to_string()
+    text.split([' ', '{', '(']).next().expect("a name").to_string()
 }
 
 /// The state, by the failure that overrides the pilot.
@@ -128,7 +141,7 @@ fn situation(commander: &Commander) -> String {
     let state = name(&commander.state);
     commander.overridden.map_or(state.clone(), |failure| {
         let failure = format!("{failure:?}");
-        format!("{state} by {}", failure.split([' ', '{']).next().expect("a name"))
+        format!("{state} by {}", failure.split([' ', '{', '(']).next().expect("a name"))
     })
 }
 
@@ -155,6 +168,7 @@ fn outcomes(state: State) -> Vec<(&'static str, String)> {
         ("go to", ask(GO_TO)),
         ("velocity", ask(VELOCITY)),
         ("land", ask(Request::Land)),
+        ("land there", ask(LAND_AT)),
         ("return", ask(Request::Return)),
         ("follow", ask(Request::Follow)),
         ("loss", last(1.1, CommanderInput { health: lost, ..quiet.clone() })),
@@ -203,6 +217,7 @@ fn arrived(state: State) -> String {
     match state {
         State::TakeOff { .. } => at(state, Vector3::new(0.0, 0.0, 99.8)),
         State::Join => at(state, Bench::new(state).commander.entry),
+        State::Approach(_) => at(state, Vector3::new(1.2, 0.0, 30.0)),
         State::Return { .. } => at(State::Return { at_m: 10.0, climbs: false }, Vector3::new(0.2, 0.0, 10.0)),
         _ => name(&state),
     }
@@ -325,7 +340,7 @@ fn a_request_that_the_state_does_not_allow_is_refused_with_the_reason() {
 
 #[test]
 fn parameters_out_of_range_are_denied() {
-    let go = |x: f32, yaw_rad: f32| Request::GoTo { position_m: [x, 0.0, 5.0], yaw_rad };
+    let go = |x: f32, yaw_rad: f32| Request::GoTo(Goal::at([x, 0.0, 5.0], yaw_rad));
     let fly = |z: f32, yaw_rate_rad_s: f32| Request::Velocity { velocity_m_s: [0.0, 0.0, z], yaw_rate_rad_s };
     let climb = |height_m: f32| Request::TakeOff { height_m };
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e6, -1e6] {
@@ -412,7 +427,7 @@ fn missing_samples_stop_the_rotors() {
 
 #[test]
 fn a_failed_rotor_starts_a_descent_without_yaw_control_on_the_known_states() {
-    let mut bench = Bench::new(State::GoTo { position: Vector3::zeros(), yaw: 0.0 });
+    let mut bench = Bench::new(State::GoTo(course([0.0; 3], 0.0)));
     let failed = CommanderInput { failed_rotor: Some(3), ..hovering() };
     assert_eq!(bench.run(1.0, &failed), [Event::RotorFailed { rotor: 3 }]);
     let lost = CommanderInput { health: NavHealth { position: false, ..NavHealth::ALL }, ..failed };
@@ -449,9 +464,12 @@ fn a_return_climbs_goes_home_and_lands() {
     };
     bench.ask(Request::Return, &at(20.0, 3.0));
     let directive = bench.step(&at(20.0, 5.0)).directive;
-    assert_eq!(directive, Directive::Climb { height_m: 10.0, speed_m_s: settings().climb_m_s });
+    assert_eq!(directive, Directive::Climb { height_m: 10.0, speed_m_s: settings().climb_m_s, yaw: None });
     let directive = bench.step(&at(20.0, 9.9)).directive;
-    assert_eq!(directive, Directive::GoTo { position: Vector3::new(0.0, 0.0, 10.0), yaw: None });
+    assert_eq!(
+        directive,
+        Directive::GoTo { position: Vector3::new(0.0, 0.0, 10.0), yaw: None, speeds: Speeds::usual(&settings()) }
+    );
     let directive = bench.step(&at(0.1, 9.9)).directive;
     let rate_m_s = settings().landing_m_s;
     assert_eq!(directive, Directive::Descend { rate_m_s, known: Known::Position, heading_free: false });

@@ -30,9 +30,10 @@ impl Request {
             Self::Disarm => "Disarming",
             Self::TakeOff { .. } => "Takeoff",
             Self::Hold => "Hold",
-            Self::GoTo { .. } => "Go to",
+            Self::GoTo(_) => "Go to",
+            Self::Speed { .. } => "Speed",
             Self::Velocity { .. } => "Velocity",
-            Self::Land => "Landing",
+            Self::Land | Self::LandAt(_) => "Landing",
             Self::Return => "Return",
             Self::Follow => "Trajectory",
             Self::SetHome { .. } => "Setting home",
@@ -96,6 +97,7 @@ impl Event {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::commander::{Goal, SpeedKind};
 
     /// Length of the text in a MAVLink `STATUSTEXT`.
     const STATUSTEXT: usize = 50;
@@ -109,9 +111,11 @@ mod tests {
             Request::Disarm,
             Request::TakeOff { height_m: 0.0 },
             Request::Hold,
-            Request::GoTo { position_m: zero, yaw_rad: 0.0 },
+            Request::GoTo(Goal::default()),
+            Request::Speed { kind: SpeedKind::Up, speed_m_s: None },
             Request::Velocity { velocity_m_s: zero, yaw_rate_rad_s: 0.0 },
             Request::Land,
+            Request::LandAt(Goal::default()),
             Request::Return,
             Request::Follow,
         ];

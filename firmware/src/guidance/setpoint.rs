@@ -35,6 +35,30 @@ const STEP_S: f32 = OUTER.period as f32 * TICK_S;
 /// 4 e⁻²: twice the peak of the kernel of three lags, times their time constant.
 const KERNEL: f32 = 0.541_341_1;
 
+/// Greatest speeds on the way to a place, m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Speeds {
+    /// Over the ground.
+    pub horizontal_m_s: f32,
+    /// Upwards.
+    pub up_m_s: f32,
+    /// Downwards.
+    pub down_m_s: f32,
+}
+
+impl Speeds {
+    /// Those of the settings.
+    pub fn usual(settings: &ModeSettings) -> Self {
+        Self { horizontal_m_s: settings.cruise_m_s, up_m_s: settings.climb_m_s, down_m_s: settings.sink_m_s }
+    }
+
+    /// The greatest speed in a direction, m/s.
+    fn along(&self, direction: &Vector3<f32>) -> f32 {
+        let vertical = if direction.z > 0.0 { self.up_m_s } else { self.down_m_s };
+        within(direction, self.horizontal_m_s, vertical)
+    }
+}
+
 /// Target of the generator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
@@ -44,13 +68,17 @@ pub enum Target {
         position: Vector3<f32>,
         /// ψ, rad; `None` to keep the heading.
         yaw: Option<f32>,
+        /// Greatest speeds.
+        speeds: Speeds,
     },
-    /// Stop horizontally, and go to a height; keep the heading.
+    /// Stop horizontally, and go to a height.
     Height {
         /// z in the world, m.
         height_m: f32,
         /// Greatest speed, m/s.
         speed_m_s: f32,
+        /// ψ, rad; `None` to keep the heading.
+        yaw: Option<f32>,
     },
     /// Move with a velocity and a yaw rate.
     Velocity {
@@ -265,11 +293,11 @@ impl Setpoint {
     fn translate(&self, target: &Target) -> (Vector3<f32>, Vector3<f32>) {
         let (place, speed, limits) = (self.place.xyz(), self.speed.xyz(), &self.limits);
         match *target {
-            Target::Place { position, .. } => {
+            Target::Place { position, speeds, .. } => {
                 let position = position - self.anchor;
-                self.go(&(position - place), GRAIN * position.amax())
+                self.go(&(position - place), &speeds, GRAIN * position.amax())
             }
-            Target::Height { height_m, speed_m_s } => {
+            Target::Height { height_m, speed_m_s, .. } => {
                 let height_m = height_m - self.anchor.z;
                 let distance = height_m - place.z;
                 let most = math::min(speed_m_s, if distance > 0.0 { limits.climb_m_s } else { limits.sink_m_s });
@@ -284,7 +312,7 @@ impl Setpoint {
     }
 
     /// Moves the course along the straight line to a place `away`; motion off that line is braked.
-    fn go(&self, away: &Vector3<f32>, grain: f32) -> (Vector3<f32>, Vector3<f32>) {
+    fn go(&self, away: &Vector3<f32>, speeds: &Speeds, grain: f32) -> (Vector3<f32>, Vector3<f32>) {
         let speed = self.speed.xyz();
         let distance = math::sqrt(away.norm_squared());
         let direction = away / math::max(distance, 1e-9);
@@ -295,7 +323,7 @@ impl Setpoint {
         }
         let now = speed.dot(&direction);
         // A larger change than one step allows would be reached sooner along one axis than along another.
-        let most = math::min(self.speed_along(&direction), math::max(now, 0.0) + change_max);
+        let most = math::min(speeds.along(&direction), math::max(now, 0.0) + change_max);
         let along = math::min(braking_speed(distance, now, BRAKING * acceleration), most);
         self.change_speed(&(direction * along - speed))
     }
@@ -310,14 +338,8 @@ impl Setpoint {
 
     /// A velocity limited in its horizontal and vertical components.
     fn within_limits(&self, velocity: &Vector3<f32>) -> Vector3<f32> {
-        let (x, y) = shorten(velocity.x, velocity.y, self.limits.cruise_m_s);
+        let (x, y) = shorten(velocity.x, velocity.y, self.limits.fastest_m_s);
         Vector3::new(x, y, math::clamp(velocity.z, -self.limits.sink_m_s, self.limits.climb_m_s))
-    }
-
-    /// Greatest speed in a direction, m/s.
-    fn speed_along(&self, direction: &Vector3<f32>) -> f32 {
-        let vertical = if direction.z > 0.0 { self.limits.climb_m_s } else { self.limits.sink_m_s };
-        within(direction, self.limits.cruise_m_s, vertical)
     }
 
     /// Greatest acceleration in a direction, m/s².
@@ -331,10 +353,10 @@ impl Setpoint {
             (self.speed.w, self.limits.yaw_rate_rad_s, self.limits.yaw_acceleration_rad_s2);
         let to_rate = |wanted: f32| moved(rate, math::limit(wanted - rate, acceleration * STEP_S));
         match *target {
-            Target::Place { yaw: Some(yaw), .. } => {
+            Target::Place { yaw: Some(yaw), .. } | Target::Height { yaw: Some(yaw), .. } => {
                 approach(math::wrap_angle(yaw - self.place.w), rate, most, acceleration, GRAIN)
             }
-            Target::Place { yaw: None, .. } | Target::Height { .. } => to_rate(0.0),
+            Target::Place { yaw: None, .. } | Target::Height { yaw: None, .. } => to_rate(0.0),
             Target::Velocity { yaw_rate, .. } => to_rate(math::limit(yaw_rate, most)),
         }
     }

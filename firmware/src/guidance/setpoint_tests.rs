@@ -8,6 +8,7 @@ use crate::guidance::{Guidance, Trajectory};
 
 const LIMITS: ModeSettings = ModeSettings {
     cruise_m_s: 5.0,
+    fastest_m_s: 5.0,
     climb_m_s: 2.0,
     sink_m_s: 1.5,
     acceleration_m_s2: 3.0,
@@ -33,7 +34,7 @@ fn standing(position: [f32; 3]) -> Setpoint {
 }
 
 fn place(position: [f32; 3], yaw: f32) -> Target {
-    Target::Place { position: position.into(), yaw: Some(yaw) }
+    Target::Place { position: position.into(), yaw: Some(yaw), speeds: Speeds::usual(&LIMITS) }
 }
 
 fn steps(seconds: f32) -> usize {
@@ -190,7 +191,7 @@ fn a_climb_keeps_its_commanded_speed_and_stops_horizontally() {
         setpoint.advance(&Target::Velocity { velocity: Vector3::new(3.0, 0.0, 0.0), yaw_rate: 0.0 });
     }
     for _ in 0..steps(15.0) {
-        let r = setpoint.advance(&Target::Height { height_m: 6.0, speed_m_s: 0.8 });
+        let r = setpoint.advance(&Target::Height { height_m: 6.0, speed_m_s: 0.8, yaw: None });
         assert!(r.velocity.z < 0.81 && r.position.z < 6.000_1);
         assert_within_limits(&r);
     }
@@ -250,7 +251,11 @@ fn any_target() -> impl Strategy<Value = Target> {
         .prop_map(|(x, y, z, yaw)| place([x, y, z], yaw));
     let velocity = (-8.0..8.0_f32, -8.0..8.0_f32, -3.0..3.0_f32, -2.0..2.0_f32)
         .prop_map(|(x, y, z, yaw_rate)| Target::Velocity { velocity: Vector3::new(x, y, z), yaw_rate });
-    let height = (0.0..50.0_f32, 0.1..3.0_f32).prop_map(|(height_m, speed_m_s)| Target::Height { height_m, speed_m_s });
+    let height = (0.0..50.0_f32, 0.1..3.0_f32).prop_map(|(height_m, speed_m_s)| Target::Height {
+        height_m,
+        speed_m_s,
+        yaw: None,
+    });
     prop_oneof![place, velocity, height]
 }
 

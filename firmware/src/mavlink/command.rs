@@ -9,7 +9,7 @@ use glissade_dialect::{MavCmd, MavModeFlag, MavResult};
 
 use super::incoming::{CommandMessage, Form};
 use super::telemetry::{IntervalError, MODES, Report, Telemetry, View, is_available, report_by_id};
-use super::{GroundOutput, mode, place};
+use super::{GroundOutput, goal, mode, place};
 use crate::commander::{Outcome, Request};
 use crate::failure::{Failure, Failures, Injectable, Manner, Unit};
 
@@ -73,7 +73,14 @@ pub(super) fn carry_out(
         Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => arm_request(message).into(),
         Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => place::take_off(message, view).into(),
         Some(MavCmd::MAV_CMD_DO_SET_HOME) => place::set_home(message, view).into(),
-        Some(MavCmd::MAV_CMD_NAV_LAND) => Effect::Ask(Request::Land),
+        Some(MavCmd::MAV_CMD_NAV_LAND) => goal::land(message, view).into(),
+        Some(MavCmd::MAV_CMD_DO_REPOSITION) => goal::reposition(message, view).into(),
+        Some(MavCmd::MAV_CMD_CONDITION_YAW) => goal::turn(message, view).into(),
+        Some(MavCmd::MAV_CMD_DO_CHANGE_SPEED) => match goal::change_speed(message) {
+            Ok(Some(request)) => Effect::Ask(request),
+            Ok(None) => MavResult::MAV_RESULT_ACCEPTED.into(),
+            Err(effect) => effect,
+        },
         Some(MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH) => Effect::Ask(Request::Return),
         Some(MavCmd::MAV_CMD_DO_SET_MODE) => mode_request(message, view.take_off_m).into(),
         Some(MavCmd::MAV_CMD_INJECT_FAILURE) => {

@@ -2,7 +2,7 @@
 //!
 //! Bytes in, bytes out; the board or the host only carries them, through [`port`]: a pair of rings for each link. A
 //! `link` has its own parser, answers and rates: `parser` finds frames, `incoming` decodes messages, `command` carries
-//! out commands, `place` those that carry places on Earth, `params` serves the settings, `services` answers for what
+//! out commands, `place` those that carry places on Earth, `goal` those that send it somewhere, `params` serves the settings, `services` answers for what
 //! there is not, `sticks` reads those of ground stations, `mode` encodes modes as PX4 does, `text` sends texts to pilots, `telemetry` schedules and fills in the
 //! messages about the vehicle, of which [`report`] tells the part that is gathered for it, `outbox` keeps what is still to
 //! be said, and `writer` encodes messages. NED/FRD is converted in `frames` only.
@@ -39,6 +39,7 @@
 //! ```
 
 mod command;
+mod goal;
 mod incoming;
 mod link;
 mod mode;

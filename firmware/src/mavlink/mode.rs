@@ -16,12 +16,12 @@ const LAND: u8 = 6;
 /// `custom_mode` of a mode. Clients know no PX4 mode for a descent after a failure, so it is reported as landing.
 pub(super) fn custom_mode(mode: Mode) -> u32 {
     let (main, sub) = match mode {
-        Mode::Disarmed | Mode::Idle | Mode::Hold => (AUTO, LOITER),
+        Mode::Disarmed | Mode::Idle | Mode::Hold | Mode::GoTo => (AUTO, LOITER),
         Mode::TakeOff => (AUTO, TAKE_OFF),
         Mode::Follow => (AUTO, MISSION),
         Mode::Return => (AUTO, RETURN),
         Mode::Land | Mode::Descent | Mode::MotorOut => (AUTO, LAND),
-        Mode::GoTo | Mode::Velocity => (OFFBOARD, 0),
+        Mode::Velocity => (OFFBOARD, 0),
     };
     u32::from(main) << 16 | u32::from(sub) << 24
 }

@@ -23,7 +23,7 @@ const LONGITUDE_MAX_E7: i32 = 1_800_000_000;
 
 /// What a height is above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Datum {
+pub(super) enum Datum {
     SeaLevel,
     Ground,
 }
@@ -36,7 +36,7 @@ pub(super) fn is_frame(message: &CommandMessage) -> bool {
     }
 }
 
-fn datum(frame: u8) -> Result<Datum, Effect> {
+pub(super) fn datum(frame: u8) -> Result<Datum, Effect> {
     if GLOBAL.contains(&frame) {
         Ok(Datum::SeaLevel)
     } else if RELATIVE.contains(&frame) {
@@ -119,7 +119,7 @@ pub(super) fn set_origin(place: &Place, input: &GroundInput, origin: &mut Option
     Ok(())
 }
 
-fn is_on_earth(latitude_e7: i32, longitude_e7: i32) -> bool {
+pub(super) fn is_on_earth(latitude_e7: i32, longitude_e7: i32) -> bool {
     (-LATITUDE_MAX_E7..=LATITUDE_MAX_E7).contains(&latitude_e7)
         && (-LONGITUDE_MAX_E7..=LONGITUDE_MAX_E7).contains(&longitude_e7)
 }

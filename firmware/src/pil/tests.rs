@@ -218,7 +218,7 @@ fn a_pilots_request_is_decoded_as_it_was_encoded() {
         commander::Request::Disarm.into(),
         commander::Request::TakeOff { height_m: 2.5 }.into(),
         commander::Request::Hold.into(),
-        commander::Request::GoTo { position_m: [x, y, z], yaw_rad: w }.into(),
+        commander::Request::GoTo(commander::Goal::at([x, y, z], w)).into(),
         commander::Request::Velocity { velocity_m_s: [w, z, y], yaw_rate_rad_s: x }.into(),
         commander::Request::Land.into(),
         commander::Request::Return.into(),

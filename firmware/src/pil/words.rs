@@ -5,7 +5,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
-use crate::commander::{Asked, Request};
+use crate::commander::{Asked, Goal, Request, SpeedKind};
 use crate::inner::InnerOutput;
 use crate::pil::Sent;
 use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, Measurements, PoseSample};
@@ -215,26 +215,40 @@ macro_rules! as_words {
 }
 pub(super) use as_words;
 
-/// The kind, and up to four values.
+const KINDS: [SpeedKind; 3] = [SpeedKind::Horizontal, SpeedKind::Up, SpeedKind::Down];
+
+fn number_of(kind: SpeedKind) -> f32 {
+    KINDS.iter().position(|known| *known == kind).map_or(0.0, |at| at as f32)
+}
+
+fn kind_of(number: f32) -> Option<SpeedKind> {
+    KINDS.get(number as usize).copied()
+}
+
+/// The kind, and up to five values.
 impl Words for Asked {
-    const WORDS: usize = 5;
+    const WORDS: usize = 6;
 
     fn write(&self, to: &mut Writer) {
         let (kind, numbers) = match *self {
-            Self::Request(Request::Arm { force }) => (0, [f32::from(u8::from(force)), 0.0, 0.0, 0.0]),
-            Self::Request(Request::Disarm) => (1, [0.0; 4]),
-            Self::Request(Request::TakeOff { height_m }) => (2, [height_m, 0.0, 0.0, 0.0]),
-            Self::Request(Request::Hold) => (3, [0.0; 4]),
-            Self::Request(Request::GoTo { position_m: [x, y, z], yaw_rad }) => (4, [x, y, z, yaw_rad]),
+            Self::Request(Request::Arm { force }) => (0, [f32::from(u8::from(force)), 0.0, 0.0, 0.0, 0.0]),
+            Self::Request(Request::Disarm) => (1, [0.0; 5]),
+            Self::Request(Request::TakeOff { height_m }) => (2, [height_m, 0.0, 0.0, 0.0, 0.0]),
+            Self::Request(Request::Hold) => (3, [0.0; 5]),
+            Self::Request(Request::GoTo(goal)) => (4, goal.numbers()),
             Self::Request(Request::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s }) => {
-                (5, [x, y, z, yaw_rate_rad_s])
+                (5, [x, y, z, yaw_rate_rad_s, 0.0])
             }
-            Self::Request(Request::Land) => (6, [0.0; 4]),
-            Self::Request(Request::Return) => (7, [0.0; 4]),
-            Self::Request(Request::Follow) => (8, [0.0; 4]),
-            Self::Kill => (9, [0.0; 4]),
-            Self::Request(Request::SetHome { position_m: None }) => (10, [0.0; 4]),
-            Self::Request(Request::SetHome { position_m: Some([x, y, z]) }) => (11, [x, y, z, 0.0]),
+            Self::Request(Request::Land) => (6, [0.0; 5]),
+            Self::Request(Request::LandAt(goal)) => (12, goal.numbers()),
+            Self::Request(Request::Speed { kind, speed_m_s }) => {
+                (13, [number_of(kind), speed_m_s.unwrap_or(f32::NAN), 0.0, 0.0, 0.0])
+            }
+            Self::Request(Request::Return) => (7, [0.0; 5]),
+            Self::Request(Request::Follow) => (8, [0.0; 5]),
+            Self::Kill => (9, [0.0; 5]),
+            Self::Request(Request::SetHome { position_m: None }) => (10, [0.0; 5]),
+            Self::Request(Request::SetHome { position_m: Some([x, y, z]) }) => (11, [x, y, z, 0.0, 0.0]),
         };
         to.word(kind);
         numbers.write(to);
@@ -242,13 +256,13 @@ impl Words for Asked {
 
     fn read(from: &mut Reader) -> Option<Self> {
         let kind = from.word()?;
-        let [x, y, z, w] = Words::read(from)?;
+        let [x, y, z, w, v] = Words::read(from)?;
         Some(Self::Request(match kind {
             0 => Request::Arm { force: x != 0.0 },
             1 => Request::Disarm,
             2 => Request::TakeOff { height_m: x },
             3 => Request::Hold,
-            4 => Request::GoTo { position_m: [x, y, z], yaw_rad: w },
+            4 => Request::GoTo(Goal::of_numbers([x, y, z, w, v])),
             5 => Request::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s: w },
             6 => Request::Land,
             7 => Request::Return,
@@ -256,6 +270,8 @@ impl Words for Asked {
             9 => return Some(Self::Kill),
             10 => Request::SetHome { position_m: None },
             11 => Request::SetHome { position_m: Some([x, y, z]) },
+            12 => Request::LandAt(Goal::of_numbers([x, y, z, w, v])),
+            13 => Request::Speed { kind: kind_of(x)?, speed_m_s: Some(y).filter(|y| !y.is_nan()) },
             _ => return None,
         }))
     }

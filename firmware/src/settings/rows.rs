@@ -73,8 +73,9 @@ const SCALE: Range = Range::Within(0.0, 1.0);
 /// m/s^0.5.
 const WALK: Range = Range::Within(0.0, 10.0);
 
-const MODES: [Setting; 17] = reals! { Modes "modes":
-    "MPC_XY_CRUISE", "m/s", cruise_m_s, MOTION, InFlight, "Greatest horizontal speed";
+const MODES: [Setting; 18] = reals! { Modes "modes":
+    "MPC_XY_CRUISE", "m/s", cruise_m_s, MOTION, InFlight, "Horizontal speed on the way to a place";
+    "MPC_XY_VEL_MAX", "m/s", fastest_m_s, MOTION, InFlight, "Greatest horizontal speed that can be asked for";
     "MPC_Z_VEL_MAX_UP", "m/s", climb_m_s, MOTION, InFlight, "Greatest speed upwards";
     "MPC_Z_VEL_MAX_DN", "m/s", sink_m_s, MOTION, InFlight, "Greatest speed downwards";
     "MPC_TKO_SPEED", "m/s", take_off_m_s, MOTION, InFlight, "Speed of a take-off";

@@ -14,7 +14,7 @@ use firmware::signals::{NavState, SensorFrame, Tick};
 use nalgebra::Vector3;
 
 use self::junk::{Junk, harmless};
-use crate::modes::{Body, config};
+use crate::vehicle::{Body, config};
 
 /// 921,600 baud, bytes a tick.
 const LINE: usize = 92;

@@ -15,7 +15,7 @@ use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
 use glissade_dialect::{COMMAND_LONG_DATA, MavCmd};
 use nalgebra::Vector3;
 
-use crate::modes::{Body, config};
+use crate::vehicle::{Body, config};
 
 /// The partitions that hang.
 #[derive(Clone, Copy, Default)]

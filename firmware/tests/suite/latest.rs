@@ -2,7 +2,7 @@
 //! newer, and the answer to a ground station that is lost.
 
 use firmware::autopilot::Autopilot;
-use firmware::commander::{Mode, Override, Request, StationAction};
+use firmware::commander::{Goal, Mode, Override, Request, StationAction};
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
 use firmware::latest::Latest;
@@ -15,7 +15,7 @@ use glissade_dialect::{HEARTBEAT_DATA, MANUAL_CONTROL_DATA};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-use crate::modes::{Body, config};
+use crate::vehicle::{Body, config};
 
 fn frame(message: &impl MessageData) -> Vec<u8> {
     let mut frame = MAVLinkV2MessageRaw::new();
@@ -205,7 +205,7 @@ impl Flight {
     fn on_the_way(action: i32) -> Self {
         let mut flight = Self::new(action);
         flight.fly(1, &[STATION]);
-        let place = Request::GoTo { position_m: [60.0, 0.0, 20.0], yaw_rad: 0.0 };
+        let place = Request::GoTo(Goal::at([60.0, 0.0, 20.0], 0.0));
         flight.pilot.inner.request(place).expect("room");
         flight.fly(2, &[STATION]);
         assert_eq!(flight.mode(), Mode::GoTo);

@@ -4,6 +4,7 @@
 
 mod autopilot;
 mod flood;
+mod goals;
 mod hung;
 mod latest;
 mod mixer;
@@ -12,3 +13,4 @@ mod moving_start;
 mod parameters;
 mod settings;
 mod sliding;
+mod vehicle;

@@ -1,196 +1,16 @@
 //! Whole flights through the partitions, on a rigid body over a flat ground: what a pilot asks for is done, and what is
 //! not known of the motion is not needed.
 
-use firmware::airframe::{Airframe, ROTORS};
+use firmware::airframe::ROTORS;
 use firmware::autopilot::Autopilot;
-use firmware::commander::{
-    Command, Commander, CommanderInput, CommanderOutput, Commands, Directive, Event, Known, Mode, Origin, Request,
-};
+use firmware::commander::{Directive, Event, Goal, Known, Mode, Request};
 use firmware::config::{FlightConfig, Start};
-use firmware::control::attitude::{self, SlidingAttitude};
-use firmware::control::position::SlidingPosition;
 use firmware::guidance::Trajectory;
-use firmware::inner::Inner;
-use firmware::latest::Latest;
-use firmware::outer::{Authority, Outer, OuterInput, OuterOutput};
-use firmware::schedule::{COMMANDER, OUTER};
-use firmware::settings::{COUNT, Changes, Class, SETTINGS, Setting, Settings, Value};
-use firmware::signals::{MotorCommand, NavHealth, NavState, SensorFrame, TICK_S, Tick};
-use nalgebra::{UnitQuaternion, Vector3};
+use firmware::settings::{Class, SETTINGS, Setting, Settings, Value};
+use firmware::signals::{MotorCommand, NavHealth, NavState, SensorFrame, TICK_S};
+use nalgebra::Vector3;
 
-/// A rigid body whose rotors follow at once, on a ground at z = 0 that takes every speed.
-pub(crate) struct Body {
-    pub(crate) airframe: Airframe,
-    pub(crate) nav: NavState,
-}
-
-impl Body {
-    pub(crate) fn step(&mut self, motors: &MotorCommand) {
-        let geometry = &self.airframe.geometry;
-        let omega = &motors.omega_rad_s;
-        let thrust: f32 = geometry.thrust.iter().zip(omega).map(|(lift, w)| lift * w * w).sum();
-        let nav = &mut self.nav;
-        let spin = self.airframe.rotor_spin_rad_s(omega);
-        let torque = geometry.torque(omega) - attitude::torque(&self.airframe, &Vector3::zeros(), &nav.rates, spin);
-        nav.rates += torque.component_div(&Vector3::from(self.airframe.inertia_kg_m2)) * TICK_S;
-        nav.attitude *= UnitQuaternion::from_scaled_axis(nav.rates * TICK_S);
-        let drag = Vector3::from(self.airframe.drag_n_s_m).component_mul(&nav.velocity);
-        let force = nav.attitude * Vector3::new(0.0, 0.0, thrust) - drag;
-        let gravity = Vector3::new(0.0, 0.0, self.airframe.gravity_m_s2);
-        nav.velocity += (force / self.airframe.mass_kg - gravity) * TICK_S;
-        nav.position += nav.velocity * TICK_S;
-        if nav.position.z <= 0.0 && nav.velocity.z <= 0.0 {
-            nav.position.z = 0.0;
-            nav.velocity = Vector3::zeros();
-            nav.rates = Vector3::zeros();
-            let (_, _, yaw) = nav.attitude.euler_angles();
-            nav.attitude = UnitQuaternion::from_euler_angles(0.0, 0.0, yaw);
-        }
-    }
-}
-
-/// The default, but for the paper's rotational drag: against it, the rotors could not turn the heading by 1 rad/s.
-pub(crate) fn config() -> FlightConfig {
-    let mut config = FlightConfig::default();
-    config.airframe.rotational_drag_n_m_s2 = [0.0; 3];
-    config
-}
-
-/// What a failing estimator makes of the motion.
-type Spoil = fn(&mut NavState, f32);
-
-/// The partitions, their outputs in effect at once, so that a test may come between them.
-struct Vehicle {
-    body: Body,
-    inner: Inner,
-    outer: Outer,
-    commander: Commander,
-    told: CommanderOutput,
-    reference: OuterOutput,
-    motors: MotorCommand,
-    tick: Tick,
-    commands: Commands,
-    health: NavHealth,
-    spoil: Spoil,
-    events: Vec<Event>,
-    config: FlightConfig,
-}
-
-impl Vehicle {
-    fn new(config: &FlightConfig) -> Self {
-        let airframe = config.airframe;
-        let nav = NavState { position: config.start_position(), ..NavState::at_rest() };
-        let commander = Commander::new(config);
-        let told = commander.initial_output();
-        let mut outer = Outer::new(config, SlidingPosition::new(&airframe, &config.position)).expect("valid");
-        let (directive, changes) = (told.directive, Changes::new());
-        let input = OuterInput { nav, thrust_n: airframe.weight_n(), directive, latest: Latest::default(), changes };
-        Self {
-            body: Body { airframe, nav },
-            inner: Inner::new(config, SlidingAttitude::new(&airframe, &config.attitude)).expect("valid"),
-            reference: outer.step(0_u32.wrapping_sub(OUTER.offset), &input),
-            outer,
-            commander,
-            told,
-            motors: MotorCommand::STOPPED,
-            tick: 0,
-            commands: Commands::new(),
-            health: NavHealth::ALL,
-            spoil: |_, _| {},
-            events: Vec::new(),
-            config: config.clone(),
-        }
-    }
-
-    fn tick(&mut self) {
-        let mut nav = self.body.nav;
-        (self.spoil)(&mut nav, self.tick as f32 * TICK_S);
-        let sample = SensorFrame::Motion(nav);
-        self.inner.sense(Some(&sample));
-        if self.tick.is_multiple_of(COMMANDER.period) {
-            let input = CommanderInput {
-                nav,
-                nav_fresh: true,
-                health: self.health,
-                thrust_n: self.inner.thrust_n(),
-                battery: None,
-                failed_rotor: None,
-                outer_hung: false,
-                kills: 0,
-                latest: Latest::default(),
-                commands: core::mem::take(&mut self.commands),
-                changes: Changes::new(),
-            };
-            self.told = self.commander.step(self.tick, &input);
-            self.events.extend(self.told.event);
-        }
-        if self.tick.is_multiple_of(OUTER.period) {
-            let (directive, changes) = (self.told.directive, Changes::new());
-            let input =
-                OuterInput { nav, thrust_n: self.inner.thrust_n(), directive, latest: Latest::default(), changes };
-            self.reference = self.outer.step(self.tick, &input);
-        }
-        let output = if self.told.armed && self.reference.authority == Authority::Idle {
-            self.inner.idle()
-        } else {
-            self.inner.step(self.tick, &self.reference.attitude, self.told.armed)
-        };
-        self.motors = output.motors;
-        self.body.step(&self.motors);
-        self.tick += 1;
-    }
-
-    /// Takes over what can be set in flight of another configuration.
-    fn take_over(&mut self, config: &FlightConfig) {
-        let settings = Settings::of(config);
-        let mut before = Settings::of(&self.config);
-        for index in 0..COUNT {
-            let value = settings.get(index).expect("a setting");
-            if before.get(index) != Some(value) {
-                let change = before.set(index, value, true).expect("accepted");
-                self.commander.apply(&change);
-                self.outer.apply(&change);
-                self.inner.apply(&change);
-            }
-        }
-        self.config = config.clone();
-    }
-
-    fn ask(&mut self, request: Request) {
-        let _ = self.commands.push(Command { request, origin: Origin::OnBoard });
-    }
-
-    fn run(&mut self, seconds: f32) {
-        for _ in 0..(seconds / TICK_S) as u32 {
-            self.tick();
-        }
-    }
-
-    /// Until it is in a mode, at most this long.
-    fn until(&mut self, mode: Mode, seconds: f32) {
-        let end = self.tick + (seconds / TICK_S) as u32;
-        while self.told.mode != mode {
-            self.tick();
-            assert!(self.tick < end, "{:?} instead of {mode:?}, at {:?}", self.told.mode, self.body.nav);
-        }
-    }
-
-    /// Armed, and holding 4 m over the ground.
-    fn airborne(config: &FlightConfig) -> Self {
-        let mut vehicle = Self::new(config);
-        vehicle.ask(Request::Arm { force: false });
-        vehicle.ask(Request::TakeOff { height_m: 4.0 });
-        vehicle.until(Mode::Hold, 8.0);
-        vehicle.run(2.0);
-        vehicle.assert_near([0.0, 0.0, 4.0], 0.05);
-        vehicle
-    }
-
-    fn assert_near(&self, place: [f32; 3], within: f32) {
-        let away = (self.body.nav.position - Vector3::from(place)).norm();
-        assert!(away < within, "{:?} is {away} m from {place:?}", self.body.nav.position);
-    }
-}
+use crate::vehicle::{Body, Spoil, Vehicle, config};
 
 fn is_stopped(vehicle: &Vehicle) -> bool {
     vehicle.motors == MotorCommand::STOPPED
@@ -220,12 +40,12 @@ fn armed_it_idles_takes_off_holds_lands_and_stops() {
 #[test]
 fn it_goes_where_it_is_told_and_brakes_when_it_is_told_to_hold() {
     let mut vehicle = Vehicle::airborne(&config());
-    vehicle.ask(Request::GoTo { position_m: [6.0, -3.0, 5.0], yaw_rad: 1.0 });
+    vehicle.ask(Request::GoTo(Goal::at([6.0, -3.0, 5.0], 1.0)));
     vehicle.run(8.0);
     vehicle.assert_near([6.0, -3.0, 5.0], 0.05);
     let (_, _, yaw) = vehicle.body.nav.attitude.euler_angles();
     assert!((0.97..1.03).contains(&yaw), "{yaw}");
-    vehicle.ask(Request::GoTo { position_m: [60.0, -3.0, 5.0], yaw_rad: 1.0 });
+    vehicle.ask(Request::GoTo(Goal::at([60.0, -3.0, 5.0], 1.0)));
     vehicle.run(4.0);
     assert!(vehicle.body.nav.velocity.x > 4.5, "{}", vehicle.body.nav.velocity);
     vehicle.ask(Request::Hold);
@@ -253,7 +73,7 @@ fn a_velocity_is_flown_and_ends_in_a_hold() {
 #[test]
 fn it_returns_over_its_home_and_lands_there() {
     let mut vehicle = Vehicle::airborne(&config());
-    vehicle.ask(Request::GoTo { position_m: [15.0, 10.0, 4.0], yaw_rad: 0.0 });
+    vehicle.ask(Request::GoTo(Goal::at([15.0, 10.0, 4.0], 0.0)));
     vehicle.run(10.0);
     vehicle.ask(Request::Return);
     vehicle.until(Mode::Land, 25.0);
@@ -274,7 +94,7 @@ fn a_trajectory_is_joined_from_anywhere_in_the_air() {
         ..config()
     };
     let mut vehicle = Vehicle::airborne(&config);
-    vehicle.ask(Request::GoTo { position_m: [8.0, 4.0, 3.0], yaw_rad: 0.5 });
+    vehicle.ask(Request::GoTo(Goal::at([8.0, 4.0, 3.0], 0.5)));
     vehicle.run(6.0);
     vehicle.ask(Request::Follow);
     let mut furthest = 0.0;
@@ -434,7 +254,7 @@ fn a_fast_landing_slows_down_in_time() {
         let modes = &mut config.modes;
         (modes.landing_m_s, modes.sink_m_s) = (down_m_s, down_m_s);
         let mut vehicle = Vehicle::airborne(&config);
-        vehicle.ask(Request::GoTo { position_m: [0.0, 0.0, 60.0], yaw_rad: 0.0 });
+        vehicle.ask(Request::GoTo(Goal::at([0.0, 0.0, 60.0], 0.0)));
         vehicle.run(40.0);
         let mut slower = config.clone();
         (slower.modes.vertical_acceleration_m_s2, slower.modes.jerk_m_s3) = (vertical_acceleration_m_s2, jerk_m_s3);
@@ -450,7 +270,7 @@ fn a_landing_with_a_higher_speed_takes_less_time() {
         let mut config = config();
         (config.modes.landing_m_s, config.modes.sink_m_s) = (down_m_s, down_m_s);
         let mut vehicle = Vehicle::airborne(&config);
-        vehicle.ask(Request::GoTo { position_m: [0.0, 0.0, 15.0], yaw_rad: 0.0 });
+        vehicle.ask(Request::GoTo(Goal::at([0.0, 0.0, 15.0], 0.0)));
         vehicle.run(20.0);
         vehicle.ask(Request::Land);
         let begun = vehicle.tick;
@@ -486,7 +306,7 @@ fn a_return_follows_a_home_that_is_corrected_in_height() {
 /// What is lost, if the vehicle is, by setting one value in flight: it goes somewhere meanwhile, holds and lands.
 fn lost_by(setting: usize, value: Value) -> Option<String> {
     let mut vehicle = Vehicle::airborne(&config());
-    vehicle.ask(Request::GoTo { position_m: [6.0, -4.0, 10.0], yaw_rad: 0.0 });
+    vehicle.ask(Request::GoTo(Goal::at([6.0, -4.0, 10.0], 0.0)));
     vehicle.run(1.5);
     let mut settings = Settings::of(&vehicle.config);
     let change = settings.set(setting, value, true).ok()?;

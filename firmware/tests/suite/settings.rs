@@ -1,7 +1,7 @@
 //! Settings on their way through the whole autopilot: from a ground station's message to whoever flies by them.
 
 use firmware::autopilot::{Autopilot, Released};
-use firmware::commander::{Mode, Outcome, Refusal, Request};
+use firmware::commander::{Goal, Mode, Outcome, Refusal, Request};
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
 use firmware::mavlink::port::Profile;
@@ -13,7 +13,7 @@ use glissade_dialect::{COMMAND_LONG_DATA, MavCmd, MavParamType, PARAM_SET_DATA};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-use crate::modes::{Body, config};
+use crate::vehicle::{Body, config};
 
 /// `COMMAND_LONG` to arm.
 fn arm() -> Vec<u8> {
@@ -114,7 +114,7 @@ fn a_gain_set_in_flight_acts_without_a_jump() {
 fn a_limit_set_in_flight_is_kept_by_the_next_metres() {
     let mut flight = Flight::new(&hovering());
     flight.fly(500);
-    let go = Request::GoTo { position_m: [60.0, 0.0, 20.0], yaw_rad: 0.0 };
+    let go = Request::GoTo(Goal::at([60.0, 0.0, 20.0], 0.0));
     flight.pilot.inner.request(go).expect("room");
     flight.fly(6_000);
     let speed = flight.body.nav.velocity.x;

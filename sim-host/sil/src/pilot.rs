@@ -14,7 +14,7 @@
 //!
 //! Commands are given one after the other. The pilot knows what the vehicle reports, and not the truth.
 
-use firmware::commander::{Asked, Request};
+use firmware::commander::{Asked, Goal, Request};
 use firmware::signals::{NavState, Tick};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -81,7 +81,7 @@ impl Order {
             Self::Kill => return Asked::Kill,
             Self::TakeOff { height_m } => Request::TakeOff { height_m },
             Self::Hold => Request::Hold,
-            Self::GoTo { position_m, yaw_deg } => Request::GoTo { position_m, yaw_rad: yaw_deg.to_radians() },
+            Self::GoTo { position_m, yaw_deg } => Request::GoTo(Goal::at(position_m, yaw_deg.to_radians())),
             Self::Velocity { velocity_m_s, yaw_rate_deg_s } => {
                 Request::Velocity { velocity_m_s, yaw_rate_rad_s: yaw_rate_deg_s.to_radians() }
             }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::net::SocketAddr;
 
 use anyhow::{Result, ensure};
-use firmware::commander::{self, LAUNCH_HELD_S, Mode, Origin, Outcome, Refusal, Reply, Request};
+use firmware::commander::{self, Goal, LAUNCH_HELD_S, Mode, Origin, Outcome, Refusal, Reply, Request, SpeedKind};
 use firmware::config::ModeSettings;
 use firmware::failure::Manner;
 use firmware::mavlink::port::{LINKS, Ports, SENT_CAPACITY};
@@ -374,7 +374,7 @@ impl Session {
             );
         }
         let yaw_rad = yaw_deg.map_or_else(|| nav.attitude.euler_angles().2, |yaw| yaw.to_radians() as f32);
-        Ok(Request::GoTo { position_m, yaw_rad })
+        Ok(Request::GoTo(Goal::at(position_m, yaw_rad)))
     }
 
     fn say_wind(&mut self, what: &str) {
@@ -475,6 +475,16 @@ fn shown(value: Vector3<f64>) -> [f64; 3] {
     [value.x, value.y, value.z].map(|value| (value * 10.0).round() / 10.0 + 0.0)
 }
 
+/// A goal in words.
+fn describe_goal(goal: &Goal) -> String {
+    let rounded = |value: f32| (f64::from(value) * 10.0).round() / 10.0 + 0.0;
+    let place = goal.place_m.map(|[x, y]| format!("north {}, west {}", rounded(x), rounded(y)));
+    let height = goal.height_m.map(|z| format!("up {} m", rounded(z)));
+    let yaw = goal.yaw_rad.map(|yaw| format!("yaw {}°", yaw.to_degrees().round() + 0.0));
+    let given: Vec<String> = [place, height, yaw].into_iter().flatten().collect();
+    if given.is_empty() { "where it is".to_owned() } else { given.join(", ") }
+}
+
 /// A request in words.
 fn describe(request: &Request) -> String {
     match *request {
@@ -484,9 +494,15 @@ fn describe(request: &Request) -> String {
         // Heights over the sea come back from float with a tail of digits.
         Request::TakeOff { height_m } => format!("take-off to {} m", (f64::from(height_m) * 100.0).round() / 100.0),
         Request::Hold => "hold".to_owned(),
-        Request::GoTo { position_m, yaw_rad } => {
-            let [north, west, up] = shown(Vector3::from(position_m).cast());
-            format!("go to north {north}, west {west}, up {up} m, yaw {}°", yaw_rad.to_degrees().round() + 0.0)
+        Request::GoTo(goal) => format!("go to {}", describe_goal(&goal)),
+        Request::LandAt(goal) => format!("land at {}", describe_goal(&goal)),
+        Request::Speed { kind, speed_m_s } => {
+            let kind = match kind {
+                SpeedKind::Horizontal => "speed",
+                SpeedKind::Up => "speed upwards",
+                SpeedKind::Down => "speed downwards",
+            };
+            speed_m_s.map_or_else(|| format!("usual {kind}"), |speed| format!("{kind} {speed} m/s"))
         }
         Request::Velocity { velocity_m_s: [north, west, up], yaw_rate_rad_s } => {
             format!("velocity north {north}, west {west}, up {up} m/s, yaw {}°/s", yaw_rate_rad_s.to_degrees().round())

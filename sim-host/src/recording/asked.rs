@@ -2,16 +2,16 @@
 //! reads back as the same bits.
 
 use anyhow::{Result, bail, ensure};
-use firmware::commander::{Asked, Request};
+use firmware::commander::{Asked, Goal, Request, SpeedKind};
 
 /// The kinds, each with how many numbers it has.
-const KINDS: [(&str, usize); 13] = [
+const KINDS: [(&str, usize); 17] = [
     ("arm", 0),
     ("arm-force", 0),
     ("disarm", 0),
     ("takeoff", 1),
     ("hold", 0),
-    ("goto", 4),
+    ("goto", 5),
     ("velocity", 4),
     ("land", 0),
     ("return", 0),
@@ -19,6 +19,10 @@ const KINDS: [(&str, usize); 13] = [
     ("home", 3),
     ("home-here", 0),
     ("kill", 0),
+    ("land-at", 5),
+    ("speed", 1),
+    ("speed-up", 1),
+    ("speed-down", 1),
 ];
 
 /// As words.
@@ -31,7 +35,16 @@ pub(super) fn text(asked: &Asked) -> String {
             Request::Disarm => "disarm".to_owned(),
             Request::TakeOff { height_m } => format!("takeoff {height_m}"),
             Request::Hold => "hold".to_owned(),
-            Request::GoTo { position_m: [x, y, z], yaw_rad } => format!("goto {x} {y} {z} {yaw_rad}"),
+            Request::GoTo(goal) => format!("goto {}", numbers(&goal)),
+            Request::LandAt(goal) => format!("land-at {}", numbers(&goal)),
+            Request::Speed { kind, speed_m_s } => {
+                let name = match kind {
+                    SpeedKind::Horizontal => "speed",
+                    SpeedKind::Up => "speed-up",
+                    SpeedKind::Down => "speed-down",
+                };
+                format!("{name} {}", speed_m_s.unwrap_or(f32::NAN))
+            }
             Request::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s } => {
                 format!("velocity {x} {y} {z} {yaw_rate_rad_s}")
             }
@@ -42,6 +55,11 @@ pub(super) fn text(asked: &Asked) -> String {
             Request::SetHome { position_m: None } => "home-here".to_owned(),
         },
     }
+}
+
+/// The numbers of a goal; NaN for what it leaves open.
+fn numbers(goal: &Goal) -> String {
+    goal.numbers().map(|number| number.to_string()).join(" ")
 }
 
 /// From words.
@@ -62,7 +80,11 @@ pub(super) fn read(words: &[&str]) -> Result<Asked> {
         ("disarm", _) => Request::Disarm,
         ("takeoff", [height_m]) => Request::TakeOff { height_m: *height_m },
         ("hold", _) => Request::Hold,
-        ("goto", [x, y, z, yaw_rad]) => Request::GoTo { position_m: [*x, *y, *z], yaw_rad: *yaw_rad },
+        ("goto", [x, y, z, yaw, speed]) => Request::GoTo(Goal::of_numbers([*x, *y, *z, *yaw, *speed])),
+        ("land-at", [x, y, z, yaw, speed]) => Request::LandAt(Goal::of_numbers([*x, *y, *z, *yaw, *speed])),
+        ("speed", [speed]) => Request::Speed { kind: SpeedKind::Horizontal, speed_m_s: given(*speed) },
+        ("speed-up", [speed]) => Request::Speed { kind: SpeedKind::Up, speed_m_s: given(*speed) },
+        ("speed-down", [speed]) => Request::Speed { kind: SpeedKind::Down, speed_m_s: given(*speed) },
         ("velocity", [x, y, z, rate]) => Request::Velocity { velocity_m_s: [*x, *y, *z], yaw_rate_rad_s: *rate },
         ("land", _) => Request::Land,
         ("return", _) => Request::Return,
@@ -72,4 +94,8 @@ pub(super) fn read(words: &[&str]) -> Result<Asked> {
         _ => return Ok(Asked::Kill),
     };
     Ok(request.into())
+}
+
+fn given(number: f32) -> Option<f32> {
+    Some(number).filter(|number| !number.is_nan())
 }

@@ -1,4 +1,4 @@
-use firmware::commander::{Asked, Request};
+use firmware::commander::{Asked, Goal, Request, SpeedKind};
 
 use super::*;
 use crate::sil::replay::{Entry, Input, OnLink};
@@ -23,7 +23,12 @@ fn what_is_read_is_what_was_written() {
         Request::Disarm,
         Request::TakeOff { height_m: 1.0 / 3.0 },
         Request::Hold,
-        Request::GoTo { position_m: [x, y, z], yaw_rad: w },
+        Request::GoTo(Goal::at([x, y, z], w)),
+        Request::GoTo(Goal { yaw_rad: Some(z), ..Goal::default() }),
+        Request::LandAt(Goal { place_m: Some([x, y]), ..Goal::default() }),
+        Request::Speed { kind: SpeedKind::Horizontal, speed_m_s: Some(z) },
+        Request::Speed { kind: SpeedKind::Up, speed_m_s: None },
+        Request::Speed { kind: SpeedKind::Down, speed_m_s: Some(x) },
         Request::Velocity { velocity_m_s: [w, z, y], yaw_rate_rad_s: x },
         Request::Land,
         Request::Return,

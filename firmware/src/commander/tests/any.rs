@@ -17,7 +17,7 @@ fn any_request() -> impl Strategy<Value = Request> {
         number().prop_map(|height_m| Request::TakeOff { height_m }),
         Just(Request::Hold),
         ([number(), number(), number()], number())
-            .prop_map(|(position_m, yaw_rad)| Request::GoTo { position_m, yaw_rad }),
+            .prop_map(|(position_m, yaw_rad)| Request::GoTo(Goal::at(position_m, yaw_rad))),
         ([number(), number(), number()], number())
             .prop_map(|(velocity_m_s, yaw_rate_rad_s)| Request::Velocity { velocity_m_s, yaw_rate_rad_s }),
         Just(Request::Land),

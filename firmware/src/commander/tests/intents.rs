@@ -106,7 +106,7 @@ fn another_height_is_flown_while_taking_off() {
         input
     };
     assert_eq!(bench.ask(Request::TakeOff { height_m: 8.0 }, &at(2.0)), Outcome::Accepted);
-    let climb = |height_m: f32| Directive::Climb { height_m, speed_m_s: settings().take_off_m_s };
+    let climb = |height_m: f32| Directive::Climb { height_m, speed_m_s: settings().take_off_m_s, yaw: None };
     assert_eq!(bench.step(&at(3.0)).directive, climb(8.0), "over the ground, not over the present height");
     assert_eq!(bench.ask(Request::TakeOff { height_m: 4.0 }, &at(6.0)), Outcome::Accepted);
     assert_eq!(bench.step(&at(5.5)).directive, climb(4.0), "down again");
@@ -124,7 +124,7 @@ fn what_is_already_being_done_is_not_begun_again() {
         (State::Return { at_m: 100.0, climbs: true }, Request::Return),
         (State::Return { at_m: 10.0, climbs: false }, Request::Return),
         (State::Land, Request::Land),
-        (State::GoTo { position: Vector3::new(1.0, 2.0, 3.0), yaw: 0.5 }, GO_TO),
+        (State::GoTo(course([1.0, 2.0, 3.0], 0.5)), GO_TO),
     ] {
         let mut bench = Bench::new(state);
         let before = bench.step(&hovering());
@@ -188,7 +188,7 @@ fn landing_on_the_ground_disarms_in_every_state() {
 
 #[test]
 fn an_intent_outlasts_the_failure_that_overrides_it_and_only_the_pilot_resumes_it() {
-    let mut bench = Bench::new(State::GoTo { position: Vector3::new(1.0, 2.0, 3.0), yaw: 0.5 });
+    let mut bench = Bench::new(State::GoTo(course([1.0, 2.0, 3.0], 0.5)));
     let goes = bench.commander.intent;
     bench.run(3.0, &volts(13.5, &hovering()));
     let output = bench.step(&hovering());

@@ -36,7 +36,7 @@ const LISTED: [Listed; 6] = [
     Listed { mode: Mode::Follow, standard_mode: MISSION, properties: AUTO_MODE, name: "Mission" },
     Listed { mode: Mode::Return, standard_mode: SAFE_RECOVERY, properties: AUTO_MODE, name: "Return" },
     Listed { mode: Mode::Land, standard_mode: LAND, properties: AUTO_MODE, name: "Land" },
-    Listed { mode: Mode::GoTo, standard_mode: NON_STANDARD, properties: NOT_USER_SELECTABLE, name: "Offboard" },
+    Listed { mode: Mode::Velocity, standard_mode: NON_STANDARD, properties: NOT_USER_SELECTABLE, name: "Offboard" },
 ];
 
 /// The number of modes.

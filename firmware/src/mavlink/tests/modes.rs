@@ -19,7 +19,7 @@ fn modes_and_landed_states_are_encoded_as_px4_encodes_them() {
         (Mode::Follow, (4, 4), 2, 4),
         (Mode::Return, (4, 5), 2, 4),
         (Mode::Land, (4, 6), 4, 4),
-        (Mode::GoTo, (6, 0), 2, 4),
+        (Mode::GoTo, (4, 3), 2, 4),
         (Mode::Velocity, (6, 0), 2, 4),
         (Mode::Descent, (4, 6), 4, 5),
         (Mode::MotorOut, (4, 6), 4, 5),
