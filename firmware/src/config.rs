@@ -96,6 +96,62 @@ impl Default for ModeSettings {
     }
 }
 
+/// What sticks do. Rates and angles at full deflection.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default, deny_unknown_fields))]
+pub struct ManualSettings {
+    /// Greatest tilt in stabilized and altitude mode, rad.
+    pub tilt_max_rad: f32,
+    /// Greatest rate of the heading, rad/s.
+    pub yaw_rate_rad_s: f32,
+    /// Greatest horizontal speed in position mode, m/s.
+    pub speed_m_s: f32,
+    /// How cubic the roll and pitch sticks are in position mode, from 0 to 1.
+    pub expo_xy: f32,
+    /// The same of the throttle stick in altitude and position mode.
+    pub expo_z: f32,
+    /// The same of the yaw stick.
+    pub expo_yaw: f32,
+    /// Dead zone about the centre of a stick that holds there.
+    pub dead_zone: f32,
+    /// Thrust that a set-point of an attitude hovers with, as a fraction of its range.
+    pub hover_throttle: f32,
+    /// Least thrust by stick in the air, as a fraction of the greatest.
+    pub throttle_min: f32,
+    /// Greatest body rates in acro mode, roll, pitch, yaw, rad/s.
+    pub acro_rates_rad_s: [f32; 3],
+    /// How cubic the roll and pitch sticks are in acro mode, from 0 to 1.
+    pub acro_expo: f32,
+    /// The same of the yaw stick.
+    pub acro_expo_yaw: f32,
+    /// How much steeper the roll and pitch sticks become towards their ends in acro mode, below 1.
+    pub acro_super_expo: f32,
+    /// The same of the yaw stick.
+    pub acro_super_expo_yaw: f32,
+}
+
+/// PX4's defaults.
+impl Default for ManualSettings {
+    fn default() -> Self {
+        Self {
+            tilt_max_rad: 35.0_f32.to_radians(),
+            yaw_rate_rad_s: 150.0_f32.to_radians(),
+            speed_m_s: 10.0,
+            expo_xy: 0.6,
+            expo_z: 0.6,
+            expo_yaw: 0.6,
+            dead_zone: 0.1,
+            hover_throttle: 0.5,
+            throttle_min: 0.08,
+            acro_rates_rad_s: [100.0_f32.to_radians(); 3],
+            acro_expo: 0.69,
+            acro_expo_yaw: 0.69,
+            acro_super_expo: 0.7,
+            acro_super_expo_yaw: 0.7,
+        }
+    }
+}
+
 impl ModeSettings {
     /// Refuses settings that no vehicle can fly by; the ranges are those of the settings' table.
     ///
@@ -134,6 +190,9 @@ pub struct FlightConfig {
     /// Limits and failsafe settings of the flight modes.
     #[cfg_attr(feature = "serde", serde(default))]
     pub modes: ModeSettings,
+    /// What sticks do.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub manual: ManualSettings,
 }
 
 impl FlightConfig {
@@ -153,6 +212,7 @@ impl FlightConfig {
             estimator.validate()?;
         }
         self.modes.validate()?;
+        settings::check_manual(&self.manual)?;
         self.trajectory.validate()
     }
 
@@ -204,6 +264,7 @@ impl Default for FlightConfig {
             start_position_m: [0.0; 3],
             estimator: None,
             modes: ModeSettings::default(),
+            manual: ManualSettings::default(),
         }
     }
 }

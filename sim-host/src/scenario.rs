@@ -18,7 +18,7 @@ mod world;
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
-use firmware::config::{FlightConfig, ModeSettings, Start};
+use firmware::config::{FlightConfig, ManualSettings, ModeSettings, Start};
 use firmware::guidance::{JoinPlan, Trajectory};
 use firmware::settings::Settings;
 use serde::{Deserialize, Serialize};
@@ -131,6 +131,9 @@ pub struct ScenarioFile {
     /// How the vehicle flies by itself.
     #[serde(default)]
     pub modes: ModeSettings,
+    /// What sticks do.
+    #[serde(default)]
+    pub manual: ManualSettings,
     /// Settings of the firmware by their names, in place of what the keys above give.
     #[serde(default, skip_serializing_if = "Params::is_empty")]
     pub params: Params,
@@ -272,6 +275,7 @@ impl Scenario {
             start_position_m: self.file.start_position_m.map(|v| v as f32),
             estimator: self.file.sensors.as_ref().map(|suite| suite.estimator_settings(&self.file.home)),
             modes: self.file.modes,
+            manual: self.file.manual,
             ..FlightConfig::default()
         };
         self.controller.configure(&mut config);

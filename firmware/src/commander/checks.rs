@@ -1,7 +1,7 @@
 //! Checks before arming, take-off and position flight.
 
 use super::watch::Charge;
-use super::{AT_PLACE_M, Commander, CommanderInput, Intent, Known, Refusal};
+use super::{AT_PLACE_M, Commander, CommanderInput, Intent, Known, ManualMode, Refusal};
 use crate::math;
 use crate::signals::NavState;
 
@@ -16,7 +16,7 @@ impl Commander {
         let q = input.nav.attitude.quaternion();
         let cos_tilt = 1.0 - 2.0 * (q.i * q.i + q.j * q.j);
         self.check_configured()?;
-        self.check_systems(input)?;
+        self.check_systems(&self.intent, input)?;
         if math::max(cos_tilt, -1.0) < COS_TILT_MAX {
             Err(Refusal::NotLevel)
         } else if self.ground.is_airborne() || !is_slow(&input.nav) {
@@ -32,7 +32,7 @@ impl Commander {
     }
 
     /// Whether navigation, battery and rotors are fit for a flight.
-    fn check_systems(&self, input: &CommanderInput) -> Result<(), Refusal> {
+    fn check_systems(&self, intent: &Intent, input: &CommanderInput) -> Result<(), Refusal> {
         let health = &input.health;
         if input.nav_fresh && !health.attitude {
             return Err(Refusal::NotAligned);
@@ -40,7 +40,7 @@ impl Commander {
         if input.nav_fresh && !health.heading {
             return Err(Refusal::NoHeading);
         }
-        check_position(input)?;
+        check_known(intent, input)?;
         if self.battery.charge() == Charge::Critical {
             Err(Refusal::Battery)
         } else if input.failed_rotor.is_some() {
@@ -54,7 +54,7 @@ impl Commander {
 
     /// Whether the vehicle may take off.
     pub(super) fn check_take_off(&self, intent: &Intent, input: &CommanderInput) -> Result<(), Refusal> {
-        self.check_systems(input)?;
+        self.check_systems(intent, input)?;
         if self.battery.charge() != Charge::Good {
             return Err(Refusal::Battery);
         }
@@ -72,6 +72,21 @@ impl Commander {
         }
         check_position(input)?;
         if self.navigation.known() == Known::Position { Ok(()) } else { Err(Refusal::NoPosition) }
+    }
+}
+
+/// Whether what a mode needs is known of the motion.
+fn check_known(intent: &Intent, input: &CommanderInput) -> Result<(), Refusal> {
+    match intent {
+        Intent::Manual(ManualMode::Acro | ManualMode::Stabilized) if input.nav_fresh => Ok(()),
+        Intent::Manual(ManualMode::Altitude) if input.nav_fresh => {
+            if input.health.height {
+                Ok(())
+            } else {
+                Err(Refusal::NoHeight)
+            }
+        }
+        _ => check_position(input),
     }
 }
 

@@ -1,10 +1,11 @@
 //! Decisions on requests: refused with a reason, or the new intent and the state that it leads to.
 
+use super::ticks;
 use super::{
     Commander, CommanderInput, Course, Goal, Intent, Outcome, Override, Refusal, Request, SpeedKind, State,
     VELOCITY_TIMEOUT_S,
 };
-use super::{after_landing, ticks};
+use crate::schedule::COMMANDER;
 use crate::signals::Tick;
 
 /// An intent to leave the ground is held for this time while disarmed, s. Ground stations ask for a take-off, wait for
@@ -31,9 +32,9 @@ impl Commander {
 
     /// Arms, and begins the flight that is intended.
     fn arm(&mut self, force: bool, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
-        if let State::Idle { disarm_at } = &mut self.state {
-            *disarm_at = None;
-            self.forget_intent();
+        if let State::Idle { .. } = self.state {
+            self.state = State::Idle { disarm_at: self.unused_until(effective) };
+            self.rest_intent();
         }
         if self.state != State::Disarmed {
             return Ok(());
@@ -44,6 +45,7 @@ impl Commander {
         let launch = if intent.leaves_ground() { self.check_take_off(&intent, input) } else { Ok(()) };
         if !force {
             self.check(input)?;
+            self.check_sticks(effective.wrapping_sub(COMMANDER.offset), input)?;
             launch?;
         }
         if !self.home_is_set {
@@ -52,11 +54,11 @@ impl Commander {
         self.ground_m = input.nav.position.z;
         self.battery_answered = super::Charge::Good;
         self.station.rearm();
-        self.state = State::Idle { disarm_at: None };
+        self.state = State::Idle { disarm_at: self.unused_until(effective) };
         if intent.leaves_ground() && launch.is_ok() {
             self.engage(intent, effective, input);
         } else {
-            self.forget_intent();
+            self.rest_intent();
         }
         Ok(())
     }
@@ -81,7 +83,7 @@ impl Commander {
     /// Kept for the flight to come.
     fn intend_disarmed(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
         match intent {
-            Intent::Hold | Intent::Land => self.keep(intent, None),
+            Intent::Hold | Intent::Land | Intent::Manual(_) => self.keep(intent, None),
             Intent::TakeOff { .. } | Intent::Follow => {
                 self.check_take_off(&intent, input)?;
                 self.keep(intent, Some(effective.wrapping_add(ticks(LAUNCH_HELD_S))));
@@ -94,13 +96,11 @@ impl Commander {
 
     fn intend_idle(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
         match intent {
-            Intent::Hold => self.keep(intent, None),
+            Intent::Hold | Intent::Manual(_) => self.keep(intent, None),
             // On the ground it is landed already, and is disarmed as after a landing.
             Intent::Land | Intent::LandAt(_) => {
                 self.keep(Intent::Land, None);
-                if let State::Idle { disarm_at } = &mut self.state {
-                    disarm_at.get_or_insert(after_landing(effective));
-                }
+                self.state = State::Idle { disarm_at: Some(self.after_landing(effective)) };
             }
             Intent::TakeOff { .. } | Intent::Follow => {
                 self.check_take_off(&intent, input)?;
@@ -112,7 +112,8 @@ impl Commander {
     }
 
     fn intend_flying(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
-        if self.pursued() == Some(intent) && !matches!(intent, Intent::Velocity { .. }) {
+        let is_simpler = matches!(intent, Intent::Manual(mode) if self.state != State::Manual(mode));
+        if self.pursued() == Some(intent) && !is_simpler && !matches!(intent, Intent::Velocity { .. }) {
             // It does so already: a repetition changes nothing, and what a failure has begun is now the pilot's.
             self.keep(intent, None);
             self.overridden = None;
@@ -128,6 +129,7 @@ impl Commander {
             // A take-off takes another height.
             (State::TakeOff { .. }, Intent::TakeOff { .. }) | (_, Intent::Land) => {}
             (_, Intent::TakeOff { .. }) => return Err(Refusal::InAir),
+            (_, Intent::Manual(mode)) => self.check_manual(mode, effective.wrapping_sub(COMMANDER.offset), input)?,
             _ => self.check_position(input)?,
         }
         self.engage(intent, effective, input);
@@ -150,8 +152,16 @@ impl Commander {
         self.overridden = None;
     }
 
+    /// After a landing or a disarming, and with an arming that begins no flight: a manual mode stays.
+    pub(super) fn rest_intent(&mut self) {
+        match self.intent {
+            Intent::Manual(_) => self.overridden = None,
+            _ => self.forget_intent(),
+        }
+    }
+
     /// Begins with what the pilot wants, and ends what has overridden it.
-    fn engage(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) {
+    pub(super) fn engage(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) {
         self.state = self.state_for(&intent, effective, input.nav.position.z);
         if let Intent::GoTo(Goal { speed_m_s: Some(speed_m_s), .. }) = intent {
             self.speeds.choose(SpeedKind::Horizontal, Some(speed_m_s));
@@ -168,7 +178,9 @@ impl Commander {
             Override::RotorFailed => State::MotorOut,
             Override::BatteryLow => self.state_for(&Intent::Return, effective, height),
             Override::BatteryCritical => State::Land,
-            Override::StationLost { action } => self.state_for(&action.pursues(), effective, height),
+            Override::StationLost { action } | Override::SticksLost { action } => {
+                self.state_for(&action.pursues(), effective, height)
+            }
             Override::SensorsGone => State::Disarmed,
         };
         self.overridden = Some(failure);
@@ -189,6 +201,7 @@ impl Commander {
             Intent::Follow => State::Join,
             Intent::Land => State::Land,
             Intent::Hold => State::Hold,
+            Intent::Manual(mode) => State::Manual(mode),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::guidance::hands::ManualMode;
 use crate::guidance::setpoint::Speeds;
 use crate::signals::{NavHealth, Tick};
 
@@ -58,6 +59,15 @@ pub enum Directive {
         /// Greatest speeds.
         speeds: Speeds,
     },
+    /// Fly by the sticks.
+    Manual {
+        /// How.
+        mode: ManualMode,
+        /// Whether the vehicle is off the ground; while it is not, it is kept level.
+        in_air: bool,
+        /// Greatest speed downwards where the stick's centre holds the height, m/s.
+        sink_m_s: f32,
+    },
     /// Fly with a velocity; zero brakes and holds the place where the vehicle stops.
     Velocity {
         /// In the world, m/s.
@@ -93,6 +103,7 @@ impl Directive {
     pub fn is_finite(&self) -> bool {
         match self {
             Self::Stop | Self::Idle | Self::Follow { .. } => true,
+            Self::Manual { sink_m_s, .. } => sink_m_s.is_finite(),
             Self::GoTo { position, yaw, .. } => {
                 crate::math::all_finite(position.as_slice()) && yaw.is_none_or(f32::is_finite)
             }
@@ -122,6 +133,14 @@ pub enum Mode {
     GoTo,
     /// Flying with a velocity.
     Velocity,
+    /// By hand: body rates and thrust.
+    Acro,
+    /// By hand: tilt and thrust.
+    Stabilized,
+    /// By hand: tilt and rate of climb.
+    Altitude,
+    /// By hand: velocity.
+    Position,
     /// On the configured trajectory, or on the way to it.
     Follow,
     /// On the way home.
@@ -132,4 +151,15 @@ pub enum Mode {
     Descent,
     /// Descending with a failed rotor.
     MotorOut,
+}
+
+impl From<ManualMode> for Mode {
+    fn from(mode: ManualMode) -> Self {
+        match mode {
+            ManualMode::Acro => Self::Acro,
+            ManualMode::Stabilized => Self::Stabilized,
+            ManualMode::Altitude => Self::Altitude,
+            ManualMode::Position => Self::Position,
+        }
+    }
 }

@@ -35,6 +35,14 @@ impl Commander {
 
     fn answer_loss(&mut self, effective: Tick, input: &CommanderInput) -> Option<Event> {
         let known = self.navigation.known();
+        if let State::Manual(_) = self.state
+            && self.overridden.is_none()
+            && input.nav_fresh
+            && input.health.attitude
+        {
+            // The pilot flies on, in a mode that is simple enough.
+            return None;
+        }
         let before = match self.overridden {
             Some(Override::Loss { known }) => known,
             _ if known == Known::Position => return None,

@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::{Goal, Known, Mode, Request, StationAction};
+use super::{Goal, Known, ManualMode, Mode, Request, StationAction};
 
 /// What the pilot wants: the last request to fly that was accepted. It is kept while a failure overrides it. A landing
-/// and a disarming end it; then it is [`Hold`](Self::Hold), as before the first request.
+/// and a disarming end it, unless it is to fly by hand; then it is [`Hold`](Self::Hold), as before the first request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Intent {
     /// Stay.
@@ -17,6 +17,8 @@ pub enum Intent {
     },
     /// Go to a place, a height or a heading, and stay.
     GoTo(Goal),
+    /// Fly by hand.
+    Manual(ManualMode),
     /// Fly with a velocity.
     Velocity {
         /// In the world, m/s.
@@ -40,6 +42,7 @@ impl Intent {
         Some(match *request {
             Request::Arm { .. } | Request::Disarm | Request::SetHome { .. } | Request::Speed { .. } => return None,
             Request::Hold => Self::Hold,
+            Request::Manual(mode) => Self::Manual(mode),
             Request::TakeOff { height_m } => Self::TakeOff { height_m },
             Request::GoTo(goal) => Self::GoTo(goal),
             Request::Velocity { velocity_m_s, yaw_rate_rad_s } => {
@@ -56,6 +59,7 @@ impl Intent {
     pub fn mode(&self) -> Mode {
         match self {
             Self::Hold => Mode::Hold,
+            Self::Manual(mode) => (*mode).into(),
             Self::TakeOff { .. } => Mode::TakeOff,
             Self::GoTo(_) => Mode::GoTo,
             Self::Velocity { .. } => Mode::Velocity,
@@ -93,6 +97,11 @@ pub enum Override {
         /// What is done without it.
         action: StationAction,
     },
+    /// No sticks in a manual mode.
+    SticksLost {
+        /// What is done without them.
+        action: StationAction,
+    },
     /// No sensor samples: the rotors are stopped.
     SensorsGone,
 }
@@ -103,7 +112,7 @@ impl Override {
         match self {
             Self::BatteryLow => Some(Intent::Return),
             Self::BatteryCritical => Some(Intent::Land),
-            Self::StationLost { action } => Some(action.pursues()),
+            Self::StationLost { action } | Self::SticksLost { action } => Some(action.pursues()),
             Self::Loss { .. } | Self::RotorFailed | Self::OuterHung | Self::SensorsGone => None,
         }
     }

@@ -17,6 +17,7 @@ mod failsafe;
 mod goal;
 mod home;
 mod intent;
+mod manual;
 mod request;
 mod state;
 mod station;
@@ -30,6 +31,8 @@ pub use decide::LAUNCH_HELD_S;
 pub use directive::{Directive, Known, Mode};
 pub use goal::{Goal, SpeedKind};
 pub use intent::{Intent, Override};
+
+pub use crate::guidance::hands::ManualMode;
 pub use request::{
     Answers, Asked, Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies,
     Reply, Request, StationReply, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
@@ -41,6 +44,7 @@ use nalgebra::Vector3;
 
 use self::checks::is_slow;
 use self::goal::ChosenSpeeds;
+use self::manual::Hand;
 use self::station::StationLoss;
 use self::watch::{BatteryWatch, Charge, GroundWatch, NavWatch};
 use crate::config::{FlightConfig, ModeSettings, Start};
@@ -50,7 +54,7 @@ use crate::latest::Latest;
 use crate::math;
 use crate::schedule::COMMANDER;
 use crate::sensors::BatterySample;
-use crate::settings::{self, Change, Changes, Place, Settings};
+use crate::settings::{self, Change, Changes, Place, Settings, Value};
 use crate::signals::{NavHealth, NavState, TICK_S, Tick};
 
 /// Snapshot for the commander.
@@ -155,6 +159,11 @@ pub struct Commander {
     ground: GroundWatch,
     /// The answer to the loss of the ground station.
     station: StationLoss,
+    /// What sticks may do.
+    hand: Hand,
+    /// How long it idles on the ground, s: after arming, for ever if that is not positive, and after a landing.
+    unused_s: f32,
+    landed_s: f32,
     /// The charge level whose failsafe has already acted. It acts once, so that the pilot can override it.
     battery_answered: Charge,
 }
@@ -163,8 +172,6 @@ pub struct Commander {
 pub const VELOCITY_TIMEOUT_S: f32 = 1.0;
 /// Time for which nothing starts after a kill, s: more than what waits on another link needs to be read.
 const KILL_HOLDS_S: f32 = 1.0;
-/// Time for which the rotors idle after a landing, s.
-const IDLE_AFTER_LANDING_S: f32 = 1.0;
 /// Acceptance radius of a height, m.
 const AT_HEIGHT_M: f32 = 0.3;
 /// Acceptance radius of a place, m; the vehicle must also be slow.
@@ -186,11 +193,6 @@ const fn has_come(at: Tick, by: Tick) -> bool {
 /// The number of ticks in a time.
 const fn ticks(seconds: f32) -> Tick {
     (seconds / TICK_S + 0.5) as Tick
-}
-
-/// When a vehicle that has landed is disarmed.
-const fn after_landing(landed: Tick) -> Tick {
-    landed.wrapping_add(ticks(IDLE_AFTER_LANDING_S))
 }
 
 impl Commander {
@@ -222,16 +224,31 @@ impl Commander {
             battery: BatteryWatch::default(),
             ground: GroundWatch::new(flies, start.z),
             station: StationLoss::default(),
+            hand: Hand::default(),
+            unused_s: 10.0,
+            landed_s: 2.0,
             battery_answered: Charge::Good,
         }
     }
 
     /// Takes over what stands in the settings alone. A vehicle that is built from a configuration was configured.
     pub fn configure(&mut self, settings: &Settings) {
-        self.configured = settings.is_configured();
-        for index in [settings::NAV_DLL_ACT, settings::COM_DL_LOSS_T] {
+        for index in settings::OF_COMMANDER {
             if let Some(value) = settings.get(index) {
+                self.set(index, value);
+            }
+        }
+    }
+
+    /// Takes over a value that stands in the settings alone.
+    fn set(&mut self, index: usize, value: Value) {
+        match index {
+            settings::SYS_AUTOSTART => self.configured = value.int() != 0,
+            settings::COM_DISARM_PRFLT => self.unused_s = value.real(),
+            settings::COM_DISARM_LAND => self.landed_s = value.real(),
+            _ => {
                 self.station.set(index, value);
+                self.hand.set(index, value);
             }
         }
     }
@@ -239,11 +256,7 @@ impl Commander {
     /// Takes over a setting.
     pub fn apply(&mut self, change: &Change) {
         change.apply_to(&mut self.settings, Place::modes);
-        let index = usize::from(change.index);
-        if index == settings::SYS_AUTOSTART {
-            self.configured = change.value.int() != 0;
-        }
-        self.station.set(index, change.value);
+        self.set(usize::from(change.index), change.value);
     }
 
     /// How it flies by itself.
@@ -262,7 +275,7 @@ impl Commander {
         for change in &input.changes {
             self.apply(change);
         }
-        self.watch(input);
+        self.watch(released, input);
         let mut replies = Replies::new();
         if input.kills != self.kills {
             self.kills = input.kills;
@@ -282,10 +295,12 @@ impl Commander {
             // As many replies fit as commands.
             let _ = replies.push(Reply { command: *command, outcome });
         }
-        let event = self.fail_safe(effective, input);
+        let event = self.take_sticks(effective, input);
+        let event = self.fail_safe(effective, input).or(event);
         self.progress(effective, input);
         let home = self.known_home(input);
-        CommanderOutput { home, ..self.output(input.nav.position.z, self.check(input), replies, event) }
+        let armable = self.check(input).and_then(|()| self.check_sticks(released, input));
+        CommanderOutput { home, ..self.output(input.nav.position.z, armable, replies, event) }
     }
 
     /// The output, at a height (z, m), while home is unknown.
@@ -314,18 +329,32 @@ impl Commander {
         }
     }
 
+    /// When a vehicle that has landed is disarmed.
+    fn after_landing(&self, landed: Tick) -> Tick {
+        landed.wrapping_add(ticks(self.landed_s))
+    }
+
+    /// When a vehicle that was armed and does not fly is disarmed.
+    fn unused_until(&self, armed: Tick) -> Option<Tick> {
+        (self.unused_s > 0.0).then(|| armed.wrapping_add(ticks(self.unused_s)))
+    }
+
     /// The present state.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    fn watch(&mut self, input: &CommanderInput) {
+    fn watch(&mut self, released: Tick, input: &CommanderInput) {
         self.navigation.step(input);
         self.battery.step(input, &self.settings, self.state != State::Disarmed);
         match self.state {
             State::Disarmed | State::Idle { .. } => self.ground.step_idle(input),
             State::Land | State::Descent | State::MotorOut => {
                 self.ground.step_flying(input, self.weight_n, Some(self.navigation.known()));
+            }
+            State::Manual(mode) => {
+                let descends = self.descends_by_hand(mode, released, input);
+                self.ground.step_flying(input, self.weight_n, descends);
             }
             _ => self.ground.step_flying(input, self.weight_n, None),
         }
@@ -335,7 +364,7 @@ impl Commander {
         self.state = State::Disarmed;
         self.home_is_set = false;
         self.speeds = ChosenSpeeds::default();
-        self.forget_intent();
+        self.rest_intent();
     }
 
     /// Transitions on arrival, touchdown and timeout.
@@ -365,7 +394,15 @@ impl Commander {
             State::Land | State::Descent | State::MotorOut if !self.ground.is_airborne() => {
                 self.ground_m = nav.position.z;
                 self.forget_intent();
-                State::Idle { disarm_at: Some(after_landing(effective)) }
+                State::Idle { disarm_at: Some(self.after_landing(effective)) }
+            }
+            State::Manual(mode)
+                if !self.ground.is_airborne()
+                    && self.descends_by_hand(mode, effective.wrapping_sub(COMMANDER.offset), input).is_some() =>
+            {
+                self.ground_m = nav.position.z;
+                self.rest_intent();
+                State::Idle { disarm_at: Some(self.after_landing(effective)) }
             }
             state => state,
         };
@@ -385,6 +422,11 @@ impl Commander {
             State::Idle { .. } => Directive::Idle,
             State::TakeOff { to_m, .. } => climb(to_m, settings.take_off_m_s),
             State::Hold => Directive::HOLD,
+            State::Manual(mode) => Directive::Manual {
+                mode,
+                in_air: self.ground.is_airborne(),
+                sink_m_s: self.rate_of_descent(settings.sink_m_s, height),
+            },
             State::GoTo(course) | State::Approach(course) => self.steer(&course, height),
             State::Velocity { velocity, yaw_rate } => Directive::Velocity { velocity, yaw_rate },
             State::Join => go_to(self.entry, Some(self.entry_yaw)),
@@ -410,13 +452,18 @@ impl Commander {
 
     fn descend(&self, rate_m_s: f32, height: f32, heading_free: bool) -> Directive {
         let known = self.navigation.known();
+        Directive::Descend { rate_m_s: self.rate_of_descent(rate_m_s, height), known, heading_free }
+    }
+
+    /// The rate of a descent at a height (z, m): no more than `rate_m_s`, and slow near the ground.
+    fn rate_of_descent(&self, rate_m_s: f32, height: f32) -> f32 {
         // Home may have been set to below the ground, and the ground there may be higher than where it last stood.
         let over_ground = height - math::max(self.home.z, self.ground_m);
         let touchdown_m_s = math::min(rate_m_s, self.settings.touchdown_m_s);
         // At an unknown height the ground may be anywhere.
-        let may_touch = known >= Known::Climb || over_ground < FINAL_HEIGHT_M;
+        let may_touch = self.navigation.known() >= Known::Climb || over_ground < FINAL_HEIGHT_M;
         let faster_m_s = if may_touch { 0.0 } else { self.faster_by(over_ground - SLOW_HEIGHT_M, touchdown_m_s) };
-        Directive::Descend { rate_m_s: math::min(rate_m_s, touchdown_m_s + faster_m_s), known, heading_free }
+        math::min(rate_m_s, touchdown_m_s + faster_m_s)
     }
 
     /// How much faster than to touch down a descent may be, m/s, to slow down within a height, m, by the setpoint's braking

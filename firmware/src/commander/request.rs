@@ -2,7 +2,7 @@
 
 use core::ops::RangeInclusive;
 
-use super::{Goal, SpeedKind, StationAction};
+use super::{Goal, ManualMode, SpeedKind, StationAction};
 use crate::math;
 
 /// Default height of a take-off, m.
@@ -34,6 +34,8 @@ pub enum Request {
     },
     /// Brake, and stay.
     Hold,
+    /// Fly by hand.
+    Manual(ManualMode),
     /// Go to a place, a height or a heading, and stay.
     GoTo(Goal),
     /// Set a speed for the way to a goal.
@@ -84,7 +86,13 @@ impl Request {
             }
             Self::Speed { speed_m_s, .. } => speed_m_s.is_none_or(|speed| SPEEDS_M_S.contains(&speed)),
             Self::SetHome { position_m } => position_m.is_none_or(|position_m| within(&position_m, FARTHEST_M)),
-            Self::Arm { .. } | Self::Disarm | Self::Hold | Self::Land | Self::Return | Self::Follow => true,
+            Self::Arm { .. }
+            | Self::Disarm
+            | Self::Hold
+            | Self::Manual(_)
+            | Self::Land
+            | Self::Return
+            | Self::Follow => true,
         }
     }
 }
@@ -181,6 +189,12 @@ pub enum Refusal {
     Unsettled,
     /// The rotors were stopped a moment ago.
     Killed,
+    /// The kill switch is on.
+    KillSwitch,
+    /// No sticks.
+    NoSticks,
+    /// The throttle stick would lift the vehicle.
+    ThrottleUp,
 }
 
 /// The reply to a command.
@@ -244,6 +258,15 @@ pub enum Event {
         /// What is done without it.
         action: StationAction,
     },
+    /// No sticks any more in a manual mode.
+    SticksLost {
+        /// What is done without them.
+        action: StationAction,
+    },
+    /// Position or velocity unknown in position mode: altitude mode.
+    NoPositionMode,
+    /// Vertical velocity unknown in altitude mode: stabilized mode.
+    NoAltitudeMode,
     /// A rotor has failed: descends at once, without yaw control.
     RotorFailed {
         /// Which, from 0.

@@ -14,24 +14,29 @@
 //! Return, Approach             ─ arrived ──────────► Land
 //! Land, Descent, MotorOut      ─ touchdown ────────► Idle
 //!
-//! Cruise, TakeOff, Land, Descent ─ hold ───────────► Hold
-//! Cruise, TakeOff, Land, Descent ─ go to ──────────► GoTo
-//! Cruise, TakeOff, Land, Descent ─ velocity ───────► Velocity
-//! Cruise, TakeOff, Land, Descent ─ return ─────────► Return
-//! Cruise, TakeOff                ─ land ───────────► Land
-//! Cruise, TakeOff, Land, Descent ─ land there ─────► Approach
-//! Hold, GoTo, Velocity, Return, Approach, TakeOff, Land, Descent ─ follow ► Join
+//! Manual                       ─ touchdown, stick down ► Idle
+//! Idle                         ─ stick up ─────────► Manual
+//! Cruise, TakeOff, Land        ─ stick moved ──────► Manual
+//! Cruise, TakeOff, Land, Descent ─ by hand ────────► Manual
+//! Manual                       ─ sticks lost ──────► Return by SticksLost
+//! Manual, Cruise, TakeOff, Land, Descent ─ hold ───────────► Hold
+//! Manual, Cruise, TakeOff, Land, Descent ─ go to ──────────► GoTo
+//! Manual, Cruise, TakeOff, Land, Descent ─ velocity ───────► Velocity
+//! Manual, Cruise, TakeOff, Land, Descent ─ return ─────────► Return
+//! Manual, Cruise, TakeOff                ─ land ───────────► Land
+//! Manual, Cruise, TakeOff, Land, Descent ─ land there ─────► Approach
+//! Hold, Manual, GoTo, Velocity, Return, Approach, TakeOff, Land, Descent ─ follow ► Join
 //!
-//! Cruise, TakeOff              ─ battery critical ─► Land by BatteryCritical
-//! Hold, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ battery low ► Return by BatteryLow
+//! Manual, Cruise, TakeOff              ─ battery critical ─► Land by BatteryCritical
+//! Hold, Manual, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ battery low ► Return by BatteryLow
 //! GoTo, Velocity, Join, Follow, Approach, TakeOff ─ station lost: hold ► Hold by StationLost
 //! Hold, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ station lost: return ► Return by StationLost
 //! Hold, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ station lost: land ► Land by StationLost
 //! Cruise, TakeOff, Land        ─ loss ─────────────► Descent by Loss
-//! Cruise, TakeOff, Land        ─ hung ─────────────► Descent by OuterHung
-//! Cruise, TakeOff, Land, Descent ─ rotor failed ───► MotorOut by RotorFailed
-//! Cruise, TakeOff, Land, Descent, MotorOut ─ gone ─► Disarmed by SensorsGone
-//! Idle, Cruise, TakeOff, Land, Descent, MotorOut ─ kill ────────► Disarmed
+//! Manual, Cruise, TakeOff, Land        ─ hung ─────────────► Descent by OuterHung
+//! Manual, Cruise, TakeOff, Land, Descent ─ rotor failed ───► MotorOut by RotorFailed
+//! Manual, Cruise, TakeOff, Land, Descent, MotorOut ─ gone ─► Disarmed by SensorsGone
+//! Idle, Manual, Cruise, TakeOff, Land, Descent, MotorOut ─ kill ────────► Disarmed
 //!
 //! Cruise = Hold, GoTo, Velocity, Join, Follow, Return, Approach
 //! ```
@@ -52,7 +57,7 @@
 
 use nalgebra::Vector3;
 
-use super::Mode;
+use super::{ManualMode, Mode};
 use crate::signals::Tick;
 
 /// State of the commander (see the diagram above).
@@ -76,6 +81,8 @@ pub enum State {
     Hold,
     /// Going to a place, a height and a heading.
     GoTo(Course),
+    /// Flying by hand.
+    Manual(ManualMode),
     /// Flying with a velocity.
     Velocity {
         /// m/s.
@@ -126,6 +133,7 @@ impl State {
             Self::Idle { .. } => Mode::Idle,
             Self::TakeOff { .. } => Mode::TakeOff,
             Self::Hold => Mode::Hold,
+            Self::Manual(mode) => (*mode).into(),
             Self::GoTo(_) => Mode::GoTo,
             Self::Velocity { .. } => Mode::Velocity,
             Self::Join | Self::Follow { .. } => Mode::Follow,

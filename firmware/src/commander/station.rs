@@ -18,7 +18,7 @@ pub enum StationAction {
 
 impl StationAction {
     /// By its number in `NAV_DLL_ACT`; `None` for 0, nothing.
-    fn of(number: i32) -> Option<Self> {
+    pub(super) fn of(number: i32) -> Option<Self> {
         match number {
             1 => Some(Self::Hold),
             2 => Some(Self::Return),
@@ -83,6 +83,7 @@ impl Commander {
             self.state,
             State::Disarmed
                 | State::Idle { .. }
+                | State::Manual(_)
                 | State::Return { .. }
                 | State::Land
                 | State::Descent

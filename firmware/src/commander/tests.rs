@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::*;
+use crate::latest::Sticks;
 
 const PERIOD: Tick = COMMANDER.period;
 
@@ -61,11 +62,18 @@ impl Bench {
         commander.state = state;
         (commander.intent, commander.overridden) = wanted(&state);
         commander.ground = GroundWatch::new(flies, 0.0);
+        // The time on the ground is the subject of tests of its own.
+        (commander.unused_s, commander.landed_s) = (0.0, 1.0);
         Self { commander, tick: 1_000 }
     }
 
+    /// Sticks, if there are any, are as new as can be.
     fn step(&mut self, input: &CommanderInput) -> CommanderOutput {
-        let output = self.commander.step(self.tick, input);
+        let mut input = input.clone();
+        if let Some(sticks) = &mut input.latest.sticks {
+            sticks.at = self.tick;
+        }
+        let output = self.commander.step(self.tick, &input);
         self.tick += PERIOD;
         output
     }
@@ -84,6 +92,7 @@ fn wanted(state: &State) -> (Intent, Option<Override>) {
     match *state {
         State::Disarmed | State::Idle { .. } | State::Hold => (Intent::Hold, None),
         State::TakeOff { from_m, to_m } => (Intent::TakeOff { height_m: to_m - from_m }, None),
+        State::Manual(mode) => (Intent::Manual(mode), None),
         State::GoTo(course) => (Intent::GoTo(goal(&course)), None),
         State::Approach(course) => (Intent::LandAt(goal(&course)), None),
         State::Velocity { velocity, yaw_rate } => (Intent::Velocity { velocity, yaw_rate }, None),
@@ -121,6 +130,7 @@ fn states() -> Vec<State> {
         State::Hold,
         State::GoTo(course(velocity.into(), 0.0)),
         State::Approach(course(velocity.into(), 0.0)),
+        State::Manual(ManualMode::Position),
         State::Velocity { velocity, yaw_rate: 0.0 },
         State::Join,
         State::Follow { since: 0 },
@@ -148,7 +158,10 @@ fn situation(commander: &Commander) -> String {
 /// The transitions out of a state, by cause.
 fn outcomes(state: State) -> Vec<(&'static str, String)> {
     let flies = !matches!(state, State::Disarmed | State::Idle { .. });
-    let quiet = if flies { hovering() } else { standing() };
+    let mut quiet = if flies { hovering() } else { standing() };
+    if let State::Manual(_) = state {
+        quiet.latest.sticks = Some(crate::latest::Stamped { value: Sticks::CENTRED, at: 0 });
+    }
     let end = |run: &dyn Fn(&mut Bench)| {
         let mut bench = Bench::new(state);
         run(&mut bench);
@@ -165,6 +178,9 @@ fn outcomes(state: State) -> Vec<(&'static str, String)> {
         ("kill", last(0.1, CommanderInput { kills: 1, ..quiet.clone() })),
         ("take off", ask(TAKE_OFF)),
         ("hold", ask(Request::Hold)),
+        ("by hand", by_hand(state, &quiet)),
+        ("stick moved", stick_moved(state, &quiet)),
+        ("stick up", stick_up(state)),
         ("go to", ask(GO_TO)),
         ("velocity", ask(VELOCITY)),
         ("land", ask(Request::Land)),
@@ -180,11 +196,56 @@ fn outcomes(state: State) -> Vec<(&'static str, String)> {
         ("station lost: hold", end(&|bench| station::is_lost(bench, StationAction::Hold, &quiet))),
         ("station lost: return", end(&|bench| station::is_lost(bench, StationAction::Return, &quiet))),
         ("station lost: land", end(&|bench| station::is_lost(bench, StationAction::Land, &quiet))),
-        ("touchdown", last(0.6, CommanderInput { thrust_n: 0.0, ..quiet.clone() })),
+        ("sticks lost", last(0.1, CommanderInput { latest: Latest::default(), ..quiet.clone() })),
+        ("touchdown", touched_down(state, &quiet)),
+        ("stick down", if let State::Manual(_) = state { touched_down(state, &quiet) } else { name(&state) }),
         ("rested", rested(state)),
         ("arrived", arrived(state)),
         ("timeout", timed_out(state)),
     ]
+}
+
+/// Asked for, with sticks.
+fn by_hand(state: State, quiet: &CommanderInput) -> String {
+    let mut input = quiet.clone();
+    input.latest.sticks = Some(crate::latest::Stamped { value: Sticks::CENTRED, at: 0 });
+    let mut bench = Bench::new(state);
+    bench.ask(Request::Manual(ManualMode::Altitude), &input);
+    situation(&bench.commander)
+}
+
+/// Flying by itself, a stick to its end after a while.
+fn stick_moved(state: State, quiet: &CommanderInput) -> String {
+    let mut input = quiet.clone();
+    input.latest.sticks = Some(crate::latest::Stamped { value: Sticks::CENTRED, at: 0 });
+    let mut bench = Bench::new(state);
+    bench.commander.hand.set(crate::settings::COM_RC_OVERRIDE, Value::Int(3));
+    bench.run(0.1, &input);
+    input.latest.sticks = Some(crate::latest::Stamped { value: Sticks { roll: 0.5, ..Sticks::CENTRED }, at: 0 });
+    bench.run(0.1, &input);
+    situation(&bench.commander)
+}
+
+/// On the ground in a manual mode, the throttle stick up.
+fn stick_up(state: State) -> String {
+    let State::Idle { .. } = state else { return name(&state) };
+    let mut bench = Bench::new(state);
+    bench.commander.intent = Intent::Manual(ManualMode::Stabilized);
+    let mut input = standing();
+    input.latest.sticks = Some(crate::latest::Stamped { value: Sticks { throttle: 0.6, ..Sticks::CENTRED }, at: 0 });
+    bench.run(0.1, &input);
+    situation(&bench.commander)
+}
+
+/// On the ground with little thrust, in a manual mode with the throttle stick down.
+fn touched_down(state: State, quiet: &CommanderInput) -> String {
+    let mut input = CommanderInput { thrust_n: 0.0, ..quiet.clone() };
+    if let Some(sticks) = &mut input.latest.sticks {
+        sticks.value.throttle = 0.0;
+    }
+    let mut bench = Bench::new(state);
+    bench.run(0.6, &input);
+    situation(&bench.commander)
 }
 
 /// Disarmed, and armed a second after a request.

@@ -13,6 +13,10 @@ impl Mode {
             Self::Hold => "hold",
             Self::GoTo => "go-to",
             Self::Velocity => "velocity",
+            Self::Acro => "acro",
+            Self::Stabilized => "stabilized",
+            Self::Altitude => "altitude",
+            Self::Position => "position",
             Self::Follow => "trajectory",
             Self::Return => "return",
             Self::Land => "land",
@@ -30,6 +34,7 @@ impl Request {
             Self::Disarm => "Disarming",
             Self::TakeOff { .. } => "Takeoff",
             Self::Hold => "Hold",
+            Self::Manual(_) => "Manual mode",
             Self::GoTo(_) => "Go to",
             Self::Speed { .. } => "Speed",
             Self::Velocity { .. } => "Velocity",
@@ -63,6 +68,9 @@ impl Refusal {
             Self::Busy => "too many commands at once",
             Self::Unsettled => "parameters are being set",
             Self::Killed => "killed a second ago",
+            Self::KillSwitch => "kill switch on",
+            Self::NoSticks => "no sticks",
+            Self::ThrottleUp => "throttle stick is up",
         }
     }
 }
@@ -82,6 +90,11 @@ impl Event {
             Self::StationLost { action: StationAction::Hold } => "Ground station lost: holding",
             Self::StationLost { action: StationAction::Return } => "Ground station lost: returning home",
             Self::StationLost { action: StationAction::Land } => "Ground station lost: landing",
+            Self::SticksLost { action: StationAction::Hold } => "Sticks lost: holding",
+            Self::SticksLost { action: StationAction::Return } => "Sticks lost: returning home",
+            Self::SticksLost { action: StationAction::Land } => "Sticks lost: landing",
+            Self::NoPositionMode => "Position estimate lost: altitude mode",
+            Self::NoAltitudeMode => "Height estimate lost: stabilized mode",
             // Pilots count motors from 1.
             Self::RotorFailed { rotor: 0 } => "Motor 1 failed: descending without yaw control",
             Self::RotorFailed { rotor: 1 } => "Motor 2 failed: descending without yaw control",
@@ -97,7 +110,7 @@ impl Event {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commander::{Goal, SpeedKind};
+    use crate::commander::{Goal, ManualMode, SpeedKind};
 
     /// Length of the text in a MAVLink `STATUSTEXT`.
     const STATUSTEXT: usize = 50;
@@ -112,6 +125,7 @@ mod tests {
             Request::TakeOff { height_m: 0.0 },
             Request::Hold,
             Request::GoTo(Goal::default()),
+            Request::Manual(ManualMode::Acro),
             Request::Speed { kind: SpeedKind::Up, speed_m_s: None },
             Request::Velocity { velocity_m_s: zero, yaw_rate_rad_s: 0.0 },
             Request::Land,
@@ -138,6 +152,9 @@ mod tests {
             Refusal::Busy,
             Refusal::Unsettled,
             Refusal::Killed,
+            Refusal::KillSwitch,
+            Refusal::NoSticks,
+            Refusal::ThrottleUp,
         ];
         for (request, refusal) in requests.iter().flat_map(|request| refusals.map(|refusal| (request, refusal))) {
             let text = format!("{} refused: {}", request.name(), refusal.reason());
@@ -156,6 +173,11 @@ mod tests {
             Event::StationLost { action: StationAction::Hold },
             Event::StationLost { action: StationAction::Return },
             Event::StationLost { action: StationAction::Land },
+            Event::SticksLost { action: StationAction::Hold },
+            Event::SticksLost { action: StationAction::Return },
+            Event::SticksLost { action: StationAction::Land },
+            Event::NoPositionMode,
+            Event::NoAltitudeMode,
             Event::RotorFailed { rotor: 0 },
             Event::OuterHung,
             Event::CommanderHung,

@@ -241,6 +241,11 @@ impl ForceLimits {
         Self { tan_tilt_max: sin_tilt / cos_tilt, ..self }
     }
 
+    /// Greatest specific force, m/s².
+    pub fn force_max(&self) -> f32 {
+        self.force_max
+    }
+
     /// Limits a specific force: the vertical component from below, the magnitude and the tilt from above. The vertical
     /// component has priority over the horizontal ones. Returns whether a limit acted; the derivatives are then those
     /// of another force, and are set to zero.

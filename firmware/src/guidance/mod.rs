@@ -1,9 +1,10 @@
 //! Guidance: the reference position and its first four derivatives as functions of flight time.
 //!
 //! Owns the reference trajectories and the path that joins one from rest; [`setpoint`] generates the reference online
-//! for a vehicle that is commanded in flight. The outer partition evaluates the reference for the tick at which its
+//! for a vehicle that is commanded in flight, [`hands`] says what sticks ask for. The outer partition evaluates the reference for the tick at which its
 //! output takes effect. Time is a tick count, so a reference is as exact after an hour as after a second.
 
+pub mod hands;
 mod join;
 pub mod setpoint;
 mod spline;

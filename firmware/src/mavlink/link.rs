@@ -9,7 +9,7 @@ use super::outbox::{Answer, Line, Outbox};
 use super::params::{self, Done, ParamRequest, Params};
 use super::parser::Parser;
 use super::port::{Port, Profile};
-use super::sticks::{Hands, Source};
+use super::sticks::{Hands, Source, Taking};
 use super::telemetry::{Place, Report, Telemetry, View};
 use super::writer::Writer;
 use super::{GroundOutput, command, mode, place};
@@ -97,8 +97,9 @@ impl Link {
                 }
             }
             Incoming::Sticks(sticks) => {
-                let (from, view) = (Source { link: number, system: sender.0 }, &job.view);
-                job.hands.take(&sticks, from, view.now, view.stick_loss_s, job.latest);
+                let from = Source { link: number, system: sender.0 };
+                let taking = Taking::by(job.settings);
+                job.output.kill |= job.hands.take(&sticks, from, job.view.now, &taking, job.latest);
             }
             Incoming::Command(command) => self.handle_command(number, sender, &command, job),
             Incoming::SetMode { base_mode, custom_mode } => {

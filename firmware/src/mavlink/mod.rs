@@ -3,7 +3,7 @@
 //! Bytes in, bytes out; the board or the host only carries them, through [`port`]: a pair of rings for each link. A
 //! `link` has its own parser, answers and rates: `parser` finds frames, `incoming` decodes messages, `command` carries
 //! out commands, `place` those that carry places on Earth, `goal` those that send it somewhere, `params` serves the settings, `services` answers for what
-//! there is not, `sticks` reads those of ground stations, `mode` encodes modes as PX4 does, `text` sends texts to pilots, `telemetry` schedules and fills in the
+//! there is not, `sticks` reads those of ground stations, `radio` says which of its channels they are, `mode` encodes modes as PX4 does, `text` sends texts to pilots, `telemetry` schedules and fills in the
 //! messages about the vehicle, of which [`report`] tells the part that is gathered for it, `outbox` keeps what is still to
 //! be said, and `writer` encodes messages. NED/FRD is converted in `frames` only.
 //!
@@ -48,6 +48,7 @@ mod params;
 mod parser;
 mod place;
 pub mod port;
+mod radio;
 pub mod report;
 mod services;
 mod sticks;
@@ -244,7 +245,8 @@ impl Ground {
         let (mut output, mut changed) = (GroundOutput::default(), Marks::default());
         let view = View::new(released, input, self.us, &self.settings, self.set_origin.as_ref());
         self.latest.forget_old(released);
-        let view = View { latest: self.latest, ..view };
+        self.hands.forget_old(released);
+        let view = View { latest: self.latest, ..view }.with_channels(&self.hands);
         let origin_before = self.set_origin;
         self.arming_at = self.arming_at.filter(|at| released.wrapping_sub(*at) <= ARMING_SEEN_AFTER);
         let armed = input.armed || self.arming_at.is_some();
@@ -282,7 +284,7 @@ impl Ground {
         } else {
             View::new(released, input, self.us, &self.settings, self.set_origin.as_ref())
         };
-        let view = View { latest: self.latest, ..view };
+        let view = View { latest: self.latest, ..view }.with_channels(&self.hands);
         for (link, port) in self.links.iter_mut().zip(ports) {
             if port.session().is_some() {
                 input.events.iter().for_each(|event| link.report(*event));

@@ -3,9 +3,13 @@
 use glissade_dialect::MavCmd;
 
 use super::incoming::{CommandMessage, Form};
-use crate::commander::{Mode, Request};
+use crate::commander::{ManualMode, Mode, Request};
 
+const ALTITUDE: u8 = 2;
+const POSITION: u8 = 3;
 const AUTO: u8 = 4;
+const ACRO: u8 = 5;
+const STABILIZED: u8 = 7;
 const OFFBOARD: u8 = 6;
 const TAKE_OFF: u8 = 2;
 const LOITER: u8 = 3;
@@ -22,6 +26,10 @@ pub(super) fn custom_mode(mode: Mode) -> u32 {
         Mode::Return => (AUTO, RETURN),
         Mode::Land | Mode::Descent | Mode::MotorOut => (AUTO, LAND),
         Mode::Velocity => (OFFBOARD, 0),
+        Mode::Acro => (ACRO, 0),
+        Mode::Stabilized => (STABILIZED, 0),
+        Mode::Altitude => (ALTITUDE, 0),
+        Mode::Position => (POSITION, 0),
     };
     u32::from(main) << 16 | u32::from(sub) << 24
 }
@@ -35,8 +43,22 @@ pub(super) fn as_command(base_mode: u8, custom_mode: u32) -> CommandMessage {
     CommandMessage { command, param1, param2, param3, param4: f32::NAN, form, param7: f32::NAN }
 }
 
+/// The manual modes. PX4's main mode 1, "manual", is for multicopters the same as stabilized.
+const MANUAL: [(u8, ManualMode); 5] = [
+    (1, ManualMode::Stabilized),
+    (ALTITUDE, ManualMode::Altitude),
+    (POSITION, ManualMode::Position),
+    (ACRO, ManualMode::Acro),
+    (STABILIZED, ManualMode::Stabilized),
+];
+
 /// The request that corresponds to setting a mode; `None` if it cannot be set. A take-off goes to `take_off_m`.
 pub(super) fn request(main: f32, sub: f32, take_off_m: f32) -> Option<Request> {
+    for (number, mode) in MANUAL {
+        if main == f32::from(number) {
+            return Some(Request::Manual(mode));
+        }
+    }
     if main != f32::from(AUTO) {
         return None;
     }

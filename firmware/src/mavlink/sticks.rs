@@ -2,8 +2,10 @@
 
 use glissade_dialect::{MANUAL_CONTROL_DATA, RC_CHANNELS_DATA, RC_CHANNELS_OVERRIDE_DATA};
 
+use super::radio::{CHANNELS, Channels, PulseUs, RadioMap};
 use super::telemetry::View;
-use crate::latest::{CHANNELS, Channels, Latest, PulseUs, Stamped, Sticks, is_older};
+use crate::latest::{Latest, Stamped, Sticks, Switches, is_older, within};
+use crate::settings::{COM_RC_IN_MODE, Settings, Value};
 use crate::signals::Tick;
 
 /// An axis that a joystick does not have.
@@ -39,20 +41,21 @@ pub(super) enum StickMessage {
     Channels([Channel; CHANNELS]),
 }
 
-/// The sticks of a joystick; `None` if a value is out of range. Pitch is positive forward, roll and yaw to the right, as
+/// The sticks of a joystick, its missing axes centred; `None` if a value is out of range. Pitch is positive forward, roll and yaw to the right, as
 /// QGroundControl sends them and PX4 takes them; MAVLink's text has yaw the other way round.
 pub(super) fn of_joystick(m: &MANUAL_CONTROL_DATA) -> Option<StickMessage> {
-    let axis = |value: i16, lowest: i16| match value {
-        NO_AXIS => Some(None),
-        value if (lowest..=FULL).contains(&value) => Some(Some(f32::from(value) / f32::from(FULL))),
+    let axis = |value: i16, lowest: i16, centre: f32| match value {
+        NO_AXIS => Some(centre),
+        value if (lowest..=FULL).contains(&value) => Some(f32::from(value) / f32::from(FULL)),
         _ => None,
     };
     Some(StickMessage::Joystick(Sticks {
-        roll: axis(m.y, -FULL)?,
-        pitch: axis(m.x, -FULL)?,
-        yaw: axis(m.r, -FULL)?.map(|right| -right),
-        throttle: axis(m.z, 0)?,
+        roll: axis(m.y, -FULL, 0.0)?,
+        pitch: axis(m.x, -FULL, 0.0)?,
+        yaw: -axis(m.r, -FULL, 0.0)?,
+        throttle: axis(m.z, 0, Sticks::CENTRED.throttle)?,
         buttons: m.buttons,
+        switches: Switches::NONE,
     }))
 }
 
@@ -101,40 +104,111 @@ pub(super) struct Source {
     pub(super) system: u8,
 }
 
-/// From whom sticks and channels come, and since when each channel has been as it is.
+/// A kind of sticks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Joystick,
+    Radio,
+}
+
+/// From whom sticks come, and a radio's channels.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hands {
     joystick: Option<Source>,
     radio: Option<Source>,
+    /// Whose sticks were taken last.
+    held_by: Option<Kind>,
+    /// A radio's channels, none of them lost when the last came; `None` if there were none, or all have been released.
+    channels: Option<Stamped<Channels>>,
+    /// Since when each of them has been as it is.
     set_at: [Tick; CHANNELS],
 }
 
+/// How sticks are taken, by the settings.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Taking {
+    /// Age at which they are lost, s.
+    pub(super) loss_s: f32,
+    /// `COM_RC_IN_MODE`: 0 a radio, 1 a joystick, 2 and 3 whichever comes first until it is lost, 4 none.
+    pub(super) sources: i32,
+    /// What a radio's channels are.
+    pub(super) radio: RadioMap,
+}
+
+impl Taking {
+    /// As the settings say.
+    pub(super) fn by(settings: &Settings) -> Self {
+        let sources = settings.get(COM_RC_IN_MODE).map_or(0, Value::int);
+        Self { loss_s: settings.stick_loss_s(), sources, radio: RadioMap::of(settings) }
+    }
+
+    fn takes(&self, kind: Kind) -> bool {
+        match kind {
+            Kind::Radio => [0, 2, 3].contains(&self.sources),
+            Kind::Joystick => (1..=3).contains(&self.sources),
+        }
+    }
+}
+
 impl Hands {
-    /// Takes over a message that was read at a tick. While nothing of a source is older than `loss_s`, no other one of its
+    /// Takes over a message that was read at a tick, and returns whether a kill switch was turned on by it. While nothing of a source is older than `loss_s`, no other one of its
     /// kind counts: the vehicle would be moved by both in turn.
-    pub(super) fn take(&mut self, message: &StickMessage, from: Source, now: Tick, loss_s: f32, latest: &mut Latest) {
-        match message {
+    pub(super) fn take(
+        &mut self,
+        message: &StickMessage,
+        from: Source,
+        now: Tick,
+        taking: &Taking,
+        latest: &mut Latest,
+    ) -> bool {
+        let is_free = latest.sticks_within(now, taking.loss_s).is_none();
+        let (kind, sticks) = match message {
             StickMessage::Joystick(sticks) => {
-                if latest.sticks_within(now, loss_s).is_none() || self.joystick == Some(from) {
-                    self.joystick = Some(from);
-                    latest.sticks = Some(Stamped { value: *sticks, at: now });
+                if !is_free && self.held_by == Some(Kind::Joystick) && self.joystick != Some(from) {
+                    return false;
                 }
+                self.joystick = Some(from);
+                (Kind::Joystick, Some(*sticks))
             }
             StickMessage::Channels(message) => {
-                let held = latest.channels_within(now, loss_s).copied();
+                let held = within(self.channels.as_ref(), now, taking.loss_s).copied();
                 let says_something = message.iter().any(|said| *said != Channel::Ignored);
-                if says_something && (held.is_none() || self.radio == Some(from)) {
-                    self.radio = Some(from);
-                    let channels = self.channels(held.unwrap_or_default(), message, now, loss_s);
-                    let are_there = channels != Channels::default();
-                    latest.channels = are_there.then_some(Stamped { value: channels, at: now });
+                if !says_something || (held.is_some() && self.radio != Some(from)) {
+                    return false;
                 }
+                self.radio = Some(from);
+                let channels = self.after(held.unwrap_or_default(), message, now, taking.loss_s);
+                let are_there = channels != Channels::default();
+                self.channels = are_there.then_some(Stamped { value: channels, at: now });
+                (Kind::Radio, taking.radio.sticks(&channels))
             }
+        };
+        if !taking.takes(kind) || !(is_free || self.held_by == Some(kind)) {
+            return false;
         }
+        let Some(sticks) = sticks else { return false };
+        self.held_by = Some(kind);
+        let before = latest.sticks.replace(Stamped { value: sticks, at: now });
+        sticks.switches.kill && !before.is_some_and(|before| before.value.switches.kill)
+    }
+
+    /// A radio's channels, unless they are older than a time, s.
+    pub(super) fn channels_within(&self, now: Tick, limit_s: f32) -> Option<&Channels> {
+        within(self.channels.as_ref(), now, limit_s)
+    }
+
+    /// Whether there ever were channels.
+    pub(super) fn has_had_channels(&self) -> bool {
+        self.channels.is_some()
+    }
+
+    /// Forgets what is so old that its age would soon seem to be small, because the clock wraps.
+    pub(super) fn forget_old(&mut self, now: Tick) {
+        self.channels = self.channels.filter(|channels| now.wrapping_sub(channels.at) <= Tick::MAX / 2);
     }
 
     /// The channels after a message. One that it ignores stays as it is, unless it was lost.
-    fn channels(&mut self, held: Channels, message: &[Channel; CHANNELS], now: Tick, loss_s: f32) -> Channels {
+    fn after(&mut self, held: Channels, message: &[Channel; CHANNELS], now: Tick, loss_s: f32) -> Channels {
         let mut channels = held;
         for ((channel, set_at), said) in channels.iter_mut().zip(&mut self.set_at).zip(message) {
             match said {
@@ -150,7 +224,7 @@ impl Hands {
 
 /// The channels, while there are any that are not lost.
 pub(super) fn rc_channels(view: &View) -> Option<RC_CHANNELS_DATA> {
-    let channels = view.channels()?;
+    let channels = view.channels.as_ref()?;
     let last = channels.iter().rposition(Option::is_some)?;
     let mut raw = [NO_CHANNEL; CHANNELS];
     for (raw, channel) in raw.iter_mut().zip(channels) {

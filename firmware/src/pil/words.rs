@@ -5,7 +5,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
-use crate::commander::{Asked, Goal, Request, SpeedKind};
+use crate::commander::{Asked, Goal, ManualMode, Request, SpeedKind};
 use crate::inner::InnerOutput;
 use crate::pil::Sent;
 use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, Measurements, PoseSample};
@@ -217,12 +217,10 @@ pub(super) use as_words;
 
 const KINDS: [SpeedKind; 3] = [SpeedKind::Horizontal, SpeedKind::Up, SpeedKind::Down];
 
-fn number_of(kind: SpeedKind) -> f32 {
-    KINDS.iter().position(|known| *known == kind).map_or(0.0, |at| at as f32)
-}
+const MODES: [ManualMode; 4] = [ManualMode::Acro, ManualMode::Stabilized, ManualMode::Altitude, ManualMode::Position];
 
-fn kind_of(number: f32) -> Option<SpeedKind> {
-    KINDS.get(number as usize).copied()
+fn number_in<T: PartialEq, const N: usize>(all: &[T; N], one: &T) -> f32 {
+    all.iter().position(|known| known == one).map_or(0.0, |at| at as f32)
 }
 
 /// The kind, and up to five values.
@@ -239,10 +237,11 @@ impl Words for Asked {
             Self::Request(Request::Velocity { velocity_m_s: [x, y, z], yaw_rate_rad_s }) => {
                 (5, [x, y, z, yaw_rate_rad_s, 0.0])
             }
+            Self::Request(Request::Manual(mode)) => (14, [number_in(&MODES, &mode), 0.0, 0.0, 0.0, 0.0]),
             Self::Request(Request::Land) => (6, [0.0; 5]),
             Self::Request(Request::LandAt(goal)) => (12, goal.numbers()),
             Self::Request(Request::Speed { kind, speed_m_s }) => {
-                (13, [number_of(kind), speed_m_s.unwrap_or(f32::NAN), 0.0, 0.0, 0.0])
+                (13, [number_in(&KINDS, &kind), speed_m_s.unwrap_or(f32::NAN), 0.0, 0.0, 0.0])
             }
             Self::Request(Request::Return) => (7, [0.0; 5]),
             Self::Request(Request::Follow) => (8, [0.0; 5]),
@@ -270,8 +269,9 @@ impl Words for Asked {
             9 => return Some(Self::Kill),
             10 => Request::SetHome { position_m: None },
             11 => Request::SetHome { position_m: Some([x, y, z]) },
+            14 => Request::Manual(*MODES.get(x as usize)?),
             12 => Request::LandAt(Goal::of_numbers([x, y, z, w, v])),
-            13 => Request::Speed { kind: kind_of(x)?, speed_m_s: Some(y).filter(|y| !y.is_nan()) },
+            13 => Request::Speed { kind: *KINDS.get(x as usize)?, speed_m_s: Some(y).filter(|y| !y.is_nan()) },
             _ => return None,
         }))
     }

@@ -15,15 +15,17 @@
 
 mod axes;
 mod marks;
+mod radio;
 mod rows;
 pub mod store;
 mod table;
 #[cfg(test)]
 mod tests;
 
+pub use radio::{RADIO_CHANNELS, RadioChannel};
 pub use rows::{COUNT, SETTINGS};
 pub use table::{Class, Domain, Kind, NAME_MAX, Place, Setting, Slot, Value, find};
-pub(crate) use table::{check_airframe, check_estimator, check_flight, check_modes};
+pub(crate) use table::{check_airframe, check_estimator, check_flight, check_manual, check_modes};
 
 pub(crate) use self::marks::Marks;
 use crate::airframe::Airframe;
@@ -55,8 +57,55 @@ pub const NAV_DLL_ACT: usize = rows::index_of("NAV_DLL_ACT");
 pub const COM_DL_LOSS_T: usize = rows::index_of("COM_DL_LOSS_T");
 /// Index of the silence after which sticks are lost.
 pub const COM_RC_LOSS_T: usize = rows::index_of("COM_RC_LOSS_T");
+/// Index of whose sticks count.
+pub const COM_RC_IN_MODE: usize = rows::index_of("COM_RC_IN_MODE");
+/// Indices of the channels of a radio's sticks and switches.
+pub const RC_MAP_ROLL: usize = rows::index_of("RC_MAP_ROLL");
+/// Of pitch.
+pub const RC_MAP_PITCH: usize = rows::index_of("RC_MAP_PITCH");
+/// Of yaw.
+pub const RC_MAP_YAW: usize = rows::index_of("RC_MAP_YAW");
+/// Of the throttle.
+pub const RC_MAP_THROTTLE: usize = rows::index_of("RC_MAP_THROTTLE");
+/// Of the mode switch.
+pub const RC_MAP_FLTMODE: usize = rows::index_of("RC_MAP_FLTMODE");
+/// Of the arming switch.
+pub const RC_MAP_ARM_SW: usize = rows::index_of("RC_MAP_ARM_SW");
+/// Of the kill switch.
+pub const RC_MAP_KILL_SW: usize = rows::index_of("RC_MAP_KILL_SW");
+/// Index of the mode of the mode switch's first position; the others follow.
+pub const COM_FLTMODE1: usize = rows::index_of("COM_FLTMODE1");
+/// Index of what is done when sticks are lost.
+pub const NAV_RCL_ACT: usize = rows::index_of("NAV_RCL_ACT");
+/// Index of whether the sticks arm.
+pub const MAN_ARM_GESTURE: usize = rows::index_of("MAN_ARM_GESTURE");
+/// Index of which modes moved sticks end.
+pub const COM_RC_OVERRIDE: usize = rows::index_of("COM_RC_OVERRIDE");
+/// Index of how far they have to be moved.
+pub const COM_RC_STICK_OV: usize = rows::index_of("COM_RC_STICK_OV");
+/// Index of the time on the ground after arming until it disarms.
+pub const COM_DISARM_PRFLT: usize = rows::index_of("COM_DISARM_PRFLT");
+/// Index of the time for which the rotors idle after a landing.
+pub const COM_DISARM_LAND: usize = rows::index_of("COM_DISARM_LAND");
 /// Rows that stand in the settings alone, and concern the commander.
-const OF_COMMANDER: [usize; 3] = [SYS_AUTOSTART, NAV_DLL_ACT, COM_DL_LOSS_T];
+pub(crate) const OF_COMMANDER: [usize; 16] = [
+    SYS_AUTOSTART,
+    NAV_DLL_ACT,
+    COM_DL_LOSS_T,
+    COM_RC_LOSS_T,
+    COM_FLTMODE1,
+    COM_FLTMODE1 + 1,
+    COM_FLTMODE1 + 2,
+    COM_FLTMODE1 + 3,
+    COM_FLTMODE1 + 4,
+    COM_FLTMODE1 + 5,
+    NAV_RCL_ACT,
+    MAN_ARM_GESTURE,
+    COM_RC_OVERRIDE,
+    COM_RC_STICK_OV,
+    COM_DISARM_PRFLT,
+    COM_DISARM_LAND,
+];
 /// Index of the greatest tilt.
 pub(crate) const TILT_MAX: usize = rows::index_of("MPC_TILTMAX_AIR");
 /// Index of the first axis' first row.

@@ -4,6 +4,7 @@
 //! row that is to leave the others' indices as they are is a new block at the end of [`SETTINGS`].
 
 use super::axes::{AXES, AXES_COUNT};
+use super::radio::{CHANNELS, CHANNELS_COUNT};
 use super::table::{Class, Domain, Place, Setting, Slot, Value};
 use crate::control::observer::ObserverGains;
 use crate::control::position::PositionGains;
@@ -93,6 +94,31 @@ const MODES: [Setting; 18] = reals! { Modes "modes":
     "GL_IDLE_SPEED", "", idle_part, FRACTION, Boot, "Rotor speed while armed on the ground, as a fraction of the greatest";
     "GL_BLIND_THRUST", "", blind_thrust_part, FRACTION, InFlight, "Thrust of a blind descent, as a fraction of the weight";
 };
+
+const MANUAL: [Setting; 16] = reals! { Manual "manual":
+    "MPC_MAN_TILT_MAX", "deg" * DEGREES, tilt_max_rad, MANUAL_TILT, InFlight, "Greatest tilt by stick, in stabilized and altitude mode";
+    "MPC_MAN_Y_MAX", "deg/s" * DEGREES, yaw_rate_rad_s, MANUAL_TURN, InFlight, "Greatest rate of the heading by stick";
+    "MPC_VEL_MANUAL", "m/s", speed_m_s, MOTION, InFlight, "Greatest horizontal speed by stick, in position mode";
+    "MPC_XY_MAN_EXPO", "", expo_xy, SCALE, InFlight, "How cubic the roll and pitch sticks are in position mode: 0 linear, 1 cubic";
+    "MPC_Z_MAN_EXPO", "", expo_z, SCALE, InFlight, "The same of the throttle stick in altitude and position mode";
+    "MPC_YAW_EXPO", "", expo_yaw, SCALE, InFlight, "The same of the yaw stick";
+    "MPC_HOLD_DZ", "", dead_zone, Range::Within(0.0, 0.5), InFlight, "Dead zone about the centre of a stick that holds there";
+    "MPC_THR_HOVER", "", hover_throttle, Range::Within(0.1, 0.8), InFlight, "Thrust that a set-point of an attitude hovers with, as a fraction of its range";
+    "MPC_MANTHR_MIN", "", throttle_min, Range::Within(0.02, 0.3), InFlight, "Least thrust by stick in the air, as a fraction of the greatest";
+    "MC_ACRO_R_MAX", "deg/s" * DEGREES, acro_rates_rad_s[0], ACRO, InFlight, "Greatest roll rate in acro mode";
+    "MC_ACRO_P_MAX", "deg/s" * DEGREES, acro_rates_rad_s[1], ACRO, InFlight, "Greatest pitch rate in acro mode";
+    "MC_ACRO_Y_MAX", "deg/s" * DEGREES, acro_rates_rad_s[2], ACRO, InFlight, "Greatest yaw rate in acro mode";
+    "MC_ACRO_EXPO", "", acro_expo, SCALE, InFlight, "How cubic the roll and pitch sticks are in acro mode";
+    "MC_ACRO_EXPO_Y", "", acro_expo_yaw, SCALE, InFlight, "The same of the yaw stick";
+    "MC_ACRO_SUPEXPO", "", acro_super_expo, Range::Within(0.0, 0.95), InFlight, "How much steeper the roll and pitch sticks become towards their ends in acro mode";
+    "MC_ACRO_SUPEXPOY", "", acro_super_expo_yaw, Range::Within(0.0, 0.95), InFlight, "The same of the yaw stick";
+};
+/// Less can hardly be steered with; at more the vertical part of the thrust carries no vehicle.
+const MANUAL_TILT: Range = Range::Within(0.087_266_46, 1.221_730_5);
+/// 2 to 400 degrees per second.
+const MANUAL_TURN: Range = Range::Within(0.034_906_585, 6.981_317);
+/// 10 to 1800 degrees per second, as PX4 allows.
+const ACRO: Range = Range::Within(0.174_532_92, 31.415_926);
 
 const FLIGHT: [Setting; 2] = reals! { Flight "control":
     "MPC_TILTMAX_AIR", "deg" * DEGREES, tilt_max_rad, TILT, InFlight, "Greatest tilt that position control demands";
@@ -216,7 +242,7 @@ const ESTIMATOR: [Setting; 22] = reals! { Estimator "estimator":
 const ID: Domain = Domain::Whole(0, 16_777_215);
 
 /// What ground stations look for. They read most of them to show the vehicle's state; it cannot be changed here.
-const STATION: [Setting; 34] = own! {
+const STATION: [Setting; 43] = own! {
     "MAV_SYS_ID", "", Int(1), Domain::Whole(1, 250), Boot, "MAVLink system of this vehicle";
     "GL_AUTOPILOT", "", Int(12), Domain::OneOf(&[0, 12]), Boot, "Autopilot that ground stations are told: 12 PX4, 0 generic";
     "SYS_AUTOSTART", "", Int(0), Domain::Whole(0, 9_999_999), Disarmed, "Airframe; 0 for a vehicle that is not configured, and does not arm";
@@ -226,23 +252,23 @@ const STATION: [Setting; 34] = own! {
     "CAL_MAG0_ID", "", Int(1), ID, ReadOnly, "No effect: sensors come calibrated";
     "CAL_MAG1_ID", "", Int(0), ID, ReadOnly, "No effect: there is one magnetometer";
     "CAL_MAG2_ID", "", Int(0), ID, ReadOnly, "No effect: there is one magnetometer";
-    "COM_RC_IN_MODE", "", Int(1), Domain::Whole(0, 4), ReadOnly, "Source of stick inputs: 1, no radio. No effect yet";
-    "RC_MAP_ROLL", "", Int(0), Domain::Whole(0, 18), ReadOnly, "Channel of roll: none. No effect yet";
-    "RC_MAP_PITCH", "", Int(0), Domain::Whole(0, 18), ReadOnly, "Channel of pitch: none. No effect yet";
-    "RC_MAP_YAW", "", Int(0), Domain::Whole(0, 18), ReadOnly, "Channel of yaw: none. No effect yet";
-    "RC_MAP_THROTTLE", "", Int(0), Domain::Whole(0, 18), ReadOnly, "Channel of throttle: none. No effect yet";
-    "COM_FLTMODE1", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 1: none. No effect yet";
-    "COM_FLTMODE2", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 2: none. No effect yet";
-    "COM_FLTMODE3", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 3: none. No effect yet";
-    "COM_FLTMODE4", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 4: none. No effect yet";
-    "COM_FLTMODE5", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 5: none. No effect yet";
-    "COM_FLTMODE6", "", Int(-1), Domain::Whole(-1, 15), ReadOnly, "Mode of switch position 6: none. No effect yet";
+    "COM_RC_IN_MODE", "", Int(3), Domain::Whole(0, 4), InFlight, "Whose sticks count: 0 a radio's, 1 a joystick's, 2 and 3 whichever come first, until they are lost, 4 none";
+    "RC_MAP_ROLL", "", Int(1), CHANNEL, InFlight, "Channel of the roll stick; 0 for none";
+    "RC_MAP_PITCH", "", Int(2), CHANNEL, InFlight, "Channel of the pitch stick; 0 for none";
+    "RC_MAP_YAW", "", Int(4), CHANNEL, InFlight, "Channel of the yaw stick; 0 for none";
+    "RC_MAP_THROTTLE", "", Int(3), CHANNEL, InFlight, "Channel of the throttle stick; 0 for none";
+    "COM_FLTMODE1", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 1: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
+    "COM_FLTMODE2", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 2: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
+    "COM_FLTMODE3", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 3: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
+    "COM_FLTMODE4", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 4: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
+    "COM_FLTMODE5", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 5: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
+    "COM_FLTMODE6", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 6: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
     "BAT1_SOURCE", "", Int(0), Domain::Whole(-1, 2), ReadOnly, "Source of battery data: 0, the power module";
     "BAT1_N_CELLS", "", Int(0), Domain::Whole(0, 16), InFlight, "Cells of the battery, by which its charge is told: 0, unknown";
     "RTL_LAND_DELAY", "s", Real(0.0), Domain::Real(Range::Within(-1.0, 300.0)), ReadOnly, "Wait over home before landing: none";
     "RTL_DESCEND_ALT", "m", Real(0.0), Domain::Real(Range::Within(0.0, 100.0)), ReadOnly, "Height over home to wait at before landing: none";
     "NAV_DLL_ACT", "", Int(0), Domain::Whole(0, 3), InFlight, "What is done when the ground station is lost: 0 nothing, 1 hold, 2 return, 3 land";
-    "NAV_RCL_ACT", "", Int(0), Domain::Whole(0, 6), ReadOnly, "What is done without sticks: 0, nothing. No effect yet";
+    "NAV_RCL_ACT", "", Int(2), Domain::OneOf(&[1, 2, 3]), InFlight, "What is done when the sticks are lost in a manual mode: 1 hold, 2 return, 3 land";
     "COM_DL_LOSS_T", "s", Int(10), Domain::Whole(5, 300), InFlight, "Silence after which the ground station is lost";
     "COM_RC_LOSS_T", "s", Real(0.5), Domain::Real(Range::Within(0.1, 35.0)), InFlight, "Silence after which sticks are lost";
     "COM_LOW_BAT_ACT", "", Int(3), Domain::Whole(0, 3), ReadOnly, "What a low battery does: 3, returns, and lands when critical";
@@ -250,8 +276,20 @@ const STATION: [Setting; 34] = own! {
     "MIS_TAKEOFF_ALT", "m", Real(crate::commander::TAKE_OFF_HEIGHT_M), Domain::Real(TAKE_OFF), InFlight, "Height of a take-off for which none is given";
     "BAT1_V_EMPTY", "V", Real(3.6), Domain::Real(CELL), InFlight, "Voltage of a cell at rest that is told as empty";
     "BAT1_V_CHARGED", "V", Real(4.05), Domain::Real(CELL), InFlight, "Voltage of a cell at rest that is told as full";
+    "RC_MAP_FLTMODE", "", Int(0), CHANNEL, InFlight, "Channel of the mode switch, with six positions; 0 for none";
+    "RC_MAP_ARM_SW", "", Int(0), CHANNEL, InFlight, "Channel of the arming switch; 0 for none";
+    "RC_MAP_KILL_SW", "", Int(0), CHANNEL, InFlight, "Channel of the kill switch; 0 for none";
+    "RC_CHAN_CNT", "", Int(0), Domain::Whole(0, 18), InFlight, "Channels of the radio that was calibrated last; for ground stations";
+    "MAN_ARM_GESTURE", "", Int(1), Domain::Whole(0, 1), InFlight, "Whether the throttle down and the yaw stick to the right for a second arm, and to the left disarm";
+    "COM_RC_OVERRIDE", "", Int(1), Domain::Whole(0, 3), InFlight, "Which modes moved sticks end: 1 automatic ones, 2 offboard, 3 both, 0 none";
+    "COM_RC_STICK_OV", "%", Real(30.0), Domain::Real(Range::Within(5.0, 80.0)), InFlight, "How far a stick has to be moved to end an automatic mode";
+    "COM_DISARM_PRFLT", "s", Real(10.0), Domain::Real(Range::Within(-1.0, 600.0)), InFlight, "Time on the ground after arming until it disarms; 0 or less for never";
+    "COM_DISARM_LAND", "s", Real(2.0), Domain::Real(Range::Within(0.0, 20.0)), InFlight, "Time for which the rotors idle after a landing";
     "BAT1_R_INTERNAL", "Ohm", Real(0.005), Domain::Real(Range::Within(0.0, 0.2)), InFlight, "Resistance of a cell, with its share of the wires";
 };
+const CHANNEL: Domain = Domain::Whole(0, 18);
+/// PX4's numbers of the modes that there are.
+const SWITCH_MODE: Domain = Domain::OneOf(&[-1, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11]);
 const CELL: Range = Range::Within(2.0, 5.0);
 const TAKE_OFF: Range =
     Range::Within(*crate::commander::TAKE_OFF_HEIGHTS_M.start(), *crate::commander::TAKE_OFF_HEIGHTS_M.end());
@@ -264,11 +302,13 @@ pub const COUNT: usize = MODES.len()
     + AIRFRAME.len()
     + CHOICES.len()
     + ESTIMATOR.len()
-    + STATION.len();
+    + STATION.len()
+    + MANUAL.len()
+    + CHANNELS_COUNT;
 
 /// Every setting. The order does not change while the vehicle runs, because ground stations ask by index.
 pub static SETTINGS: [Setting; COUNT] =
-    concatenated(&[&MODES, &FLIGHT, &AXES, &CONTROL, &AIRFRAME, &CHOICES, &ESTIMATOR, &STATION]);
+    concatenated(&[&MODES, &FLIGHT, &AXES, &CONTROL, &AIRFRAME, &CHOICES, &ESTIMATOR, &STATION, &MANUAL, &CHANNELS]);
 
 /// The blocks one after the other.
 #[cfg_attr(

@@ -2,7 +2,7 @@
 
 use super::rows::SETTINGS;
 use crate::airframe::Airframe;
-use crate::config::{FlightConfig, ModeSettings};
+use crate::config::{FlightConfig, ManualSettings, ModeSettings};
 use crate::control::attitude::AttitudeGains;
 use crate::control::position::PositionGains;
 use crate::estimator::EstimatorSettings;
@@ -122,6 +122,8 @@ pub enum Place {
     Position(Slot<PositionGains>),
     /// Modes: outer and commander.
     Modes(Slot<ModeSettings>),
+    /// Sticks: outer and commander.
+    Manual(Slot<ManualSettings>),
     /// The estimator: filter.
     Estimator(Slot<EstimatorSettings>),
     /// The vehicle.
@@ -148,6 +150,11 @@ impl Place {
         if let Self::Modes(slot) = self { Some(slot) } else { None }
     }
 
+    /// The access, if it is to the sticks.
+    pub fn manual(&self) -> Option<&Slot<ManualSettings>> {
+        if let Self::Manual(slot) = self { Some(slot) } else { None }
+    }
+
     /// The access, if it is to the estimator.
     pub fn estimator(&self) -> Option<&Slot<EstimatorSettings>> {
         if let Self::Estimator(slot) = self { Some(slot) } else { None }
@@ -169,6 +176,7 @@ impl Place {
             Self::Attitude(slot) => (slot.get)(&config.attitude),
             Self::Position(slot) => (slot.get)(&config.position),
             Self::Modes(slot) => (slot.get)(&config.modes),
+            Self::Manual(slot) => (slot.get)(&config.manual),
             Self::Estimator(slot) => (slot.get)(&config.estimator.unwrap_or_default()),
             Self::Airframe(slot) => (slot.get)(&config.airframe),
             Self::Flight(slot) => (slot.get)(config),
@@ -182,6 +190,7 @@ impl Place {
             Self::Attitude(slot) => (slot.set)(&mut config.attitude, value),
             Self::Position(slot) => (slot.set)(&mut config.position, value),
             Self::Modes(slot) => (slot.set)(&mut config.modes, value),
+            Self::Manual(slot) => (slot.set)(&mut config.manual, value),
             Self::Estimator(slot) => {
                 if let Some(estimator) = &mut config.estimator {
                     (slot.set)(estimator, value);
@@ -296,6 +305,14 @@ fn check<T>(part: &T, slot_of: fn(&Place) -> Option<&Slot<T>>) -> Result<(), Con
 /// The first field that is out of its range.
 pub(crate) fn check_modes(modes: &ModeSettings) -> Result<(), ConfigError> {
     check(modes, Place::modes)
+}
+
+/// Checks what sticks do.
+///
+/// # Errors
+/// The first field that is out of its range.
+pub(crate) fn check_manual(manual: &ManualSettings) -> Result<(), ConfigError> {
+    check(manual, Place::manual)
 }
 
 /// Checks the constants of an airframe.

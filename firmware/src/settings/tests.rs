@@ -135,6 +135,7 @@ fn every_number_of_the_configuration_is_a_setting() {
         start_position_m: _,
         estimator,
         modes: _,
+        manual: _,
     } = whole();
     let keys: BTreeSet<String> = SETTINGS.iter().map(|setting| setting.key.to_string()).collect();
     let fields = |text: String, group: &str| {
@@ -159,6 +160,7 @@ fn every_number_of_the_configuration_is_a_setting() {
     wanted.extend(fields(format!("{:?}", airframe.geometry), "airframe.geometry"));
     wanted.extend(fields(format!("{:?}", estimator.expect("whole")), "estimator"));
     wanted.extend(fields(format!("{:?}", whole().modes), "modes"));
+    wanted.extend(fields(format!("{:?}", whole().manual), "manual"));
     for axis in ["roll", "pitch", "yaw", "x", "y", "z"] {
         wanted.extend(fields(format!("{:?}", attitude.axes[0]), &format!("control.{axis}")));
     }
@@ -362,7 +364,7 @@ fn whoever_takes_a_change_over_is_as_if_built_with_it() {
             settings.write_to(&mut changed);
             let name = setting.name;
             match setting.place {
-                Place::Settings if [NAV_DLL_ACT, COM_DL_LOSS_T].contains(&index) => {
+                Place::Settings if OF_COMMANDER.contains(&index) && index != SYS_AUTOSTART => {
                     assert_ne!(owners.texts(), before, "{name} has no effect");
                     assert_eq!(owners.texts(), Owners::of(&changed, &settings).texts(), "{name}");
                 }

@@ -135,7 +135,7 @@ fn with_a_hung_outer_partition_it_comes_down_level_and_is_disarmed() {
     assert!((vehicle.body.nav.position - nav.position).xy().norm() < 10.0 && vehicle.tilt() < 0.02);
     assert_eq!(vehicle.mode(), Mode::Descent);
     assert!(vehicle.has_said("Guidance hung: blind descent"));
-    vehicle.run(3.5);
+    vehicle.run(4.5);
     assert_eq!(vehicle.mode(), Mode::Disarmed);
     assert_eq!(vehicle.motors, MotorCommand::STOPPED);
     assert_eq!(vehicle.pilot.inner.commander_output().armable, Err(Refusal::NoGuidance));

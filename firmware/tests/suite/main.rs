@@ -3,6 +3,7 @@
 #![expect(clippy::disallowed_methods, reason = "tests compare with bounds; what flies may not")]
 
 mod autopilot;
+mod by_hand;
 mod flood;
 mod goals;
 mod hung;

@@ -33,7 +33,7 @@ fn armed_it_idles_takes_off_holds_lands_and_stops() {
     vehicle.ask(Request::Land);
     vehicle.until(Mode::Idle, 12.0);
     assert!(vehicle.told.landed && vehicle.body.nav.position.z == 0.0);
-    vehicle.run(1.1);
+    vehicle.run(2.1);
     assert!(is_stopped(&vehicle) && !vehicle.told.armed);
 }
 

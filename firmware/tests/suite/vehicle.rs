@@ -8,7 +8,7 @@ use firmware::config::FlightConfig;
 use firmware::control::attitude::{self, SlidingAttitude};
 use firmware::control::position::SlidingPosition;
 use firmware::inner::Inner;
-use firmware::latest::Latest;
+use firmware::latest::{Latest, Stamped, Sticks};
 use firmware::outer::{Authority, Outer, OuterInput, OuterOutput};
 use firmware::schedule::{COMMANDER, OUTER};
 use firmware::settings::{COUNT, Changes, Settings};
@@ -128,10 +128,10 @@ impl Vehicle {
             let input = OuterInput { nav, thrust_n: self.inner.thrust_n(), directive, latest: self.latest, changes };
             self.reference = self.outer.step(self.tick, &input);
         }
-        let output = if self.told.armed && self.reference.authority == Authority::Idle {
-            self.inner.idle()
-        } else {
-            self.inner.step(self.tick, &self.reference.attitude, self.told.armed)
+        let output = match self.reference.authority {
+            Authority::Idle if self.told.armed => self.inner.idle(),
+            Authority::Gentle if self.told.armed => self.inner.step_gently(self.tick, &self.reference.attitude),
+            _ => self.inner.step(self.tick, &self.reference.attitude, self.told.armed),
         };
         self.motors = output.motors;
         self.body.step(&self.motors);
@@ -158,9 +158,28 @@ impl Vehicle {
         let _ = self.commands.push(Command { request, origin: Origin::OnBoard });
     }
 
+    /// Moves the sticks, which are told every 20 ms from now on.
+    pub(crate) fn hold(&mut self, sticks: Sticks) {
+        self.latest.sticks = Some(Stamped { value: sticks, at: self.tick });
+    }
+
     pub(crate) fn run(&mut self, seconds: f32) {
         for _ in 0..(seconds / TICK_S) as u32 {
+            if let Some(sticks) = &mut self.latest.sticks
+                && self.tick.is_multiple_of(20)
+            {
+                sticks.at = self.tick;
+            }
             self.tick();
+        }
+    }
+
+    /// Until it idles on the ground, at most this long.
+    pub(crate) fn until_landed(&mut self, seconds: f32) {
+        let end = self.tick + (seconds / TICK_S) as u32;
+        while self.told.mode != Mode::Idle {
+            self.run(0.02);
+            assert!(self.tick < end, "{:?} at {:?}", self.told.mode, self.body.nav);
         }
     }
 

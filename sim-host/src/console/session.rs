@@ -494,6 +494,7 @@ fn describe(request: &Request) -> String {
         // Heights over the sea come back from float with a tail of digits.
         Request::TakeOff { height_m } => format!("take-off to {} m", (f64::from(height_m) * 100.0).round() / 100.0),
         Request::Hold => "hold".to_owned(),
+        Request::Manual(mode) => format!("{} mode", Mode::from(mode).name()),
         Request::GoTo(goal) => format!("go to {}", describe_goal(&goal)),
         Request::LandAt(goal) => format!("land at {}", describe_goal(&goal)),
         Request::Speed { kind, speed_m_s } => {

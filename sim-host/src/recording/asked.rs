@@ -2,10 +2,10 @@
 //! reads back as the same bits.
 
 use anyhow::{Result, bail, ensure};
-use firmware::commander::{Asked, Goal, Request, SpeedKind};
+use firmware::commander::{Asked, Goal, ManualMode, Mode, Request, SpeedKind};
 
 /// The kinds, each with how many numbers it has.
-const KINDS: [(&str, usize); 17] = [
+const KINDS: [(&str, usize); 21] = [
     ("arm", 0),
     ("arm-force", 0),
     ("disarm", 0),
@@ -23,6 +23,10 @@ const KINDS: [(&str, usize); 17] = [
     ("speed", 1),
     ("speed-up", 1),
     ("speed-down", 1),
+    ("acro", 0),
+    ("stabilized", 0),
+    ("altitude", 0),
+    ("position", 0),
 ];
 
 /// As words.
@@ -35,6 +39,7 @@ pub(super) fn text(asked: &Asked) -> String {
             Request::Disarm => "disarm".to_owned(),
             Request::TakeOff { height_m } => format!("takeoff {height_m}"),
             Request::Hold => "hold".to_owned(),
+            Request::Manual(mode) => Mode::from(mode).name().to_owned(),
             Request::GoTo(goal) => format!("goto {}", numbers(&goal)),
             Request::LandAt(goal) => format!("land-at {}", numbers(&goal)),
             Request::Speed { kind, speed_m_s } => {
@@ -86,6 +91,10 @@ pub(super) fn read(words: &[&str]) -> Result<Asked> {
         ("speed-up", [speed]) => Request::Speed { kind: SpeedKind::Up, speed_m_s: given(*speed) },
         ("speed-down", [speed]) => Request::Speed { kind: SpeedKind::Down, speed_m_s: given(*speed) },
         ("velocity", [x, y, z, rate]) => Request::Velocity { velocity_m_s: [*x, *y, *z], yaw_rate_rad_s: *rate },
+        ("acro", _) => Request::Manual(ManualMode::Acro),
+        ("stabilized", _) => Request::Manual(ManualMode::Stabilized),
+        ("altitude", _) => Request::Manual(ManualMode::Altitude),
+        ("position", _) => Request::Manual(ManualMode::Position),
         ("land", _) => Request::Land,
         ("return", _) => Request::Return,
         ("trajectory", _) => Request::Follow,

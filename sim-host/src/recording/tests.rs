@@ -1,4 +1,4 @@
-use firmware::commander::{Asked, Goal, Request, SpeedKind};
+use firmware::commander::{Asked, Goal, ManualMode, Request, SpeedKind};
 
 use super::*;
 use crate::sil::replay::{Entry, Input, OnLink};
@@ -25,6 +25,10 @@ fn what_is_read_is_what_was_written() {
         Request::Hold,
         Request::GoTo(Goal::at([x, y, z], w)),
         Request::GoTo(Goal { yaw_rad: Some(z), ..Goal::default() }),
+        Request::Manual(ManualMode::Acro),
+        Request::Manual(ManualMode::Stabilized),
+        Request::Manual(ManualMode::Altitude),
+        Request::Manual(ManualMode::Position),
         Request::LandAt(Goal { place_m: Some([x, y]), ..Goal::default() }),
         Request::Speed { kind: SpeedKind::Horizontal, speed_m_s: Some(z) },
         Request::Speed { kind: SpeedKind::Up, speed_m_s: None },

@@ -154,7 +154,13 @@ fn name(mode: Mode) -> &'static str {
         Mode::Land => "land",
         Mode::Descent => "descent",
         Mode::MotorOut => "motor-out",
-        Mode::GoTo | Mode::Velocity | Mode::Follow => "other",
+        Mode::GoTo
+        | Mode::Velocity
+        | Mode::Follow
+        | Mode::Acro
+        | Mode::Stabilized
+        | Mode::Altitude
+        | Mode::Position => "other",
     }
 }
 

@@ -1,7 +1,7 @@
 //! The vehicle that is flown on the target, and its controller.
 
 use firmware::airframe::{Airframe, RotorGeometry};
-use firmware::config::{FlightConfig, ModeSettings, Start};
+use firmware::config::{FlightConfig, ManualSettings, ModeSettings, Start};
 use firmware::control::attitude::{AttitudeForm, AttitudeGains};
 use firmware::control::observer::ObserverGains;
 use firmware::control::position::PositionGains;
@@ -64,5 +64,6 @@ pub(crate) fn config() -> FlightConfig {
         start_position_m: [0.0, 0.0, 2.0],
         estimator: None,
         modes: ModeSettings::default(),
+        manual: ManualSettings::default(),
     }
 }

@@ -28,7 +28,7 @@ fn watching(state: State, action: i32) -> Bench {
 
 /// A ground station was heard at this tick.
 fn heard(at: Tick, input: &CommanderInput) -> CommanderInput {
-    CommanderInput { latest: Latest { station: Some(at), ..Latest::default() }, ..input.clone() }
+    CommanderInput { latest: Latest { station: Some(at), ..input.latest }, ..input.clone() }
 }
 
 /// The first job after the time: by then no state that times out has done so.

@@ -34,7 +34,7 @@ pub(super) fn sys_status(view: &View) -> SYS_STATUS_DATA {
     let prearm = MavSysStatusSensor::MAV_SYS_STATUS_PREARM_CHECK;
     let (sensors, healthy) = sensors(input);
     let mut present = CONTROLLERS | prearm | sensors;
-    present.set(STICKS, view.latest.sticks.is_some() || view.latest.channels.is_some());
+    present.set(STICKS, view.latest.sticks.is_some() || view.has_had_channels);
     // There is no geofence, but a ground station takes a missing health bit for a breach.
     let mut health = CONTROLLERS | healthy | MavSysStatusSensor::MAV_SYS_STATUS_GEOFENCE;
     // Armed it has passed: scripts wait for this bit whatever the vehicle is doing.

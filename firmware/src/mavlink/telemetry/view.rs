@@ -3,7 +3,9 @@
 use nalgebra::Vector3;
 
 use crate::frames::{LocalFrame, Origin, flip_vector};
-use crate::latest::{Channels, Latest};
+use crate::latest::Latest;
+use crate::mavlink::radio::Channels;
+use crate::mavlink::sticks::Hands;
 use crate::mavlink::{GroundInput, Identity};
 use crate::settings::Settings;
 use crate::signals::{NavHealth, TICK_US, Tick};
@@ -71,6 +73,9 @@ pub(in crate::mavlink) struct View<'a> {
     pub(in crate::mavlink) take_off_m: f32,
     /// What was read last, on whatever link.
     pub(in crate::mavlink) latest: Latest,
+    /// A radio's channels, unless they are lost, and whether there ever were any.
+    pub(in crate::mavlink) channels: Option<Channels>,
+    pub(in crate::mavlink) has_had_channels: bool,
     /// Age at which sticks are lost, s.
     pub(in crate::mavlink) stick_loss_s: f32,
     /// Bytes that this link has lost since boot, and frames with a wrong checksum and answers that were lost since it was
@@ -97,6 +102,8 @@ impl<'a> View<'a> {
             take_off_m: settings.take_off_height_m(),
             map,
             latest: Latest::default(),
+            channels: None,
+            has_had_channels: false,
             stick_loss_s: settings.stick_loss_s(),
             errors: 0,
         }
@@ -113,14 +120,15 @@ impl<'a> View<'a> {
         (self.boot_us() / 1000) as u32
     }
 
-    /// A radio's channels, unless they are lost.
-    pub(in crate::mavlink) fn channels(&self) -> Option<&Channels> {
-        self.latest.channels_within(self.now, self.stick_loss_s)
+    /// The same with a radio's channels.
+    pub(in crate::mavlink) fn with_channels(self, hands: &Hands) -> Self {
+        let channels = hands.channels_within(self.now, self.stick_loss_s).copied();
+        Self { channels, has_had_channels: hands.has_had_channels(), ..self }
     }
 
     /// Whether there are sticks or channels that are not lost.
     pub(in crate::mavlink) fn has_sticks(&self) -> bool {
-        self.channels().is_some() || self.latest.sticks_within(self.now, self.stick_loss_s).is_some()
+        self.channels.is_some() || self.latest.sticks_within(self.now, self.stick_loss_s).is_some()
     }
 
     /// What is known of the motion.

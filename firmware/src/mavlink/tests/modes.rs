@@ -1,7 +1,7 @@
 //! Modes as telemetry reports them, and the commands that set them.
 
 use super::*;
-use crate::commander::TAKE_OFF_HEIGHT_M;
+use crate::commander::{ManualMode, TAKE_OFF_HEIGHT_M};
 
 const RETURN_TO_LAUNCH: u16 = 20;
 const LAND: u16 = 21;
@@ -21,6 +21,10 @@ fn modes_and_landed_states_are_encoded_as_px4_encodes_them() {
         (Mode::Land, (4, 6), 4, 4),
         (Mode::GoTo, (4, 3), 2, 4),
         (Mode::Velocity, (6, 0), 2, 4),
+        (Mode::Altitude, (2, 0), 2, 4),
+        (Mode::Position, (3, 0), 2, 4),
+        (Mode::Acro, (5, 0), 2, 4),
+        (Mode::Stabilized, (7, 0), 2, 4),
         (Mode::Descent, (4, 6), 4, 5),
         (Mode::MotorOut, (4, 6), 4, 5),
     ] {
@@ -67,6 +71,11 @@ fn commands_to_fly_become_requests() {
         (SET_MODE, [129.0, 4.0, 4.0, 0.0], Request::Follow),
         (SET_MODE, [custom, 4.0, 5.0, 0.0], Request::Return),
         (SET_MODE, [custom, 4.0, 6.0, 0.0], Request::Land),
+        (SET_MODE, [custom, 1.0, 0.0, 0.0], Request::Manual(ManualMode::Stabilized)),
+        (SET_MODE, [custom, 2.0, 0.0, 0.0], Request::Manual(ManualMode::Altitude)),
+        (SET_MODE, [custom, 3.0, 0.0, 0.0], Request::Manual(ManualMode::Position)),
+        (SET_MODE, [custom, 5.0, 0.0, 0.0], Request::Manual(ManualMode::Acro)),
+        (SET_MODE, [custom, 7.0, 0.0, 0.0], Request::Manual(ManualMode::Stabilized)),
     ] {
         let long = COMMAND_LONG_DATA {
             target_system: 1,
@@ -101,8 +110,8 @@ fn modes_that_cannot_be_set_are_denied() {
     let mut bench = Bench::silent();
     for [param1, param2, param3] in [
         [0.0, 4.0, 3.0],
-        [1.0, 1.0, 0.0],
-        [1.0, 6.0, 0.0],
+        [1.0, 8.0, 0.0],
+        [1.0, 9.0, 0.0],
         [1.0, 4.0, 1.0],
         [1.0, 4.0, f32::NAN],
         [f32::NAN, 4.0, 3.0],

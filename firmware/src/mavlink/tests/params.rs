@@ -107,7 +107,7 @@ fn what_is_refused_says_why_and_what_the_value_is() {
         (set_real("MPC_TKO_SPEED", 1e6), E::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE, true),
         (set_bits("MPC_TKO_SPEED", 2, INT32), E::MAV_PARAM_ERROR_TYPE_MISMATCH, true),
         (set_bits("MPC_TKO_SPEED", 2, 1), E::MAV_PARAM_ERROR_TYPE_MISMATCH, true),
-        (set_bits("COM_RC_IN_MODE", 0, INT32), E::MAV_PARAM_ERROR_READ_ONLY, true),
+        (set_bits("SYS_AUTOCONFIG", 1, INT32), E::MAV_PARAM_ERROR_READ_ONLY, true),
         (set_bits("SYS_AUTOSTART", 4001, INT32), E::MAV_PARAM_ERROR_PERMISSION_DENIED, true),
         (set_bits("GL_YAW_1", f32::INFINITY.to_bits(), REAL32), E::MAV_PARAM_ERROR_VALUE_OUT_OF_RANGE, true),
         (set_real("NO_SUCH", 1.0), E::MAV_PARAM_ERROR_DOES_NOT_EXIST, false),

@@ -3,7 +3,8 @@
 use glissade_dialect::{HEARTBEAT_DATA, MANUAL_CONTROL_DATA, RC_CHANNELS_DATA, RC_CHANNELS_OVERRIDE_DATA};
 
 use super::*;
-use crate::latest::{Channels, PulseUs, Stamped, Sticks};
+use crate::latest::{Stamped, Sticks};
+use crate::mavlink::radio::{Channels, PulseUs};
 use crate::settings::{COM_RC_LOSS_T, Value};
 
 /// The bit of `SYS_STATUS`.
@@ -30,12 +31,18 @@ fn read(bench: &mut Bench, message: &impl MessageData) -> Option<Stamped<Sticks>
     bench.output_of(&frame(message)).0.latest.sticks
 }
 
-fn read_channels(bench: &mut Bench, message: &impl MessageData) -> Option<Stamped<Channels>> {
-    bench.output_of(&frame(message)).0.latest.channels
+fn read_channels(bench: &mut Bench, message: &impl MessageData) -> Option<Channels> {
+    bench.job(&frame(message));
+    held(bench)
+}
+
+/// The channels that are not lost.
+fn held(bench: &Bench) -> Option<Channels> {
+    bench.ground.hands.channels_within(bench.tick - GROUND.period, 0.5).copied()
 }
 
 fn channels(bench: &mut Bench, message: &RC_CHANNELS_OVERRIDE_DATA) -> Vec<u16> {
-    let channels = read_channels(bench, message).expect("channels").value;
+    let channels = read_channels(bench, message).expect("channels");
     channels.iter().map(|channel| channel.map_or(0, PulseUs::get)).collect()
 }
 
@@ -44,28 +51,28 @@ fn a_joysticks_axes_have_the_signs_of_rotations_in_the_body_frame() {
     let mut bench = Bench::silent();
     let (now, sticks) = (bench.tick, read(&mut bench, &JOYSTICK).expect("sticks"));
     assert_eq!(sticks.at, now);
-    let Sticks { roll, pitch, yaw, throttle, buttons } = sticks.value;
+    let Sticks { roll, pitch, yaw, throttle, buttons, .. } = sticks.value;
     // Forward, left, throttle, right.
-    assert_eq!((pitch, roll, throttle, yaw), (Some(0.5), Some(-0.25), Some(0.75), Some(-0.1)));
+    assert_eq!((pitch, roll, throttle, yaw), (0.5, -0.25, 0.75, -0.1));
     assert_eq!(buttons, 0x8001);
     let output = bench.output_of(&[]).0;
     assert_eq!(output.latest.sticks, Some(sticks), "it stays, and keeps its time");
 }
 
 #[test]
-fn full_axes_are_taken_a_missing_one_is_none_and_a_message_out_of_range_is_refused() {
+fn full_axes_are_taken_a_missing_one_is_centred_and_a_message_out_of_range_is_refused() {
     let mut bench = Bench::silent();
     let full = MANUAL_CONTROL_DATA { x: -1000, y: 1000, z: 0, r: -1000, ..JOYSTICK };
     let sticks = read(&mut bench, &full).expect("sticks");
     let Sticks { roll, pitch, yaw, throttle, .. } = sticks.value;
-    assert_eq!((pitch, roll, throttle, yaw), (Some(-1.0), Some(1.0), Some(0.0), Some(1.0)));
+    assert_eq!((pitch, roll, throttle, yaw), (-1.0, 1.0, 0.0, 1.0));
     for (x, y, z, r) in [(1001, 0, 0, 0), (0, -1001, 0, 0), (0, 0, -1, 0), (0, 0, 1001, 0), (0, 0, 0, i16::MIN)] {
         let message = MANUAL_CONTROL_DATA { x, y, z, r, ..JOYSTICK };
         assert_eq!(read(&mut bench, &message), Some(sticks), "{message:?} changes nothing");
     }
     let partly = MANUAL_CONTROL_DATA { x: i16::MAX, z: i16::MAX, ..JOYSTICK };
     let sticks = read(&mut bench, &partly).expect("sticks").value;
-    assert_eq!((sticks.pitch, sticks.throttle, sticks.roll), (None, None, Some(-0.25)));
+    assert_eq!((sticks.pitch, sticks.throttle, sticks.roll), (0.0, 0.5, -0.25));
 }
 
 #[test]
@@ -92,9 +99,9 @@ fn channels_are_set_kept_released_and_refused_one_by_one() {
     expected[2] = 0;
     assert_eq!(channels(&mut bench, &RC_CHANNELS_OVERRIDE_DATA { chan3_raw: 0, ..OVERRIDE }), expected);
     for wrong in [1, 799, 2201, 40_000, u16::MAX - 1] {
-        let before = bench.output_of(&[]).0.latest;
+        let before = held(&bench);
         let message = RC_CHANNELS_OVERRIDE_DATA { chan1_raw: 1200, chan2_raw: wrong, ..OVERRIDE };
-        assert_eq!(read_channels(&mut bench, &message), before.channels, "{wrong} µs");
+        assert_eq!(read_channels(&mut bench, &message), before, "{wrong} µs");
     }
     expected[17] = 0;
     assert_eq!(channels(&mut bench, &RC_CHANNELS_OVERRIDE_DATA { chan18_raw: u16::MAX - 1, ..OVERRIDE }), expected);
@@ -141,10 +148,10 @@ fn of_two_joysticks_and_of_two_radios_the_first_counts_until_it_is_lost() {
             bytes.extend(station(254, 200, 1200));
         }
         let latest = bench.output_of(&bytes).0.latest;
-        let (sticks, channels) = (latest.sticks.expect("sticks").value, latest.channels.expect("channels").value);
-        let moved = (sticks.roll.map(|roll| (roll * 1000.0) as i16), channels[0].map_or(0, PulseUs::get));
+        let (sticks, channels) = (latest.sticks.expect("sticks").value, held(&bench).expect("channels"));
+        let moved = ((sticks.roll * 1000.0) as i16, channels[0].map_or(0, PulseUs::get));
         // COM_RC_LOSS_T is 0.5 s.
-        assert_eq!(moved, if job <= 49 + 50 { (Some(100), 1100) } else { (Some(200), 1200) }, "job {job}");
+        assert_eq!(moved, if job <= 49 + 50 { (100, 1100) } else { (200, 1200) }, "job {job}");
     }
 }
 
@@ -153,7 +160,8 @@ fn a_frame_without_the_added_channels_ignores_them() {
     let mut bench = Bench::silent();
     let mut v1 = MAVLinkV1MessageRaw::new();
     v1.serialize_message_data(STATION, &RC_CHANNELS_OVERRIDE_DATA { chan8_raw: 1800, ..OVERRIDE });
-    let channels = bench.output_of(v1.raw_bytes()).0.latest.channels.expect("channels").value;
+    bench.job(v1.raw_bytes());
+    let channels = held(&bench).expect("channels");
     assert_eq!(channels.iter().flatten().copied().map(PulseUs::get).collect::<Vec<_>>(), [1800]);
 }
 

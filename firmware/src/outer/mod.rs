@@ -6,7 +6,11 @@
 //! A job works on a snapshot of the motion and returns an attitude reference for the tick at which it is published. The
 //! model predicts the motion to that tick, so that motion and reference are compared at the same time.
 
+mod by_hand;
+
 use nalgebra::{Vector3, Vector4};
+
+use self::by_hand::ByHand;
 
 use crate::commander::{Directive, Known};
 use crate::config::{FlightConfig, ModeSettings};
@@ -84,6 +88,8 @@ enum Source {
     Trajectory(FlatReference),
     /// The setpoint generator.
     Setpoint,
+    /// Sticks, with the motion that something else goes on from.
+    ByHand(FlatReference),
 }
 
 /// The outer partition, with a position law. The fields stand in memory as here, the largest last (see
@@ -102,6 +108,7 @@ pub struct Outer<P = SlidingPosition> {
     /// What limits and blind descents were built from, to be changed in flight.
     modes: ModeSettings,
     source: Source,
+    by_hand: ByHand,
     setpoint: Setpoint,
     guidance: Guidance,
 }
@@ -153,6 +160,7 @@ impl<P: PositionLaw> Outer<P> {
             guidance: Guidance::new(config.trajectory.clone(), config.join.as_ref(), config.start_position())?,
             setpoint: Setpoint::new(&config.modes),
             source: Source::Ground,
+            by_hand: ByHand::new(&config.manual),
             law,
             limited: false,
             blind_force: config.modes.blind_thrust_part * config.airframe.gravity_m_s2,
@@ -164,6 +172,7 @@ impl<P: PositionLaw> Outer<P> {
     /// Takes over a setting: limits, or what is of the law.
     pub fn apply(&mut self, change: &Change) {
         let is_mode = change.apply_to(&mut self.modes, Place::modes);
+        change.apply_to(&mut self.by_hand.settings, Place::manual);
         if is_mode {
             self.setpoint.limit(&self.modes);
             self.blind_force = self.modes.blind_thrust_part * self.model.gravity;
@@ -179,6 +188,7 @@ impl<P: PositionLaw> Outer<P> {
     /// Clears the state of earlier jobs.
     pub fn reset(&mut self) {
         self.source = Source::Ground;
+        self.by_hand.end();
         self.blind_effectiveness = None;
         self.reset_law();
     }
@@ -194,7 +204,13 @@ impl<P: PositionLaw> Outer<P> {
         for change in &input.changes {
             self.apply(change);
         }
+        if !matches!(input.directive, Directive::Manual { .. }) {
+            self.by_hand.end();
+        }
         match input.directive {
+            Directive::Manual { mode, in_air, sink_m_s } => {
+                self.fly_by_hand(effective, input, (mode, in_air, sink_m_s))
+            }
             Directive::Stop | Directive::Idle => self.rest(&input.nav),
             Directive::Follow { since } => {
                 let reference = self.trajectory(effective.wrapping_sub(since));
@@ -248,6 +264,7 @@ impl<P: PositionLaw> Outer<P> {
         match self.source {
             Source::Ground => self.guidance.join_from_start(),
             Source::Setpoint => self.guidance.join_from(&self.setpoint.reference().position),
+            Source::ByHand(reference) => self.guidance.join_from(&reference.position),
             Source::Trajectory(_) => {}
         }
         let reference = self.guidance.at(ticks);
@@ -259,7 +276,7 @@ impl<P: PositionLaw> Outer<P> {
     fn steer(&mut self, input: &OuterInput, target: &Target) -> FlatReference {
         match self.source {
             Source::Setpoint => {}
-            Source::Trajectory(reference) => self.setpoint.start(&reference),
+            Source::Trajectory(reference) | Source::ByHand(reference) => self.setpoint.start(&reference),
             Source::Ground => {
                 self.setpoint.start(&FlatReference::standing(input.nav.position, input.nav.yaw()));
             }
@@ -283,12 +300,7 @@ impl<P: PositionLaw> Outer<P> {
             self.setpoint.put_horizontally(now.position.x, now.position.y);
             (reference.position.x, reference.position.y) = (now.position.x, now.position.y);
         }
-        let (lowest, highest) = (now.position.z - LEAD_DOWN_M, now.position.z + LAG_UP_M);
-        let leashed = math::clamp(reference.position.z, lowest, highest);
-        if leashed != reference.position.z {
-            self.setpoint.put_vertically(leashed);
-            reference.position.z = leashed;
-        }
+        self.leash(&mut reference, &now, true);
         if heading_free {
             (reference.yaw, reference.yaw_rate, reference.yaw_acceleration) = (input.nav.yaw(), 0.0, 0.0);
         }
@@ -311,6 +323,19 @@ impl<P: PositionLaw> Outer<P> {
                 self.setpoint.put_vertically(now.position.z);
                 self.sink(effective, &now, &reference)
             }
+        }
+    }
+
+    /// Keeps a reference that descends close to the vehicle's height.
+    fn leash(&mut self, reference: &mut FlatReference, now: &Predicted, descends: bool) {
+        if !descends {
+            return;
+        }
+        let (lowest, highest) = (now.position.z - LEAD_DOWN_M, now.position.z + LAG_UP_M);
+        let leashed = math::clamp(reference.position.z, lowest, highest);
+        if leashed != reference.position.z {
+            self.setpoint.put_vertically(leashed);
+            reference.position.z = leashed;
         }
     }
 
@@ -367,20 +392,27 @@ impl<P: PositionLaw> Outer<P> {
 
     #[inline]
     fn track(&mut self, effective: Tick, now: &Predicted, reference: &FlatReference) -> OuterOutput {
-        let PositionDemand { mut s, mut profile } = self.law.step(&PositionInput {
+        let (s, mut profile) = self.demand(now, reference);
+        self.limited = self.limits.apply(&mut profile);
+        self.output(effective, now, &profile, reference, s)
+    }
+
+    /// The force that the law demands.
+    #[inline]
+    fn demand(&mut self, now: &Predicted, reference: &FlatReference) -> (Vector3<f32>, ForceProfile) {
+        let PositionDemand { s, profile } = self.law.step(&PositionInput {
             reference,
             position: &now.position,
             velocity: &now.velocity,
             acceleration: &now.acceleration,
             limited: self.limited,
         });
-        if !profile.is_finite() {
-            // A product overflowed on an extreme motion: the law is reset because its state may hold the overflow.
-            self.law.reset();
-            (s, profile) = (Vector3::zeros(), ForceProfile::hover(self.model.gravity));
+        if profile.is_finite() {
+            return (s, profile);
         }
-        self.limited = self.limits.apply(&mut profile);
-        self.output(effective, now, &profile, reference, s)
+        // A product overflowed on an extreme motion: the law is reset because its state may hold the overflow.
+        self.law.reset();
+        (Vector3::zeros(), ForceProfile::hover(self.model.gravity))
     }
 
     /// The attitude and thrust that give a force.

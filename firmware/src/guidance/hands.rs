@@ -1,0 +1,223 @@
+//! What sticks ask for: tilt, rates, velocity and thrust, by PX4's curves.
+//!
+//! A stick's deflection is shaped by a dead zone and by *expo*: `(1 − e) x + e x³`, flat about the centre. In acro mode
+//! *super expo* divides that by `1 − |x| g`, over `1/(1 − g)`, so that the ends become steeper. What a stick asks for at
+//! once passes through a critically damped filter, of which value and two derivatives go to the attitude law.
+
+use nalgebra::{Vector2, Vector3};
+
+use crate::config::{ManualSettings, ModeSettings};
+use crate::latest::Sticks;
+use crate::math;
+use crate::schedule::OUTER;
+use crate::signals::TICK_S;
+
+/// Time between two steps, s.
+const STEP_S: f32 = OUTER.period as f32 * TICK_S;
+
+/// A manual mode: what the pilot steers by hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ManualMode {
+    /// Body rates and thrust.
+    Acro,
+    /// Tilt and thrust.
+    Stabilized,
+    /// Tilt and rate of climb.
+    Altitude,
+    /// Velocity.
+    Position,
+}
+
+impl ManualMode {
+    /// Whether the throttle stick is the thrust; if not, its centre holds the height.
+    pub const fn has_direct_thrust(self) -> bool {
+        matches!(self, Self::Acro | Self::Stabilized)
+    }
+}
+
+/// Flat about the centre by `e`, from 0 (linear) to 1 (cubic).
+fn expo(x: f32, e: f32) -> f32 {
+    (1.0 - e) * x + e * x * x * x
+}
+
+/// Steeper towards the ends by `g` below 1.
+fn super_expo(x: f32, e: f32, g: f32) -> f32 {
+    expo(x, e) * (1.0 - g) / (1.0 - math::abs(x) * g)
+}
+
+/// 0 within the zone about the centre, and ±1 at the ends still.
+pub(crate) fn dead_zone(x: f32, zone: f32) -> f32 {
+    let beyond = math::max(math::abs(x) - zone, 0.0) / (1.0 - zone);
+    if x < 0.0 { -beyond } else { beyond }
+}
+
+/// A vector no longer than 1: the corner of two sticks is no more than one at its end.
+fn within_circle(v: Vector2<f32>) -> Vector2<f32> {
+    let size = math::sqrt(v.norm_squared());
+    if size > 1.0 { v / size } else { v }
+}
+
+impl ManualSettings {
+    /// The tangent of the wanted tilt, forward and to the left.
+    pub(crate) fn tilt(&self, sticks: &Sticks) -> Vector2<f32> {
+        let part = within_circle(Vector2::new(sticks.pitch, -sticks.roll));
+        let angle = math::sqrt(part.norm_squared()) * self.tilt_max_rad;
+        let (sin, cos) = math::sin_cos(angle);
+        // tan(a)/a is 1 where the stick is centred.
+        part * if angle > 1e-3 { sin / cos / angle * self.tilt_max_rad } else { self.tilt_max_rad }
+    }
+
+    /// The wanted horizontal velocity, forward and to the left, m/s.
+    pub(crate) fn velocity(&self, sticks: &Sticks) -> Vector2<f32> {
+        let part = within_circle(Vector2::new(sticks.pitch, -sticks.roll));
+        let size = math::sqrt(part.norm_squared());
+        let shaped = expo(dead_zone(size, self.dead_zone), self.expo_xy);
+        part * (shaped * self.speed_m_s / math::max(size, 1e-3))
+    }
+
+    /// The wanted rate of climb, m/s.
+    pub(crate) fn climb(&self, sticks: &Sticks, limits: &ModeSettings) -> f32 {
+        let part = expo(dead_zone(2.0 * sticks.throttle - 1.0, self.dead_zone), self.expo_z);
+        part * if part > 0.0 { limits.climb_m_s } else { limits.sink_m_s }
+    }
+
+    /// The wanted rate of the heading, rad/s.
+    pub(crate) fn yaw_rate(&self, sticks: &Sticks) -> f32 {
+        self.yaw_rate_rad_s * expo(dead_zone(sticks.yaw, self.dead_zone), self.expo_yaw)
+    }
+
+    /// The wanted body rates, rad/s.
+    pub(crate) fn body_rates(&self, sticks: &Sticks) -> Vector3<f32> {
+        let [roll, pitch, yaw] = self.acro_rates_rad_s;
+        let across = |x: f32| super_expo(x, self.acro_expo, self.acro_super_expo);
+        Vector3::new(
+            roll * across(sticks.roll),
+            pitch * across(sticks.pitch),
+            yaw * super_expo(sticks.yaw, self.acro_expo_yaw, self.acro_super_expo_yaw),
+        )
+    }
+
+    /// The wanted thrust by stick, N: the weight at the centre, and straight lines to the least and the greatest thrust.
+    pub(crate) fn thrust_n(&self, sticks: &Sticks, weight_n: f32, thrust_max_n: f32) -> f32 {
+        thrust_n(sticks.throttle, Sticks::CENTRED.throttle, self.throttle_min * thrust_max_n, weight_n, thrust_max_n)
+    }
+}
+
+/// A thrust, N: the weight at `hover`, `least` at 0, the greatest at 1.
+pub(crate) fn thrust_n(part: f32, hover: f32, least_n: f32, weight_n: f32, thrust_max_n: f32) -> f32 {
+    let least_n = math::min(least_n, weight_n);
+    if part < hover {
+        least_n + (weight_n - least_n) * part / hover
+    } else {
+        weight_n + (math::max(thrust_max_n, weight_n) - weight_n) * (part - hover) / (1.0 - hover)
+    }
+}
+
+/// A critically damped filter of the second order, exact for an input that is constant over a step: a value and two
+/// derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Smooth {
+    pub(crate) value: f32,
+    pub(crate) rate: f32,
+    pub(crate) acceleration: f32,
+}
+
+impl Smooth {
+    /// At rest at a value.
+    pub(crate) fn at(value: f32) -> Self {
+        Self { value, rate: 0.0, acceleration: 0.0 }
+    }
+
+    /// A step towards an input, with an angular frequency, rad/s.
+    pub(crate) fn step(&mut self, input: f32, omega: f32) {
+        let (off, slope) = (self.value - input, self.rate);
+        let decay = math::exp(-omega * STEP_S);
+        let growth = slope + omega * off;
+        self.value = input + (off + growth * STEP_S) * decay;
+        self.rate = (slope - omega * growth * STEP_S) * decay;
+        self.acceleration = omega * (omega * (input - self.value) - 2.0 * self.rate);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SETTINGS: fn() -> ManualSettings = ManualSettings::default;
+
+    fn sticks(roll: f32, pitch: f32, yaw: f32, throttle: f32) -> Sticks {
+        Sticks { roll, pitch, yaw, throttle, ..Sticks::CENTRED }
+    }
+
+    #[test]
+    fn centred_sticks_ask_for_nothing_and_full_ones_for_the_limits() {
+        let (settings, limits) = (SETTINGS(), ModeSettings::default());
+        for x in [0.0, 0.07, -0.07] {
+            let centred = sticks(x, -x, x, 0.5 + 0.5 * x);
+            assert_eq!(settings.velocity(&centred), Vector2::zeros());
+            assert_eq!((settings.climb(&centred, &limits), settings.yaw_rate(&centred)), (0.0, 0.0));
+        }
+        for (full, forward, left) in [(sticks(0.0, 1.0, 0.0, 1.0), 1.0, 0.0), (sticks(1.0, 0.0, 0.0, 0.0), 0.0, -1.0)] {
+            let direction = Vector2::new(forward, left);
+            assert!((settings.velocity(&full) - direction * 10.0).norm() < 1e-5);
+            assert!((settings.tilt(&full) - direction * 0.700_207_5).norm() < 1e-6, "tan 35°");
+        }
+        assert_eq!(settings.climb(&sticks(0.0, 0.0, 0.0, 1.0), &limits), limits.climb_m_s);
+        assert_eq!(settings.climb(&sticks(0.0, 0.0, 0.0, 0.0), &limits), -limits.sink_m_s);
+        let rates = settings.body_rates(&sticks(1.0, -1.0, 1.0, 0.0));
+        assert!((rates - Vector3::new(1.0, -1.0, 1.0) * 1.745_329_3).norm() < 1e-5);
+    }
+
+    #[test]
+    fn a_corner_is_no_more_than_an_end_in_any_direction() {
+        let settings = SETTINGS();
+        for i in 0..48 {
+            let (sin, cos) = math::sin_cos(i as f32 * core::f32::consts::TAU / 48.0);
+            let far = math::max(math::abs(sin), math::abs(cos));
+            let corner = sticks(sin / far, cos / far, 0.0, 0.5);
+            let (velocity, tilt) = (settings.velocity(&corner), settings.tilt(&corner));
+            assert!(math::abs(velocity.norm() - 10.0) < 1e-4 && math::abs(tilt.norm() - 0.700_207_5) < 1e-5);
+            assert!((velocity.normalize() - Vector2::new(cos, -sin)).norm() < 1e-5, "straight where it points");
+        }
+    }
+
+    #[test]
+    fn curves_are_odd_and_rise_throughout() {
+        let settings = SETTINGS();
+        let mut before = [-f32::INFINITY; 4];
+        for i in -100..=100_i16 {
+            let x = f32::from(i) / 100.0;
+            let at = |x: f32| {
+                let both = sticks(0.0, x, x, 0.5 + 0.5 * x);
+                let rates = settings.body_rates(&both);
+                [settings.velocity(&both).x, settings.yaw_rate(&both), rates.y, settings.tilt(&both).x]
+            };
+            for ((now, opposite), before) in at(x).iter().zip(at(-x)).zip(&mut before) {
+                assert!(math::abs(now + opposite) < 1e-5 && *now >= *before - 1e-6, "{x}: {now} {opposite} {before}");
+                *before = *now;
+            }
+        }
+    }
+
+    #[test]
+    fn the_centre_of_the_throttle_carries_the_weight() {
+        let settings = SETTINGS();
+        let thrust = |throttle: f32| settings.thrust_n(&sticks(0.0, 0.0, 0.0, throttle), 10.0, 25.0);
+        assert_eq!([thrust(0.0), thrust(0.5), thrust(1.0)], [2.0, 10.0, 25.0]);
+        assert!(math::abs(thrust(0.25) - 6.0) < 1e-5 && math::abs(thrust(0.75) - 17.5) < 1e-5);
+    }
+
+    #[test]
+    fn the_filter_is_the_closed_form_of_its_step_response() {
+        let (omega, mut smooth) = (20.0, Smooth::default());
+        for i in 1..200_u16 {
+            smooth.step(1.0, omega);
+            let t = f64::from(i) * f64::from(STEP_S);
+            let (w, decay) = (f64::from(omega), (-f64::from(omega) * t).exp());
+            let exact = [1.0 - (1.0 + w * t) * decay, w * w * t * decay, w * w * (1.0 - w * t) * decay];
+            for (value, exact) in [smooth.value, smooth.rate, smooth.acceleration].iter().zip(exact) {
+                assert!((f64::from(*value) - exact).abs() < 2e-5 * w * w, "{i}: {value} {exact}");
+            }
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! Flying by hand: from sticks to an attitude and a thrust.
+//!
+//! In position mode the sticks are a velocity for the setpoint generator. In altitude mode they are a tilt, and the
+//! position law controls the vertical motion alone. In stabilized mode the thrust is the stick's too. In acro mode the
+//! sticks are body rates: the reference attitude is their integral on the rotation group, so that a flip is nothing
+//! special, and stays within reach of the vehicle's own.
+
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+
+use super::{Authority, Outer, OuterInput, OuterOutput, Predicted, Source, forget_horizontal, velocity};
+use crate::config::ManualSettings;
+use crate::control::flatness::{self, ForceProfile, Heading};
+use crate::control::law::PositionLaw;
+use crate::guidance::hands::{ManualMode, Smooth};
+use crate::latest::Sticks;
+use crate::math;
+use crate::schedule::{OUTER, OUTER_AHEAD_S};
+use crate::signals::{AttitudeReference, AttitudeTarget, FlatReference, NavState, TICK_S, Tick};
+
+/// Time between two jobs, s.
+const STEP_S: f32 = OUTER.period as f32 * TICK_S;
+/// Angular frequencies of the filters, rad/s. A step is followed to 90 % in 3.9 of their inverses: a tilt in 0.16 s, to
+/// which the attitude loop adds 0.05 s; a body rate in 0.1 s; the thrust in 0.1 s; the rate of the heading in 0.4 s, for
+/// yaw has little torque.
+const TILT: f32 = 25.0;
+const RATE: f32 = 40.0;
+const THRUST: f32 = 40.0;
+const TURN: f32 = 10.0;
+/// In acro mode the reference is at most this far from the vehicle's attitude: cosine and sine of half of 0.4 rad.
+const REACH: (f32, f32) = (0.980_066_6, 0.198_669_33);
+
+/// What flying by hand keeps between jobs.
+#[derive(Clone, Debug)]
+pub(super) struct ByHand {
+    pub(super) settings: ManualSettings,
+    /// The mode of the last job, if that was flown by hand.
+    mode: Option<ManualMode>,
+    /// Tangent of the tilt, forward and to the left.
+    tilt: [Smooth; 2],
+    /// Thrust, N.
+    thrust: Smooth,
+    /// Body rates, rad/s, and the attitude that they lead to.
+    rates: [Smooth; 3],
+    attitude: UnitQuaternion<f32>,
+    /// Heading, rad, and its rate, rad/s.
+    yaw: f32,
+    turn: Smooth,
+}
+
+impl ByHand {
+    pub(super) fn new(settings: &ManualSettings) -> Self {
+        Self {
+            settings: *settings,
+            mode: None,
+            tilt: Default::default(),
+            thrust: Smooth::default(),
+            rates: Default::default(),
+            attitude: UnitQuaternion::identity(),
+            yaw: 0.0,
+            turn: Smooth::default(),
+        }
+    }
+
+    /// Something else flies now.
+    pub(super) fn end(&mut self) {
+        self.mode = None;
+    }
+
+    /// Begins where the vehicle is: with its tilt and rates, and the heading `yaw`.
+    fn begin(&mut self, nav: &NavState, thrust_n: f32, yaw: f32) {
+        let axis = nav.attitude * Vector3::z();
+        let (sin, cos) = math::sin_cos(yaw);
+        // Beyond 60° of tilt the tangent says nothing.
+        let per_z = 1.0 / math::max(axis.z, 0.5);
+        self.tilt = [cos * axis.x + sin * axis.y, cos * axis.y - sin * axis.x].map(|part| Smooth::at(part * per_z));
+        self.thrust = Smooth::at(thrust_n);
+        self.rates = [nav.rates.x, nav.rates.y, nav.rates.z].map(Smooth::at);
+        self.attitude = nav.attitude;
+        self.yaw = yaw;
+        self.turn = Smooth::at(0.0);
+    }
+
+    /// A step of the heading.
+    fn turn(&mut self, rate: f32) -> Heading {
+        let before = self.turn.value;
+        self.turn.step(rate, TURN);
+        self.yaw = math::wrap_angle(self.yaw + 0.5 * (before + self.turn.value) * STEP_S);
+        Heading { angle: self.yaw, rate: self.turn.value, acceleration: self.turn.rate }
+    }
+
+    /// A step of the tilt, whose force is one along z, in the world.
+    fn tilt(&mut self, wanted: Vector2<f32>, heading: &Heading) -> ForceProfile {
+        for (smooth, wanted) in self.tilt.iter_mut().zip(&wanted) {
+            smooth.step(*wanted, TILT);
+        }
+        let [forward, left] = &self.tilt;
+        let (sin, cos) = math::sin_cos(heading.angle);
+        let turned = |x: f32, y: f32| Vector3::new(cos * x - sin * y, sin * x + cos * y, 0.0);
+        let u = turned(forward.value, left.value);
+        let (u_rate, u_acceleration) =
+            (turned(forward.rate, left.rate), turned(forward.acceleration, left.acceleration));
+        let across = |v: &Vector3<f32>| Vector3::new(-v.y, v.x, 0.0);
+        let (w, w_rate) = (heading.rate, heading.acceleration);
+        ForceProfile {
+            force: u + Vector3::z(),
+            rate: u_rate + across(&u) * w,
+            acceleration: u_acceleration + across(&u_rate) * (2.0 * w) + across(&u) * w_rate - u * (w * w),
+        }
+    }
+
+    /// A step of the body rates.
+    fn rotate(&mut self, wanted: &Vector3<f32>, nav: &NavState) -> AttitudeTarget {
+        let before = self.attitude_target();
+        let reference = AttitudeReference { valid_at: 0, target: before, thrust_n: 0.0, thrust_rate_n_s: 0.0 };
+        let turned = reference.target_after(STEP_S).attitude;
+        for (smooth, wanted) in self.rates.iter_mut().zip(wanted) {
+            smooth.step(*wanted, RATE);
+        }
+        self.attitude = within_reach(&UnitQuaternion::new_normalize(turned.into_inner()), nav);
+        self.attitude_target()
+    }
+
+    fn attitude_target(&self) -> AttitudeTarget {
+        let [p, q, r] = &self.rates;
+        AttitudeTarget {
+            attitude: self.attitude,
+            rates: Vector3::new(p.value, q.value, r.value),
+            accelerations: Vector3::new(p.rate, q.rate, r.rate),
+        }
+    }
+}
+
+/// An attitude moved towards the vehicle's where it is too far from it. A vehicle that cannot follow, or that hits
+/// something, does not turn all the way once it can.
+fn within_reach(wanted: &UnitQuaternion<f32>, nav: &NavState) -> UnitQuaternion<f32> {
+    let ahead = nav.rates * OUTER_AHEAD_S;
+    let now = AttitudeTarget { attitude: nav.attitude, rates: nav.rates, accelerations: Vector3::zeros() };
+    let here = AttitudeReference { valid_at: 0, target: now, thrust_n: 0.0, thrust_rate_n_s: 0.0 };
+    let here = if ahead.norm_squared() < 0.01 { here.target_after(OUTER_AHEAD_S).attitude } else { nav.attitude };
+    let away = here.inverse() * wanted;
+    let q = if away.w < 0.0 { -away.into_inner() } else { away.into_inner() };
+    let (cos, sin) = REACH;
+    if q.w >= cos {
+        return *wanted;
+    }
+    let axis = q.imag() / math::max(math::sqrt(q.imag().norm_squared()), 1e-6);
+    let near = nalgebra::Quaternion::from_parts(cos, axis * sin);
+    UnitQuaternion::new_normalize(here.into_inner() * near)
+}
+
+impl<P: PositionLaw> Outer<P> {
+    /// One job by the sticks. `in_air` is whether the vehicle is off the ground: on it, it is kept level.
+    pub(super) fn fly_by_hand(
+        &mut self,
+        effective: Tick,
+        input: &OuterInput,
+        (mode, in_air, sink_m_s): (ManualMode, bool, f32),
+    ) -> OuterOutput {
+        let sticks = input.latest.sticks.map_or(Sticks::CENTRED, |sticks| sticks.value);
+        let sticks = if in_air { sticks } else { Sticks { roll: 0.0, pitch: 0.0, yaw: 0.0, ..sticks } };
+        if self.by_hand.mode != Some(mode) {
+            self.begin_by_hand(input);
+            self.by_hand.mode = Some(mode);
+        }
+        let mut climb = self.by_hand.settings.climb(&sticks, &self.modes);
+        climb = math::max(climb, -sink_m_s);
+        match mode {
+            ManualMode::Position => self.move_by_hand(effective, input, &sticks, climb),
+            ManualMode::Altitude => self.tilt_by_hand(effective, input, &sticks, climb),
+            ManualMode::Stabilized | ManualMode::Acro => {
+                let output = self.thrust_by_hand(effective, input, &sticks, mode);
+                OuterOutput { authority: if in_air { Authority::Full } else { Authority::Gentle }, ..output }
+            }
+        }
+    }
+
+    /// Goes on from what has flown before.
+    fn begin_by_hand(&mut self, input: &OuterInput) {
+        let reference = match self.source {
+            Source::Setpoint => self.setpoint.reference(),
+            Source::Trajectory(reference) | Source::ByHand(reference) => reference,
+            Source::Ground => FlatReference::standing(input.nav.position, input.nav.yaw()),
+        };
+        self.setpoint.start(&reference);
+        if self.by_hand.mode.is_none() {
+            self.by_hand.begin(&input.nav, input.thrust_n, reference.yaw);
+        }
+        if self.by_hand.mode == Some(ManualMode::Acro) {
+            // The heading was nobody's concern.
+            self.by_hand.begin(&input.nav, input.thrust_n, input.nav.yaw());
+        }
+    }
+
+    /// Position mode.
+    fn move_by_hand(&mut self, effective: Tick, input: &OuterInput, sticks: &Sticks, climb: f32) -> OuterOutput {
+        let heading = self.by_hand.turn(self.by_hand.settings.yaw_rate(sticks));
+        let ahead = self.by_hand.settings.velocity(sticks);
+        let (sin, cos) = math::sin_cos(heading.angle);
+        let wanted = Vector3::new(cos * ahead.x - sin * ahead.y, sin * ahead.x + cos * ahead.y, climb);
+        let mut reference = self.setpoint.advance(&velocity(wanted, 0.0));
+        let now = self.predict(input);
+        self.by_hand.tilt = [Smooth::at(0.0); 2];
+        self.leash(&mut reference, &now, climb < 0.0);
+        (reference.yaw, reference.yaw_rate, reference.yaw_acceleration) =
+            (heading.angle, heading.rate, heading.acceleration);
+        self.source = Source::ByHand(reference);
+        self.track(effective, &now, &reference)
+    }
+
+    /// Altitude mode.
+    fn tilt_by_hand(&mut self, effective: Tick, input: &OuterInput, sticks: &Sticks, climb: f32) -> OuterOutput {
+        let mut now = self.predict(input);
+        let heading = self.by_hand.turn(self.by_hand.settings.yaw_rate(sticks));
+        let tilt = self.by_hand.tilt(self.by_hand.settings.tilt(sticks), &heading);
+        self.setpoint.put_horizontally(now.position.x, now.position.y);
+        let mut reference = self.setpoint.advance(&velocity(Vector3::new(0.0, 0.0, climb), 0.0));
+        self.leash(&mut reference, &now, climb < 0.0);
+        self.source = Source::ByHand(as_it_moves(&now, &heading));
+        now.forget_horizontal();
+        forget_horizontal(&mut reference);
+        (reference.yaw, reference.yaw_rate, reference.yaw_acceleration) =
+            (heading.angle, heading.rate, heading.acceleration);
+        let (s, vertical) = self.demand(&now, &reference);
+        let (f, f_rate, f_acceleration) = (vertical.force.z, vertical.rate.z, vertical.acceleration.z);
+        let mut profile = ForceProfile {
+            force: tilt.force * f,
+            rate: tilt.rate * f + tilt.force * f_rate,
+            acceleration: tilt.acceleration * f + tilt.rate * (2.0 * f_rate) + tilt.force * f_acceleration,
+        };
+        self.limited = self.limits.apply(&mut profile);
+        self.output(effective, &now, &profile, &reference, s)
+    }
+
+    /// Stabilized and acro mode.
+    fn thrust_by_hand(
+        &mut self,
+        effective: Tick,
+        input: &OuterInput,
+        sticks: &Sticks,
+        mode: ManualMode,
+    ) -> OuterOutput {
+        let now = self.predict(input);
+        let gravity = self.model.gravity;
+        let wanted_n =
+            self.by_hand.settings.thrust_n(sticks, self.mass_kg * gravity, self.mass_kg * self.limits.force_max());
+        self.by_hand.thrust.step(wanted_n, THRUST);
+        let (target, heading) = if mode == ManualMode::Acro {
+            let target = self.by_hand.rotate(&self.by_hand.settings.body_rates(sticks), &input.nav);
+            (target, Heading { angle: input.nav.yaw(), rate: 0.0, acceleration: 0.0 })
+        } else {
+            let heading = self.by_hand.turn(self.by_hand.settings.yaw_rate(sticks));
+            let tilt = self.by_hand.tilt(self.by_hand.settings.tilt(sticks), &heading);
+            (flatness::attitude_target(&tilt, &heading), heading)
+        };
+        let reference = as_it_moves(&now, &heading);
+        self.source = Source::ByHand(reference);
+        // The law demands nothing here, but goes on learning: what it knew would be wrong when it is needed next.
+        let (s, _) = self.demand(&now, &reference);
+        let hover = ForceProfile::hover(gravity);
+        let thrust = self.by_hand.thrust;
+        let attitude =
+            AttitudeReference { valid_at: effective, target, thrust_n: thrust.value, thrust_rate_n_s: thrust.rate };
+        OuterOutput { attitude, ..self.output(effective, &now, &hover, &reference, s) }
+    }
+}
+
+/// The vehicle's own motion, with a heading: what is gone on from where none is controlled.
+fn as_it_moves(now: &Predicted, heading: &Heading) -> FlatReference {
+    FlatReference {
+        velocity: now.velocity,
+        yaw_rate: heading.rate,
+        ..FlatReference::standing(now.position, heading.angle)
+    }
+}
