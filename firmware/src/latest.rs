@@ -1,11 +1,13 @@
-//! Inputs of which only the latest counts: sticks, and when a ground station was last heard.
+//! Inputs of which only the latest counts: sticks, set-points, and when a ground station was last heard.
 //!
 //! They are the third path of inputs, beside kills (a count) and requests (a queue). Whoever reads one overwrites the
 //! last, with the time; it comes with the snapshots of the outer partition and of the commander, which judge its age by
 //! their own clock. So nothing queues: from the bytes of a stick message to the rotors it takes 20 ms at most (see
-//! [`schedule`](crate::schedule)). The commander selects only whom the vehicle obeys. A set-point that a ground station
-//! streams is to be a field of [`Latest`] too.
+//! [`schedule`](crate::schedule)). The commander selects only whom the vehicle obeys.
 
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::guidance::stream::Motion;
 use crate::signals::{TICK_S, Tick};
 
 /// A value, and when it was read.
@@ -66,11 +68,38 @@ impl Switches {
 /// Positions of a mode switch.
 pub const MODE_POSITIONS: u8 = 6;
 
+/// A set-point that a companion computer has sent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SetPoint {
+    /// What of a motion is wanted.
+    Motion {
+        /// In the world.
+        motion: Motion,
+        /// When it was sent, ms on the sender's clock, which wraps; `None` if it does not tell.
+        sent_ms: Option<u32>,
+    },
+    /// An attitude, or body rates.
+    Attitude(AttitudeSetPoint),
+}
+
+/// An attitude, or body rates alone, and a thrust.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AttitudeSetPoint {
+    /// Body to world; `None` for the rates alone.
+    pub attitude: Option<UnitQuaternion<f32>>,
+    /// In the body frame, rad/s.
+    pub rates: Vector3<f32>,
+    /// 0 to 1; the fraction with which it hovers is a setting.
+    pub thrust: f32,
+}
+
 /// What was read last of each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Latest {
     /// The sticks that count; `None` if there were none.
     pub sticks: Option<Stamped<Sticks>>,
+    /// The set-point of who streams them; `None` if there was none.
+    pub setpoint: Option<Stamped<SetPoint>>,
     /// When a ground station was last heard, on whatever link; `None` if none ever was.
     pub station: Option<Tick>,
 }
@@ -80,12 +109,18 @@ impl Latest {
     pub fn forget_old(&mut self, now: Tick) {
         let is_old = |at: Tick| now.wrapping_sub(at) > Tick::MAX / 2;
         self.sticks = self.sticks.filter(|sticks| !is_old(sticks.at));
+        self.setpoint = self.setpoint.filter(|setpoint| !is_old(setpoint.at));
         self.station = self.station.filter(|at| !is_old(*at));
     }
 
     /// The sticks, unless they are older than a time, s.
     pub fn sticks_within(&self, now: Tick, limit_s: f32) -> Option<&Sticks> {
         within(self.sticks.as_ref(), now, limit_s)
+    }
+
+    /// The set-point, unless it is older than a time, s.
+    pub fn setpoint_within(&self, now: Tick, limit_s: f32) -> Option<&SetPoint> {
+        within(self.setpoint.as_ref(), now, limit_s)
     }
 }
 
@@ -112,7 +147,11 @@ mod tests {
 
     #[test]
     fn what_was_read_weeks_ago_does_not_come_back() {
-        let read = Latest { sticks: Some(Stamped { value: Sticks::CENTRED, at: 7 }), station: Some(7) };
+        let read = Latest {
+            sticks: Some(Stamped { value: Sticks::CENTRED, at: 7 }),
+            setpoint: Some(Stamped { value: SetPoint::Motion { motion: Motion::default(), sent_ms: None }, at: 7 }),
+            station: Some(7),
+        };
         let mut latest = read;
         latest.forget_old(7 + Tick::MAX / 2);
         assert_eq!(latest, read);
@@ -122,6 +161,6 @@ mod tests {
 
     #[test]
     fn the_latest_values_are_small_enough_for_every_snapshot() {
-        assert!(size_of::<Latest>() <= 96, "{} bytes", size_of::<Latest>());
+        assert!(size_of::<Latest>() <= 120, "{} bytes", size_of::<Latest>());
     }
 }

@@ -84,6 +84,10 @@ impl Commander {
     fn intend_disarmed(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
         match intent {
             Intent::Hold | Intent::Land | Intent::Manual(_) => self.keep(intent, None),
+            Intent::Offboard => {
+                self.check_stream(effective.wrapping_sub(COMMANDER.offset), input)?;
+                self.keep(intent, None);
+            }
             Intent::TakeOff { .. } | Intent::Follow => {
                 self.check_take_off(&intent, input)?;
                 self.keep(intent, Some(effective.wrapping_add(ticks(LAUNCH_HELD_S))));
@@ -97,6 +101,10 @@ impl Commander {
     fn intend_idle(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
         match intent {
             Intent::Hold | Intent::Manual(_) => self.keep(intent, None),
+            Intent::Offboard => {
+                self.check_stream(effective.wrapping_sub(COMMANDER.offset), input)?;
+                self.keep(intent, None);
+            }
             // On the ground it is landed already, and is disarmed as after a landing.
             Intent::Land | Intent::LandAt(_) => {
                 self.keep(Intent::Land, None);
@@ -130,6 +138,7 @@ impl Commander {
             (State::TakeOff { .. }, Intent::TakeOff { .. }) | (_, Intent::Land) => {}
             (_, Intent::TakeOff { .. }) => return Err(Refusal::InAir),
             (_, Intent::Manual(mode)) => self.check_manual(mode, effective.wrapping_sub(COMMANDER.offset), input)?,
+            (_, Intent::Offboard) => self.check_stream(effective.wrapping_sub(COMMANDER.offset), input)?,
             _ => self.check_position(input)?,
         }
         self.engage(intent, effective, input);
@@ -155,7 +164,7 @@ impl Commander {
     /// After a landing or a disarming, and with an arming that begins no flight: a manual mode stays.
     pub(super) fn rest_intent(&mut self) {
         match self.intent {
-            Intent::Manual(_) => self.overridden = None,
+            Intent::Manual(_) | Intent::Offboard => self.overridden = None,
             _ => self.forget_intent(),
         }
     }
@@ -178,7 +187,7 @@ impl Commander {
             Override::RotorFailed => State::MotorOut,
             Override::BatteryLow => self.state_for(&Intent::Return, effective, height),
             Override::BatteryCritical => State::Land,
-            Override::StationLost { action } | Override::SticksLost { action } => {
+            Override::StationLost { action } | Override::SticksLost { action } | Override::SetPointsLost { action } => {
                 self.state_for(&action.pursues(), effective, height)
             }
             Override::SensorsGone => State::Disarmed,
@@ -202,6 +211,7 @@ impl Commander {
             Intent::Land => State::Land,
             Intent::Hold => State::Hold,
             Intent::Manual(mode) => State::Manual(mode),
+            Intent::Offboard => State::Offboard,
         }
     }
 

@@ -68,6 +68,11 @@ pub enum Directive {
         /// Greatest speed downwards where the stick's centre holds the height, m/s.
         sink_m_s: f32,
     },
+    /// Follow the latest set-point.
+    Offboard {
+        /// Whether the vehicle is off the ground; while it is not, it is kept level.
+        in_air: bool,
+    },
     /// Fly with a velocity; zero brakes and holds the place where the vehicle stops.
     Velocity {
         /// In the world, m/s.
@@ -102,7 +107,7 @@ impl Directive {
     /// True if every value is finite.
     pub fn is_finite(&self) -> bool {
         match self {
-            Self::Stop | Self::Idle | Self::Follow { .. } => true,
+            Self::Stop | Self::Idle | Self::Follow { .. } | Self::Offboard { .. } => true,
             Self::Manual { sink_m_s, .. } => sink_m_s.is_finite(),
             Self::GoTo { position, yaw, .. } => {
                 crate::math::all_finite(position.as_slice()) && yaw.is_none_or(f32::is_finite)
@@ -133,6 +138,8 @@ pub enum Mode {
     GoTo,
     /// Flying with a velocity.
     Velocity,
+    /// Following streamed set-points.
+    Offboard,
     /// By hand: body rates and thrust.
     Acro,
     /// By hand: tilt and thrust.

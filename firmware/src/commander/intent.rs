@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::{Goal, Known, ManualMode, Mode, Request, StationAction};
 
 /// What the pilot wants: the last request to fly that was accepted. It is kept while a failure overrides it. A landing
-/// and a disarming end it, unless it is to fly by hand; then it is [`Hold`](Self::Hold), as before the first request.
+/// and a disarming end it, unless it is to fly by hand or offboard; then it is [`Hold`](Self::Hold), as before the first request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Intent {
     /// Stay.
@@ -19,6 +19,8 @@ pub enum Intent {
     GoTo(Goal),
     /// Fly by hand.
     Manual(ManualMode),
+    /// Follow streamed set-points.
+    Offboard,
     /// Fly with a velocity.
     Velocity {
         /// In the world, m/s.
@@ -43,6 +45,7 @@ impl Intent {
             Request::Arm { .. } | Request::Disarm | Request::SetHome { .. } | Request::Speed { .. } => return None,
             Request::Hold => Self::Hold,
             Request::Manual(mode) => Self::Manual(mode),
+            Request::Offboard => Self::Offboard,
             Request::TakeOff { height_m } => Self::TakeOff { height_m },
             Request::GoTo(goal) => Self::GoTo(goal),
             Request::Velocity { velocity_m_s, yaw_rate_rad_s } => {
@@ -60,6 +63,7 @@ impl Intent {
         match self {
             Self::Hold => Mode::Hold,
             Self::Manual(mode) => (*mode).into(),
+            Self::Offboard => Mode::Offboard,
             Self::TakeOff { .. } => Mode::TakeOff,
             Self::GoTo(_) => Mode::GoTo,
             Self::Velocity { .. } => Mode::Velocity,
@@ -102,6 +106,11 @@ pub enum Override {
         /// What is done without them.
         action: StationAction,
     },
+    /// No set-points in offboard mode.
+    SetPointsLost {
+        /// What is done without them.
+        action: StationAction,
+    },
     /// No sensor samples: the rotors are stopped.
     SensorsGone,
 }
@@ -112,7 +121,9 @@ impl Override {
         match self {
             Self::BatteryLow => Some(Intent::Return),
             Self::BatteryCritical => Some(Intent::Land),
-            Self::StationLost { action } | Self::SticksLost { action } => Some(action.pursues()),
+            Self::StationLost { action } | Self::SticksLost { action } | Self::SetPointsLost { action } => {
+                Some(action.pursues())
+            }
             Self::Loss { .. } | Self::RotorFailed | Self::OuterHung | Self::SensorsGone => None,
         }
     }

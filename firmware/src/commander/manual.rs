@@ -102,6 +102,7 @@ impl Hand {
             3 => Request::Follow,
             4 => Request::Hold,
             5 => Request::Return,
+            7 => Request::Offboard,
             6 => Request::Manual(ManualMode::Acro),
             8 => Request::Manual(ManualMode::Stabilized),
             11 => Request::Land,
@@ -179,7 +180,7 @@ impl Commander {
     /// Ends an automatic mode once a stick is moved.
     fn take_over(&mut self, sticks: &Sticks, effective: Tick, input: &CommanderInput) {
         let kind = match self.state {
-            State::Velocity { .. } => ENDS_OFFBOARD,
+            State::Velocity { .. } | State::Offboard => ENDS_OFFBOARD,
             State::Disarmed | State::Idle { .. } | State::Manual(_) | State::Descent | State::MotorOut => 0,
             _ => ENDS_AUTOMATIC,
         };
@@ -233,13 +234,17 @@ impl Commander {
         }
     }
 
-    /// Whether the sticks let the vehicle be armed: in a manual mode there are some, and they would not lift it.
+    /// Whether sticks and set-points let the vehicle be armed: a mode that needs them has them, and sticks would not lift it.
     pub(super) fn check_sticks(&self, now: Tick, input: &CommanderInput) -> Result<(), Refusal> {
         let sticks = self.hand.sticks(now, input);
         if sticks.is_some_and(|sticks| sticks.switches.kill) {
             return Err(Refusal::KillSwitch);
         }
-        let Intent::Manual(mode) = self.intent else { return Ok(()) };
+        let mode = match self.intent {
+            Intent::Manual(mode) => mode,
+            Intent::Offboard => return self.check_stream(now, input),
+            _ => return Ok(()),
+        };
         let sticks = sticks.ok_or(Refusal::NoSticks)?;
         let is_down = if mode.has_direct_thrust() { sticks.throttle <= DOWN } else { !lifts(mode, sticks) };
         if is_down { Ok(()) } else { Err(Refusal::ThrottleUp) }

@@ -18,6 +18,7 @@ mod goal;
 mod home;
 mod intent;
 mod manual;
+mod offboard;
 mod request;
 mod state;
 mod station;
@@ -33,6 +34,7 @@ pub use goal::{Goal, SpeedKind};
 pub use intent::{Intent, Override};
 
 pub use crate::guidance::hands::ManualMode;
+pub(crate) use request::TURN_MAX;
 pub use request::{
     Answers, Asked, Command, Commands, Event, Events, FARTHEST_M, FASTEST_M_S, Origin, Outcome, Refusal, Replies,
     Reply, Request, StationReply, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M,
@@ -45,6 +47,7 @@ use nalgebra::Vector3;
 use self::checks::is_slow;
 use self::goal::ChosenSpeeds;
 use self::manual::Hand;
+use self::offboard::Stream;
 use self::station::StationLoss;
 use self::watch::{BatteryWatch, Charge, GroundWatch, NavWatch};
 use crate::config::{FlightConfig, ModeSettings, Start};
@@ -161,6 +164,9 @@ pub struct Commander {
     station: StationLoss,
     /// What sticks may do.
     hand: Hand,
+    /// When set-points are lost, and with which thrust one of an attitude hovers.
+    stream: Stream,
+    hover_throttle: f32,
     /// How long it idles on the ground, s: after arming, for ever if that is not positive, and after a landing.
     unused_s: f32,
     landed_s: f32,
@@ -225,6 +231,8 @@ impl Commander {
             ground: GroundWatch::new(flies, start.z),
             station: StationLoss::default(),
             hand: Hand::default(),
+            stream: Stream::default(),
+            hover_throttle: config.manual.hover_throttle,
             unused_s: 10.0,
             landed_s: 2.0,
             battery_answered: Charge::Good,
@@ -249,6 +257,7 @@ impl Commander {
             _ => {
                 self.station.set(index, value);
                 self.hand.set(index, value);
+                self.stream.set(index, value);
             }
         }
     }
@@ -256,6 +265,9 @@ impl Commander {
     /// Takes over a setting.
     pub fn apply(&mut self, change: &Change) {
         change.apply_to(&mut self.settings, Place::modes);
+        if usize::from(change.index) == settings::MPC_THR_HOVER {
+            self.hover_throttle = change.value.real();
+        }
         self.set(usize::from(change.index), change.value);
     }
 
@@ -295,7 +307,7 @@ impl Commander {
             // As many replies fit as commands.
             let _ = replies.push(Reply { command: *command, outcome });
         }
-        let event = self.take_sticks(effective, input);
+        let event = self.take_sticks(effective, input).or_else(|| self.take_setpoints(effective, input));
         let event = self.fail_safe(effective, input).or(event);
         self.progress(effective, input);
         let home = self.known_home(input);
@@ -352,6 +364,10 @@ impl Commander {
             State::Land | State::Descent | State::MotorOut => {
                 self.ground.step_flying(input, self.weight_n, Some(self.navigation.known()));
             }
+            State::Offboard => {
+                let descends = self.descends_by_setpoint(released, input);
+                self.ground.step_flying(input, self.weight_n, descends);
+            }
             State::Manual(mode) => {
                 let descends = self.descends_by_hand(mode, released, input);
                 self.ground.step_flying(input, self.weight_n, descends);
@@ -396,16 +412,27 @@ impl Commander {
                 self.forget_intent();
                 State::Idle { disarm_at: Some(self.after_landing(effective)) }
             }
+            State::Offboard
+                if !self.ground.is_airborne()
+                    && self.descends_by_setpoint(effective.wrapping_sub(COMMANDER.offset), input).is_some() =>
+            {
+                self.land(effective, nav.position.z)
+            }
             State::Manual(mode)
                 if !self.ground.is_airborne()
                     && self.descends_by_hand(mode, effective.wrapping_sub(COMMANDER.offset), input).is_some() =>
             {
-                self.ground_m = nav.position.z;
-                self.rest_intent();
-                State::Idle { disarm_at: Some(self.after_landing(effective)) }
+                self.land(effective, nav.position.z)
             }
             state => state,
         };
+    }
+
+    /// On the ground at a height (z, m) in a mode that stays.
+    fn land(&mut self, effective: Tick, height: f32) -> State {
+        self.ground_m = height;
+        self.rest_intent();
+        State::Idle { disarm_at: Some(self.after_landing(effective)) }
     }
 
     fn over_home(&self, height: f32) -> Vector3<f32> {
@@ -422,6 +449,7 @@ impl Commander {
             State::Idle { .. } => Directive::Idle,
             State::TakeOff { to_m, .. } => climb(to_m, settings.take_off_m_s),
             State::Hold => Directive::HOLD,
+            State::Offboard => Directive::Offboard { in_air: self.ground.is_airborne() },
             State::Manual(mode) => Directive::Manual {
                 mode,
                 in_air: self.ground.is_airborne(),

@@ -36,6 +36,8 @@ pub enum Request {
     Hold,
     /// Fly by hand.
     Manual(ManualMode),
+    /// Follow streamed set-points.
+    Offboard,
     /// Go to a place, a height or a heading, and stay.
     GoTo(Goal),
     /// Set a speed for the way to a goal.
@@ -68,7 +70,7 @@ pub enum Request {
 }
 
 /// Greatest accepted angle or rate: two turns, or two turns per second.
-pub(super) const TURN_MAX: f32 = 4.0 * core::f32::consts::PI;
+pub(crate) const TURN_MAX: f32 = 4.0 * core::f32::consts::PI;
 
 /// Whether all values are finite and within ±`most`: a comparison with NaN is false.
 pub(super) fn within(values: &[f32], most: f32) -> bool {
@@ -90,6 +92,7 @@ impl Request {
             | Self::Disarm
             | Self::Hold
             | Self::Manual(_)
+            | Self::Offboard
             | Self::Land
             | Self::Return
             | Self::Follow => true,
@@ -195,6 +198,8 @@ pub enum Refusal {
     NoSticks,
     /// The throttle stick would lift the vehicle.
     ThrottleUp,
+    /// No set-points.
+    NoSetPoints,
 }
 
 /// The reply to a command.
@@ -262,6 +267,11 @@ pub enum Event {
     SticksLost {
         /// What is done without them.
         action: StationAction,
+    },
+    /// No set-points any more in offboard mode.
+    SetPointsLost {
+        /// What is done without them; `None` for flying by hand.
+        action: Option<StationAction>,
     },
     /// Position or velocity unknown in position mode: altitude mode.
     NoPositionMode,

@@ -14,6 +14,10 @@
 //! Return, Approach             ─ arrived ──────────► Land
 //! Land, Descent, MotorOut      ─ touchdown ────────► Idle
 //!
+//! Offboard                     ─ touchdown ────────► Idle
+//! Idle                         ─ set-point up ─────► Offboard
+//! Manual, Cruise, TakeOff, Land, Descent ─ offboard ► Offboard
+//! Offboard                     ─ set-points lost ──► Hold by SetPointsLost
 //! Manual                       ─ touchdown, stick down ► Idle
 //! Idle                         ─ stick up ─────────► Manual
 //! Cruise, TakeOff, Land        ─ stick moved ──────► Manual
@@ -25,20 +29,20 @@
 //! Manual, Cruise, TakeOff, Land, Descent ─ return ─────────► Return
 //! Manual, Cruise, TakeOff                ─ land ───────────► Land
 //! Manual, Cruise, TakeOff, Land, Descent ─ land there ─────► Approach
-//! Hold, Manual, GoTo, Velocity, Return, Approach, TakeOff, Land, Descent ─ follow ► Join
+//! Hold, Manual, GoTo, Velocity, Offboard, Return, Approach, TakeOff, Land, Descent ─ follow ► Join
 //!
 //! Manual, Cruise, TakeOff              ─ battery critical ─► Land by BatteryCritical
-//! Hold, Manual, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ battery low ► Return by BatteryLow
-//! GoTo, Velocity, Join, Follow, Approach, TakeOff ─ station lost: hold ► Hold by StationLost
-//! Hold, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ station lost: return ► Return by StationLost
-//! Hold, GoTo, Velocity, Join, Follow, Approach, TakeOff ─ station lost: land ► Land by StationLost
+//! Hold, Manual, GoTo, Velocity, Offboard, Join, Follow, Approach, TakeOff ─ battery low ► Return by BatteryLow
+//! GoTo, Velocity, Offboard, Join, Follow, Approach, TakeOff ─ station lost: hold ► Hold by StationLost
+//! Hold, GoTo, Velocity, Offboard, Join, Follow, Approach, TakeOff ─ station lost: return ► Return by StationLost
+//! Hold, GoTo, Velocity, Offboard, Join, Follow, Approach, TakeOff ─ station lost: land ► Land by StationLost
 //! Cruise, TakeOff, Land        ─ loss ─────────────► Descent by Loss
 //! Manual, Cruise, TakeOff, Land        ─ hung ─────────────► Descent by OuterHung
 //! Manual, Cruise, TakeOff, Land, Descent ─ rotor failed ───► MotorOut by RotorFailed
 //! Manual, Cruise, TakeOff, Land, Descent, MotorOut ─ gone ─► Disarmed by SensorsGone
 //! Idle, Manual, Cruise, TakeOff, Land, Descent, MotorOut ─ kill ────────► Disarmed
 //!
-//! Cruise = Hold, GoTo, Velocity, Join, Follow, Return, Approach
+//! Cruise = Hold, GoTo, Velocity, Offboard, Join, Follow, Return, Approach
 //! ```
 //!
 //! A test checks this diagram against the code.
@@ -83,6 +87,8 @@ pub enum State {
     GoTo(Course),
     /// Flying by hand.
     Manual(ManualMode),
+    /// Following streamed set-points.
+    Offboard,
     /// Flying with a velocity.
     Velocity {
         /// m/s.
@@ -134,6 +140,7 @@ impl State {
             Self::TakeOff { .. } => Mode::TakeOff,
             Self::Hold => Mode::Hold,
             Self::Manual(mode) => (*mode).into(),
+            Self::Offboard => Mode::Offboard,
             Self::GoTo(_) => Mode::GoTo,
             Self::Velocity { .. } => Mode::Velocity,
             Self::Join | Self::Follow { .. } => Mode::Follow,

@@ -10,7 +10,8 @@ use std::collections::BTreeSet;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::*;
-use crate::latest::Sticks;
+use crate::guidance::stream::Motion;
+use crate::latest::{SetPoint, Stamped, Sticks};
 
 const PERIOD: Tick = COMMANDER.period;
 
@@ -67,11 +68,14 @@ impl Bench {
         Self { commander, tick: 1_000 }
     }
 
-    /// Sticks, if there are any, are as new as can be.
+    /// Sticks and set-points, if there are any, are as new as can be.
     fn step(&mut self, input: &CommanderInput) -> CommanderOutput {
         let mut input = input.clone();
         if let Some(sticks) = &mut input.latest.sticks {
             sticks.at = self.tick;
+        }
+        if let Some(setpoint) = &mut input.latest.setpoint {
+            setpoint.at = self.tick;
         }
         let output = self.commander.step(self.tick, &input);
         self.tick += PERIOD;
@@ -93,6 +97,7 @@ fn wanted(state: &State) -> (Intent, Option<Override>) {
         State::Disarmed | State::Idle { .. } | State::Hold => (Intent::Hold, None),
         State::TakeOff { from_m, to_m } => (Intent::TakeOff { height_m: to_m - from_m }, None),
         State::Manual(mode) => (Intent::Manual(mode), None),
+        State::Offboard => (Intent::Offboard, None),
         State::GoTo(course) => (Intent::GoTo(goal(&course)), None),
         State::Approach(course) => (Intent::LandAt(goal(&course)), None),
         State::Velocity { velocity, yaw_rate } => (Intent::Velocity { velocity, yaw_rate }, None),
@@ -131,6 +136,7 @@ fn states() -> Vec<State> {
         State::GoTo(course(velocity.into(), 0.0)),
         State::Approach(course(velocity.into(), 0.0)),
         State::Manual(ManualMode::Position),
+        State::Offboard,
         State::Velocity { velocity, yaw_rate: 0.0 },
         State::Join,
         State::Follow { since: 0 },
@@ -160,7 +166,10 @@ fn outcomes(state: State) -> Vec<(&'static str, String)> {
     let flies = !matches!(state, State::Disarmed | State::Idle { .. });
     let mut quiet = if flies { hovering() } else { standing() };
     if let State::Manual(_) = state {
-        quiet.latest.sticks = Some(crate::latest::Stamped { value: Sticks::CENTRED, at: 0 });
+        quiet.latest.sticks = Some(Stamped { value: Sticks::CENTRED, at: 0 });
+    }
+    if state == State::Offboard {
+        quiet.latest.setpoint = streamed(30.0);
     }
     let end = |run: &dyn Fn(&mut Bench)| {
         let mut bench = Bench::new(state);
@@ -196,7 +205,10 @@ fn outcomes(state: State) -> Vec<(&'static str, String)> {
         ("station lost: hold", end(&|bench| station::is_lost(bench, StationAction::Hold, &quiet))),
         ("station lost: return", end(&|bench| station::is_lost(bench, StationAction::Return, &quiet))),
         ("station lost: land", end(&|bench| station::is_lost(bench, StationAction::Land, &quiet))),
-        ("sticks lost", last(0.1, CommanderInput { latest: Latest::default(), ..quiet.clone() })),
+        ("set-points lost", if state == State::Offboard { silenced(state, &quiet) } else { name(&state) }),
+        ("offboard", offboard(state, &quiet)),
+        ("set-point up", setpoint_up(state)),
+        ("sticks lost", if let State::Manual(_) = state { silenced(state, &quiet) } else { name(&state) }),
         ("touchdown", touched_down(state, &quiet)),
         ("stick down", if let State::Manual(_) = state { touched_down(state, &quiet) } else { name(&state) }),
         ("rested", rested(state)),
@@ -208,20 +220,53 @@ fn outcomes(state: State) -> Vec<(&'static str, String)> {
 /// Asked for, with sticks.
 fn by_hand(state: State, quiet: &CommanderInput) -> String {
     let mut input = quiet.clone();
-    input.latest.sticks = Some(crate::latest::Stamped { value: Sticks::CENTRED, at: 0 });
+    input.latest.sticks = Some(Stamped { value: Sticks::CENTRED, at: 0 });
     let mut bench = Bench::new(state);
     bench.ask(Request::Manual(ManualMode::Altitude), &input);
+    situation(&bench.commander)
+}
+
+/// A set-point at a height, m.
+fn streamed(height_m: f32) -> Option<Stamped<SetPoint>> {
+    let motion = Motion::default().with_position([Some(50.0), Some(60.0), Some(height_m)]);
+    Some(Stamped { value: SetPoint::Motion { motion, sent_ms: None }, at: 0 })
+}
+
+/// Without sticks and set-points.
+fn silenced(state: State, quiet: &CommanderInput) -> String {
+    let mut bench = Bench::new(state);
+    bench.run(0.1, &CommanderInput { latest: Latest::default(), ..quiet.clone() });
+    situation(&bench.commander)
+}
+
+/// Asked for, with a stream.
+fn offboard(state: State, quiet: &CommanderInput) -> String {
+    let mut input = quiet.clone();
+    input.latest.setpoint = streamed(quiet.nav.position.z);
+    let mut bench = Bench::new(state);
+    bench.ask(Request::Offboard, &input);
+    name(&bench.commander.state)
+}
+
+/// On the ground in offboard mode, with a set-point above.
+fn setpoint_up(state: State) -> String {
+    let State::Idle { .. } = state else { return name(&state) };
+    let mut bench = Bench::new(state);
+    bench.commander.intent = Intent::Offboard;
+    let mut input = standing();
+    input.latest.setpoint = streamed(3.0);
+    bench.run(0.1, &input);
     situation(&bench.commander)
 }
 
 /// Flying by itself, a stick to its end after a while.
 fn stick_moved(state: State, quiet: &CommanderInput) -> String {
     let mut input = quiet.clone();
-    input.latest.sticks = Some(crate::latest::Stamped { value: Sticks::CENTRED, at: 0 });
+    input.latest.sticks = Some(Stamped { value: Sticks::CENTRED, at: 0 });
     let mut bench = Bench::new(state);
     bench.commander.hand.set(crate::settings::COM_RC_OVERRIDE, Value::Int(3));
     bench.run(0.1, &input);
-    input.latest.sticks = Some(crate::latest::Stamped { value: Sticks { roll: 0.5, ..Sticks::CENTRED }, at: 0 });
+    input.latest.sticks = Some(Stamped { value: Sticks { roll: 0.5, ..Sticks::CENTRED }, at: 0 });
     bench.run(0.1, &input);
     situation(&bench.commander)
 }
@@ -232,7 +277,7 @@ fn stick_up(state: State) -> String {
     let mut bench = Bench::new(state);
     bench.commander.intent = Intent::Manual(ManualMode::Stabilized);
     let mut input = standing();
-    input.latest.sticks = Some(crate::latest::Stamped { value: Sticks { throttle: 0.6, ..Sticks::CENTRED }, at: 0 });
+    input.latest.sticks = Some(Stamped { value: Sticks { throttle: 0.6, ..Sticks::CENTRED }, at: 0 });
     bench.run(0.1, &input);
     situation(&bench.commander)
 }
@@ -242,6 +287,9 @@ fn touched_down(state: State, quiet: &CommanderInput) -> String {
     let mut input = CommanderInput { thrust_n: 0.0, ..quiet.clone() };
     if let Some(sticks) = &mut input.latest.sticks {
         sticks.value.throttle = 0.0;
+    }
+    if input.latest.setpoint.is_some() {
+        input.latest.setpoint = streamed(-1.0);
     }
     let mut bench = Bench::new(state);
     bench.run(0.6, &input);

@@ -13,6 +13,7 @@ impl Mode {
             Self::Hold => "hold",
             Self::GoTo => "go-to",
             Self::Velocity => "velocity",
+            Self::Offboard => "offboard",
             Self::Acro => "acro",
             Self::Stabilized => "stabilized",
             Self::Altitude => "altitude",
@@ -35,6 +36,7 @@ impl Request {
             Self::TakeOff { .. } => "Takeoff",
             Self::Hold => "Hold",
             Self::Manual(_) => "Manual mode",
+            Self::Offboard => "Offboard mode",
             Self::GoTo(_) => "Go to",
             Self::Speed { .. } => "Speed",
             Self::Velocity { .. } => "Velocity",
@@ -71,6 +73,7 @@ impl Refusal {
             Self::KillSwitch => "kill switch on",
             Self::NoSticks => "no sticks",
             Self::ThrottleUp => "throttle stick is up",
+            Self::NoSetPoints => "no set-points",
         }
     }
 }
@@ -93,6 +96,10 @@ impl Event {
             Self::SticksLost { action: StationAction::Hold } => "Sticks lost: holding",
             Self::SticksLost { action: StationAction::Return } => "Sticks lost: returning home",
             Self::SticksLost { action: StationAction::Land } => "Sticks lost: landing",
+            Self::SetPointsLost { action: None } => "Set-points lost: flown by hand",
+            Self::SetPointsLost { action: Some(StationAction::Hold) } => "Set-points lost: holding",
+            Self::SetPointsLost { action: Some(StationAction::Return) } => "Set-points lost: returning home",
+            Self::SetPointsLost { action: Some(StationAction::Land) } => "Set-points lost: landing",
             Self::NoPositionMode => "Position estimate lost: altitude mode",
             Self::NoAltitudeMode => "Height estimate lost: stabilized mode",
             // Pilots count motors from 1.
@@ -126,6 +133,7 @@ mod tests {
             Request::Hold,
             Request::GoTo(Goal::default()),
             Request::Manual(ManualMode::Acro),
+            Request::Offboard,
             Request::Speed { kind: SpeedKind::Up, speed_m_s: None },
             Request::Velocity { velocity_m_s: zero, yaw_rate_rad_s: 0.0 },
             Request::Land,
@@ -155,6 +163,7 @@ mod tests {
             Refusal::KillSwitch,
             Refusal::NoSticks,
             Refusal::ThrottleUp,
+            Refusal::NoSetPoints,
         ];
         for (request, refusal) in requests.iter().flat_map(|request| refusals.map(|refusal| (request, refusal))) {
             let text = format!("{} refused: {}", request.name(), refusal.reason());
@@ -176,6 +185,10 @@ mod tests {
             Event::SticksLost { action: StationAction::Hold },
             Event::SticksLost { action: StationAction::Return },
             Event::SticksLost { action: StationAction::Land },
+            Event::SetPointsLost { action: None },
+            Event::SetPointsLost { action: Some(StationAction::Hold) },
+            Event::SetPointsLost { action: Some(StationAction::Return) },
+            Event::SetPointsLost { action: Some(StationAction::Land) },
             Event::NoPositionMode,
             Event::NoAltitudeMode,
             Event::RotorFailed { rotor: 0 },

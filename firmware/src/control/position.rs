@@ -241,6 +241,11 @@ impl ForceLimits {
         Self { tan_tilt_max: sin_tilt / cos_tilt, ..self }
     }
 
+    /// Tangent of the greatest tilt.
+    pub fn tan_tilt_max(&self) -> f32 {
+        self.tan_tilt_max
+    }
+
     /// Greatest specific force, m/s².
     pub fn force_max(&self) -> f32 {
         self.force_max

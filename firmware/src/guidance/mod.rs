@@ -8,6 +8,7 @@ pub mod hands;
 mod join;
 pub mod setpoint;
 mod spline;
+pub mod stream;
 
 pub use join::{JoinPath, JoinPlan, MIDDLE_POINTS};
 pub use spline::{CONTROL_POINTS, DEGREE, DURATION_MAX_MS, Spline};

@@ -8,7 +8,7 @@ use glissade_dialect::num_traits::FromPrimitive;
 use glissade_dialect::{MavCmd, MavModeFlag, MavResult};
 
 use super::incoming::{CommandMessage, Form};
-use super::telemetry::{IntervalError, MODES, Report, Telemetry, View, is_available, report_by_id};
+use super::telemetry::{IntervalError, MODES, Report, Telemetry, View, is_available, of_standard_mode, report_by_id};
 use super::{GroundOutput, goal, mode, place};
 use crate::commander::{Outcome, Request};
 use crate::failure::{Failure, Failures, Injectable, Manner, Unit};
@@ -83,6 +83,7 @@ pub(super) fn carry_out(
         },
         Some(MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH) => Effect::Ask(Request::Return),
         Some(MavCmd::MAV_CMD_DO_SET_MODE) => mode_request(message, view.take_off_m).into(),
+        Some(MavCmd::MAV_CMD_DO_SET_STANDARD_MODE) => standard_mode(message, view.take_off_m),
         Some(MavCmd::MAV_CMD_INJECT_FAILURE) => {
             inject(message, &view.input.injectable, &mut output.failures).map_or_else(Into::into, Into::into)
         }
@@ -121,6 +122,17 @@ fn mode_request(message: &CommandMessage, take_off_m: f32) -> Option<Request> {
     let flags = MavModeFlag::from_bits_truncate(whole(message.param1)?.into());
     let custom = flags.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED);
     custom.then(|| mode::request(message.param2, message.param3, take_off_m)).flatten()
+}
+
+/// The mode that stands for a standard one.
+fn standard_mode(message: &CommandMessage, take_off_m: f32) -> Effect {
+    match whole(message.param1).and_then(of_standard_mode) {
+        Some(custom_mode) => {
+            let [_, _, main, sub] = custom_mode.to_le_bytes();
+            mode::request(f32::from(main), f32::from(sub), take_off_m).into()
+        }
+        None => MavResult::MAV_RESULT_UNSUPPORTED.into(),
+    }
 }
 
 /// Accepts a failure that the board supports, and passes it on. Denied if the board supports none, as PX4 does while

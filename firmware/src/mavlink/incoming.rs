@@ -8,11 +8,13 @@ use glissade_dialect::{
     MISSION_REQUEST_PARTIAL_LIST_DATA, MISSION_SET_CURRENT_DATA, MISSION_WRITE_PARTIAL_LIST_DATA, MavType,
     PARAM_EXT_REQUEST_LIST_DATA, PARAM_EXT_REQUEST_READ_DATA, PARAM_EXT_SET_DATA, PARAM_REQUEST_LIST_DATA,
     PARAM_REQUEST_READ_DATA, PARAM_SET_DATA, PING_DATA, RC_CHANNELS_OVERRIDE_DATA, SERIAL_CONTROL_DATA,
-    SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA, TIMESYNC_DATA,
+    SET_ATTITUDE_TARGET_DATA, SET_GPS_GLOBAL_ORIGIN_DATA, SET_MODE_DATA, SET_POSITION_TARGET_GLOBAL_INT_DATA,
+    SET_POSITION_TARGET_LOCAL_NED_DATA, TIMESYNC_DATA,
 };
 
 use super::params::{Name, ParamRequest};
 use super::services;
+use super::setpoint::SetPointMessage;
 use super::sticks::{self, StickMessage};
 use super::telemetry::Place;
 use super::{COMPONENT_ID, Identity};
@@ -115,6 +117,8 @@ pub(super) enum Incoming {
     Timesync { ts1: i64 },
     /// `SET_GPS_GLOBAL_ORIGIN`.
     SetOrigin(Place),
+    /// A set-point of a stream.
+    SetPoint(SetPointMessage),
     /// `MANUAL_CONTROL` or `RC_CHANNELS_OVERRIDE`.
     Sticks(StickMessage),
     /// A request of `PING`.
@@ -188,6 +192,9 @@ pub(super) fn known(id: u32) -> Option<Known> {
         SET_GPS_GLOBAL_ORIGIN_DATA::ID => Known::of::<SET_GPS_GLOBAL_ORIGIN_DATA>(set_origin),
         COMMAND_INT_DATA::ID => Known::of::<COMMAND_INT_DATA>(command_int),
         COMMAND_LONG_DATA::ID => Known::of::<COMMAND_LONG_DATA>(command_long),
+        SET_ATTITUDE_TARGET_DATA::ID => Known::of::<SET_ATTITUDE_TARGET_DATA>(attitude_target),
+        SET_POSITION_TARGET_LOCAL_NED_DATA::ID => Known::of::<SET_POSITION_TARGET_LOCAL_NED_DATA>(local_target),
+        SET_POSITION_TARGET_GLOBAL_INT_DATA::ID => Known::of::<SET_POSITION_TARGET_GLOBAL_INT_DATA>(global_target),
         SERIAL_CONTROL_DATA::ID => Known::of::<SERIAL_CONTROL_DATA>(serial),
         PARAM_EXT_REQUEST_LIST_DATA::ID => Known::of::<PARAM_EXT_REQUEST_LIST_DATA>(extended_params),
         PARAM_EXT_REQUEST_READ_DATA::ID => Known::of::<PARAM_EXT_REQUEST_READ_DATA>(extended_read),
@@ -319,6 +326,23 @@ fn channels_override(raw: &Raw) -> Option<Incoming> {
     let ours = m.target_system == raw.us.system && raw.is_for_us(m.target_system, m.target_component);
     let message = sticks::of_channels(&m).filter(|_| ours)?;
     Some(Incoming::Sticks(message))
+}
+
+/// Readers of set-points.
+macro_rules! setpoint_readers {
+    ($($name:ident: $data:ty,)*) => {$(
+        fn $name(raw: &Raw) -> Option<Incoming> {
+            let m: $data = raw.read()?;
+            let ours = raw.is_for_us(m.target_system, m.target_component);
+            ours.then_some(Incoming::SetPoint(SetPointMessage::from(m)))
+        }
+    )*};
+}
+
+setpoint_readers! {
+    attitude_target: SET_ATTITUDE_TARGET_DATA,
+    local_target: SET_POSITION_TARGET_LOCAL_NED_DATA,
+    global_target: SET_POSITION_TARGET_GLOBAL_INT_DATA,
 }
 
 fn file(raw: &Raw) -> Option<Incoming> {

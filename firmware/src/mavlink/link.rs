@@ -9,13 +9,14 @@ use super::outbox::{Answer, Line, Outbox};
 use super::params::{self, Done, ParamRequest, Params};
 use super::parser::Parser;
 use super::port::{Port, Profile};
+use super::setpoint::SetPointMessage;
 use super::sticks::{Hands, Source, Taking};
 use super::telemetry::{Place, Report, Telemetry, View};
 use super::writer::Writer;
-use super::{GroundOutput, command, mode, place};
+use super::{GroundOutput, command, mode, place, setpoint};
 use crate::commander::{self, Command, Event, Outcome, Refusal, Reply, Request, StationReply};
 use crate::frames::Origin;
-use crate::latest::Latest;
+use crate::latest::{Latest, Stamped};
 use crate::settings::{Marks, Settings};
 use crate::signals::{TICK_S, TICK_US, Tick};
 
@@ -24,6 +25,9 @@ const WAITING: usize = 8;
 
 /// An arming waits so long for settings that were set before it, ticks: within half a second a station is to be answered.
 const SETTLED_WITHIN: Tick = 400;
+
+/// A stream of set-points that are refused is told of once in this time, s.
+const TELL_EVERY_S: f32 = 2.0;
 
 /// Rates that a peer has set are forgotten once nothing has been heard of it for this long, s.
 const SILENT_AFTER_S: f32 = 10.0;
@@ -41,6 +45,8 @@ pub(super) struct Job<'a> {
     pub(super) latest: &'a mut Latest,
     /// From whom sticks come.
     pub(super) hands: &'a mut Hands,
+    /// From whom set-points come.
+    pub(super) leader: &'a mut Option<Source>,
     /// Whether what can be set while disarmed only is refused.
     pub(super) armed: bool,
     /// Its output.
@@ -61,6 +67,8 @@ pub(super) struct Link {
     waiting: Deque<Command, WAITING>,
     /// Since when an arming has waited for settings.
     arming_waits_since: Option<Tick>,
+    /// When the pilot was last told of a set-point that was refused.
+    refused_at: Option<Tick>,
     /// When something for this vehicle, or a heartbeat, was last received.
     heard_at: Option<Tick>,
 }
@@ -101,6 +109,7 @@ impl Link {
                 let taking = Taking::by(job.settings);
                 job.output.kill |= job.hands.take(&sticks, from, job.view.now, &taking, job.latest);
             }
+            Incoming::SetPoint(message) => self.take_setpoint(number, sender, &message, job),
             Incoming::Command(command) => self.handle_command(number, sender, &command, job),
             Incoming::SetMode { base_mode, custom_mode } => {
                 let command = mode::as_command(base_mode, custom_mode);
@@ -120,6 +129,28 @@ impl Link {
                 self.outbox.answer(Answer::Timesync { tc1, ts1, to: sender });
             }
             Incoming::Ping { time_usec, seq } => self.outbox.answer(Answer::Ping { time_usec, seq, to: sender }),
+        }
+    }
+
+    /// Takes over a set-point. While the last one of somebody else is not lost, another's does not count.
+    fn take_setpoint(&mut self, link: u8, sender: Sender, message: &SetPointMessage, job: &mut Job) {
+        let (now, from) = (job.view.now, Source { link, system: sender.0 });
+        let loss_s = job.settings.setpoint_loss_s();
+        if job.latest.setpoint_within(now, loss_s).is_some() && *job.leader != Some(from) {
+            return;
+        }
+        match setpoint::read(message, &job.view) {
+            Ok(value) => {
+                *job.leader = Some(from);
+                job.latest.setpoint = Some(Stamped { value, at: now });
+            }
+            Err(reason) => {
+                let told = (TELL_EVERY_S / TICK_S) as Tick;
+                if self.refused_at.is_none_or(|at| now.wrapping_sub(at) >= told) {
+                    self.refused_at = Some(now);
+                    self.refuse("Set-point", reason);
+                }
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 //! Bytes in, bytes out; the board or the host only carries them, through [`port`]: a pair of rings for each link. A
 //! `link` has its own parser, answers and rates: `parser` finds frames, `incoming` decodes messages, `command` carries
 //! out commands, `place` those that carry places on Earth, `goal` those that send it somewhere, `params` serves the settings, `services` answers for what
-//! there is not, `sticks` reads those of ground stations, `radio` says which of its channels they are, `mode` encodes modes as PX4 does, `text` sends texts to pilots, `telemetry` schedules and fills in the
+//! there is not, `setpoint` reads those of companion computers, `sticks` reads those of ground stations, `radio` says which of its channels they are, `mode` encodes modes as PX4 does, `text` sends texts to pilots, `telemetry` schedules and fills in the
 //! messages about the vehicle, of which [`report`] tells the part that is gathered for it, `outbox` keeps what is still to
 //! be said, and `writer` encodes messages. NED/FRD is converted in `frames` only.
 //!
@@ -51,6 +51,7 @@ pub mod port;
 mod radio;
 pub mod report;
 mod services;
+mod setpoint;
 mod sticks;
 mod telemetry;
 #[cfg(test)]
@@ -63,7 +64,7 @@ use nalgebra::Vector3;
 use self::link::{Job, Link};
 use self::port::{LINKS, Ports};
 use self::report::{ControlReport, SensorReport};
-use self::sticks::Hands;
+use self::sticks::{Hands, Source};
 use self::telemetry::View;
 use crate::commander::{Answers, Commands, Events, Mode, Request};
 use crate::estimator::status::Status;
@@ -205,6 +206,8 @@ pub struct Ground {
     latest: Latest,
     /// From whom sticks come.
     hands: Hands,
+    /// From whom set-points come.
+    leader: Option<Source>,
     /// When an arming was last passed on: until it is seen what became of it, the vehicle counts as armed.
     arming_at: Option<Tick>,
 }
@@ -226,6 +229,7 @@ impl Ground {
             set_origin: None,
             latest: Latest::default(),
             hands: Hands::default(),
+            leader: None,
             arming_at: None,
         }
     }
@@ -255,8 +259,13 @@ impl Ground {
             link.begin(session, profile, released, port);
             let (settings, changed) = (&mut self.settings, &mut changed);
             let (set_origin, latest, hands) = (&mut self.set_origin, &mut self.latest, &mut self.hands);
+            let leader = &mut self.leader;
             let output = &mut output;
-            link.read(number, port, &mut Job { view, settings, changed, set_origin, latest, hands, armed, output });
+            link.read(
+                number,
+                port,
+                &mut Job { view, settings, changed, set_origin, latest, hands, leader, armed, output },
+            );
         }
         while let Some(index) = changed.first() {
             changed.clear(index);

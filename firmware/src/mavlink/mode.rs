@@ -25,7 +25,7 @@ pub(super) fn custom_mode(mode: Mode) -> u32 {
         Mode::Follow => (AUTO, MISSION),
         Mode::Return => (AUTO, RETURN),
         Mode::Land | Mode::Descent | Mode::MotorOut => (AUTO, LAND),
-        Mode::Velocity => (OFFBOARD, 0),
+        Mode::Velocity | Mode::Offboard => (OFFBOARD, 0),
         Mode::Acro => (ACRO, 0),
         Mode::Stabilized => (STABILIZED, 0),
         Mode::Altitude => (ALTITUDE, 0),
@@ -58,6 +58,9 @@ pub(super) fn request(main: f32, sub: f32, take_off_m: f32) -> Option<Request> {
         if main == f32::from(number) {
             return Some(Request::Manual(mode));
         }
+    }
+    if main == f32::from(OFFBOARD) {
+        return Some(Request::Offboard);
     }
     if main != f32::from(AUTO) {
         return None;

@@ -7,7 +7,7 @@
 
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 
-use super::{Authority, Outer, OuterInput, OuterOutput, Predicted, Source, forget_horizontal, velocity};
+use super::{Authority, Outer, OuterInput, OuterOutput, Source, as_it_moves, forget_horizontal, velocity};
 use crate::config::ManualSettings;
 use crate::control::flatness::{self, ForceProfile, Heading};
 use crate::control::law::PositionLaw;
@@ -15,7 +15,7 @@ use crate::guidance::hands::{ManualMode, Smooth};
 use crate::latest::Sticks;
 use crate::math;
 use crate::schedule::{OUTER, OUTER_AHEAD_S};
-use crate::signals::{AttitudeReference, AttitudeTarget, FlatReference, NavState, TICK_S, Tick};
+use crate::signals::{AttitudeReference, AttitudeTarget, NavState, TICK_S, Tick};
 
 /// Time between two jobs, s.
 const STEP_S: f32 = OUTER.period as f32 * TICK_S;
@@ -26,6 +26,8 @@ const TILT: f32 = 25.0;
 const RATE: f32 = 40.0;
 const THRUST: f32 = 40.0;
 const TURN: f32 = 10.0;
+/// Of an attitude that is far away no more is turned towards at once, rad: its rate stays below 6 rad/s.
+const TURN_MAX_RAD: f32 = 0.5;
 /// In acro mode the reference is at most this far from the vehicle's attitude: cosine and sine of half of 0.4 rad.
 const REACH: (f32, f32) = (0.980_066_6, 0.198_669_33);
 
@@ -59,6 +61,46 @@ impl ByHand {
             yaw: 0.0,
             turn: Smooth::default(),
         }
+    }
+
+    /// Begins to follow what a companion computer streams, or goes on.
+    pub(super) fn lead(&mut self, nav: &NavState, thrust_n: f32) {
+        if self.mode != Some(ManualMode::Acro) {
+            self.begin(nav, thrust_n, nav.yaw());
+            self.mode = Some(ManualMode::Acro);
+        }
+    }
+
+    /// A step of the thrust towards this, N.
+    pub(super) fn thrust(&mut self, wanted_n: f32) -> Smooth {
+        self.thrust.step(wanted_n, THRUST);
+        self.thrust
+    }
+
+    /// A step towards an attitude that turns with these rates, in its own frame: critically damped on the rotation group.
+    pub(super) fn approach(
+        &mut self,
+        wanted: &UnitQuaternion<f32>,
+        wanted_rates: &Vector3<f32>,
+        nav: &NavState,
+    ) -> AttitudeTarget {
+        let away = self.attitude.inverse() * wanted;
+        let sign = if away.w < 0.0 { -2.0 } else { 2.0 };
+        let turn = away.imag() * sign;
+        let size = math::sqrt(turn.norm_squared());
+        let turn = turn * math::min(1.0, TURN_MAX_RAD / math::max(size, 1e-6));
+        let wanted_rates = away * wanted_rates;
+        for ((smooth, turn), rate) in self.rates.iter_mut().zip(&turn).zip(&wanted_rates) {
+            smooth.rate = TILT * TILT * turn + 2.0 * TILT * (rate - smooth.value);
+        }
+        let before = self.attitude_target();
+        let reference = AttitudeReference { valid_at: 0, target: before, thrust_n: 0.0, thrust_rate_n_s: 0.0 };
+        let turned = reference.target_after(STEP_S).attitude;
+        for smooth in &mut self.rates {
+            smooth.value += smooth.rate * STEP_S;
+        }
+        self.attitude = within_reach(&UnitQuaternion::new_normalize(turned.into_inner()), nav);
+        self.attitude_target()
     }
 
     /// Something else flies now.
@@ -109,7 +151,7 @@ impl ByHand {
     }
 
     /// A step of the body rates.
-    fn rotate(&mut self, wanted: &Vector3<f32>, nav: &NavState) -> AttitudeTarget {
+    pub(super) fn rotate(&mut self, wanted: &Vector3<f32>, nav: &NavState) -> AttitudeTarget {
         let before = self.attitude_target();
         let reference = AttitudeReference { valid_at: 0, target: before, thrust_n: 0.0, thrust_rate_n_s: 0.0 };
         let turned = reference.target_after(STEP_S).attitude;
@@ -176,11 +218,7 @@ impl<P: PositionLaw> Outer<P> {
 
     /// Goes on from what has flown before.
     fn begin_by_hand(&mut self, input: &OuterInput) {
-        let reference = match self.source {
-            Source::Setpoint => self.setpoint.reference(),
-            Source::Trajectory(reference) | Source::ByHand(reference) => reference,
-            Source::Ground => FlatReference::standing(input.nav.position, input.nav.yaw()),
-        };
+        let reference = self.last_reference(input);
         self.setpoint.start(&reference);
         if self.by_hand.mode.is_none() {
             self.by_hand.begin(&input.nav, input.thrust_n, reference.yaw);
@@ -243,7 +281,7 @@ impl<P: PositionLaw> Outer<P> {
         let gravity = self.model.gravity;
         let wanted_n =
             self.by_hand.settings.thrust_n(sticks, self.mass_kg * gravity, self.mass_kg * self.limits.force_max());
-        self.by_hand.thrust.step(wanted_n, THRUST);
+        let thrust = self.by_hand.thrust(wanted_n);
         let (target, heading) = if mode == ManualMode::Acro {
             let target = self.by_hand.rotate(&self.by_hand.settings.body_rates(sticks), &input.nav);
             (target, Heading { angle: input.nav.yaw(), rate: 0.0, acceleration: 0.0 })
@@ -257,18 +295,8 @@ impl<P: PositionLaw> Outer<P> {
         // The law demands nothing here, but goes on learning: what it knew would be wrong when it is needed next.
         let (s, _) = self.demand(&now, &reference);
         let hover = ForceProfile::hover(gravity);
-        let thrust = self.by_hand.thrust;
         let attitude =
             AttitudeReference { valid_at: effective, target, thrust_n: thrust.value, thrust_rate_n_s: thrust.rate };
         OuterOutput { attitude, ..self.output(effective, &now, &hover, &reference, s) }
-    }
-}
-
-/// The vehicle's own motion, with a heading: what is gone on from where none is controlled.
-fn as_it_moves(now: &Predicted, heading: &Heading) -> FlatReference {
-    FlatReference {
-        velocity: now.velocity,
-        yaw_rate: heading.rate,
-        ..FlatReference::standing(now.position, heading.angle)
     }
 }

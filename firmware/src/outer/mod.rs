@@ -7,6 +7,7 @@
 //! model predicts the motion to that tick, so that motion and reference are compared at the same time.
 
 mod by_hand;
+mod offboard;
 
 use nalgebra::{Vector3, Vector4};
 
@@ -19,6 +20,7 @@ use crate::control::law::{LawState, PositionDemand, PositionInput, PositionLaw};
 use crate::control::position::{ForceLimits, SlidingPosition, Translation};
 use crate::guidance::Guidance;
 use crate::guidance::setpoint::{Setpoint, Target};
+use crate::guidance::stream::{Fastest, Stream};
 use crate::latest::Latest;
 use crate::math;
 use crate::schedule::{OUTER, OUTER_AHEAD_S};
@@ -88,8 +90,10 @@ enum Source {
     Trajectory(FlatReference),
     /// The setpoint generator.
     Setpoint,
-    /// Sticks, with the motion that something else goes on from.
+    /// Sticks, or set-points of the attitude, with the motion that something else goes on from.
     ByHand(FlatReference),
+    /// Set-points of the motion.
+    Stream,
 }
 
 /// The outer partition, with a position law. The fields stand in memory as here, the largest last (see
@@ -109,6 +113,7 @@ pub struct Outer<P = SlidingPosition> {
     modes: ModeSettings,
     source: Source,
     by_hand: ByHand,
+    stream: Stream,
     setpoint: Setpoint,
     guidance: Guidance,
 }
@@ -143,6 +148,15 @@ fn forget_horizontal(reference: &mut FlatReference) {
     }
 }
 
+/// The vehicle's own motion, with a heading: what is gone on from where none is controlled.
+fn as_it_moves(now: &Predicted, heading: &Heading) -> FlatReference {
+    FlatReference {
+        velocity: now.velocity,
+        yaw_rate: heading.rate,
+        ..FlatReference::standing(now.position, heading.angle)
+    }
+}
+
 fn velocity(velocity: Vector3<f32>, yaw_rate: f32) -> Target {
     Target::Velocity { velocity, yaw_rate }
 }
@@ -153,10 +167,16 @@ impl<P: PositionLaw> Outer<P> {
     /// # Errors
     /// The value of the trajectory or of the joining path that is out of range.
     pub fn new(config: &FlightConfig, law: P) -> Result<Self, ConfigError> {
+        let limits = ForceLimits::new(&config.airframe, config.tilt_max_rad);
+        let fastest = Fastest {
+            speed_m_s: config.modes.fastest_m_s,
+            acceleration_m_s2: limits.tan_tilt_max() * config.airframe.gravity_m_s2,
+        };
         Ok(Self {
             mass_kg: config.airframe.mass_kg,
             model: Translation::new(&config.airframe),
-            limits: ForceLimits::new(&config.airframe, config.tilt_max_rad),
+            limits,
+            stream: Stream::new(&config.modes, fastest),
             guidance: Guidance::new(config.trajectory.clone(), config.join.as_ref(), config.start_position())?,
             setpoint: Setpoint::new(&config.modes),
             source: Source::Ground,
@@ -175,11 +195,13 @@ impl<P: PositionLaw> Outer<P> {
         change.apply_to(&mut self.by_hand.settings, Place::manual);
         if is_mode {
             self.setpoint.limit(&self.modes);
+            self.stream.limit(&self.modes, self.fastest());
             self.blind_force = self.modes.blind_thrust_part * self.model.gravity;
         } else if usize::from(change.index) == settings::TILT_MAX
             && let Some((_, tilt_max_rad)) = change.place()
         {
             self.limits = self.limits.with_tilt(tilt_max_rad.real());
+            self.stream.limit(&self.modes, self.fastest());
         } else {
             self.law.retune(change);
         }
@@ -204,13 +226,14 @@ impl<P: PositionLaw> Outer<P> {
         for change in &input.changes {
             self.apply(change);
         }
-        if !matches!(input.directive, Directive::Manual { .. }) {
+        if !matches!(input.directive, Directive::Manual { .. } | Directive::Offboard { .. }) {
             self.by_hand.end();
         }
         match input.directive {
             Directive::Manual { mode, in_air, sink_m_s } => {
                 self.fly_by_hand(effective, input, (mode, in_air, sink_m_s))
             }
+            Directive::Offboard { in_air } => self.follow_setpoint(effective, input, in_air),
             Directive::Stop | Directive::Idle => self.rest(&input.nav),
             Directive::Follow { since } => {
                 let reference = self.trajectory(effective.wrapping_sub(since));
@@ -264,6 +287,7 @@ impl<P: PositionLaw> Outer<P> {
         match self.source {
             Source::Ground => self.guidance.join_from_start(),
             Source::Setpoint => self.guidance.join_from(&self.setpoint.reference().position),
+            Source::Stream => self.guidance.join_from(&self.stream.reference().position),
             Source::ByHand(reference) => self.guidance.join_from(&reference.position),
             Source::Trajectory(_) => {}
         }
@@ -274,15 +298,22 @@ impl<P: PositionLaw> Outer<P> {
 
     /// The generator's reference, continued from the last reference, or from where the vehicle stands.
     fn steer(&mut self, input: &OuterInput, target: &Target) -> FlatReference {
-        match self.source {
-            Source::Setpoint => {}
-            Source::Trajectory(reference) | Source::ByHand(reference) => self.setpoint.start(&reference),
-            Source::Ground => {
-                self.setpoint.start(&FlatReference::standing(input.nav.position, input.nav.yaw()));
-            }
+        if self.source != Source::Setpoint {
+            let reference = self.last_reference(input);
+            self.setpoint.start(&reference);
+            self.source = Source::Setpoint;
         }
-        self.source = Source::Setpoint;
         self.setpoint.advance(target)
+    }
+
+    /// The reference of the last job, or where the vehicle stands.
+    fn last_reference(&self, input: &OuterInput) -> FlatReference {
+        match self.source {
+            Source::Setpoint => self.setpoint.reference(),
+            Source::Stream => self.stream.reference(),
+            Source::Trajectory(reference) | Source::ByHand(reference) => reference,
+            Source::Ground => FlatReference::standing(input.nav.position, input.nav.yaw()),
+        }
     }
 
     /// Descends, controlling what is known of the motion.

@@ -238,6 +238,7 @@ impl Words for Asked {
                 (5, [x, y, z, yaw_rate_rad_s, 0.0])
             }
             Self::Request(Request::Manual(mode)) => (14, [number_in(&MODES, &mode), 0.0, 0.0, 0.0, 0.0]),
+            Self::Request(Request::Offboard) => (15, [0.0; 5]),
             Self::Request(Request::Land) => (6, [0.0; 5]),
             Self::Request(Request::LandAt(goal)) => (12, goal.numbers()),
             Self::Request(Request::Speed { kind, speed_m_s }) => {
@@ -269,6 +270,7 @@ impl Words for Asked {
             9 => return Some(Self::Kill),
             10 => Request::SetHome { position_m: None },
             11 => Request::SetHome { position_m: Some([x, y, z]) },
+            15 => Request::Offboard,
             14 => Request::Manual(*MODES.get(x as usize)?),
             12 => Request::LandAt(Goal::of_numbers([x, y, z, w, v])),
             13 => Request::Speed { kind: *KINDS.get(x as usize)?, speed_m_s: Some(y).filter(|y| !y.is_nan()) },

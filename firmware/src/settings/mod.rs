@@ -75,6 +75,8 @@ pub const RC_MAP_ARM_SW: usize = rows::index_of("RC_MAP_ARM_SW");
 pub const RC_MAP_KILL_SW: usize = rows::index_of("RC_MAP_KILL_SW");
 /// Index of the mode of the mode switch's first position; the others follow.
 pub const COM_FLTMODE1: usize = rows::index_of("COM_FLTMODE1");
+/// Index of the thrust with which a set-point of an attitude hovers.
+pub(crate) const MPC_THR_HOVER: usize = rows::index_of("MPC_THR_HOVER");
 /// Index of what is done when sticks are lost.
 pub const NAV_RCL_ACT: usize = rows::index_of("NAV_RCL_ACT");
 /// Index of whether the sticks arm.
@@ -87,8 +89,14 @@ pub const COM_RC_STICK_OV: usize = rows::index_of("COM_RC_STICK_OV");
 pub const COM_DISARM_PRFLT: usize = rows::index_of("COM_DISARM_PRFLT");
 /// Index of the time for which the rotors idle after a landing.
 pub const COM_DISARM_LAND: usize = rows::index_of("COM_DISARM_LAND");
+/// Index of the silence after which set-points are lost.
+pub const COM_OF_LOSS_T: usize = rows::index_of("COM_OF_LOSS_T");
+/// Index of what is done when they are.
+pub const COM_OBL_RC_ACT: usize = rows::index_of("COM_OBL_RC_ACT");
 /// Rows that stand in the settings alone, and concern the commander.
-pub(crate) const OF_COMMANDER: [usize; 16] = [
+pub(crate) const OF_COMMANDER: [usize; 18] = [
+    COM_OF_LOSS_T,
+    COM_OBL_RC_ACT,
     SYS_AUTOSTART,
     NAV_DLL_ACT,
     COM_DL_LOSS_T,
@@ -460,6 +468,11 @@ impl Settings {
     /// Age at which sticks are lost, s.
     pub fn stick_loss_s(&self) -> f32 {
         self.get(COM_RC_LOSS_T).map_or(0.0, Value::real)
+    }
+
+    /// Age at which a stream of set-points is lost, s.
+    pub fn setpoint_loss_s(&self) -> f32 {
+        self.get(COM_OF_LOSS_T).map_or(0.0, Value::real)
     }
 
     /// Height of a take-off for which none is given, m.

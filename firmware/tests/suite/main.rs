@@ -11,6 +11,7 @@ mod latest;
 mod mixer;
 mod modes;
 mod moving_start;
+mod offboard;
 mod parameters;
 mod settings;
 mod sliding;

@@ -495,6 +495,7 @@ fn describe(request: &Request) -> String {
         Request::TakeOff { height_m } => format!("take-off to {} m", (f64::from(height_m) * 100.0).round() / 100.0),
         Request::Hold => "hold".to_owned(),
         Request::Manual(mode) => format!("{} mode", Mode::from(mode).name()),
+        Request::Offboard => "offboard mode".to_owned(),
         Request::GoTo(goal) => format!("go to {}", describe_goal(&goal)),
         Request::LandAt(goal) => format!("land at {}", describe_goal(&goal)),
         Request::Speed { kind, speed_m_s } => {

@@ -5,7 +5,7 @@ use anyhow::{Result, bail, ensure};
 use firmware::commander::{Asked, Goal, ManualMode, Mode, Request, SpeedKind};
 
 /// The kinds, each with how many numbers it has.
-const KINDS: [(&str, usize); 21] = [
+const KINDS: [(&str, usize); 22] = [
     ("arm", 0),
     ("arm-force", 0),
     ("disarm", 0),
@@ -24,6 +24,7 @@ const KINDS: [(&str, usize); 21] = [
     ("speed-up", 1),
     ("speed-down", 1),
     ("acro", 0),
+    ("offboard", 0),
     ("stabilized", 0),
     ("altitude", 0),
     ("position", 0),
@@ -40,6 +41,7 @@ pub(super) fn text(asked: &Asked) -> String {
             Request::TakeOff { height_m } => format!("takeoff {height_m}"),
             Request::Hold => "hold".to_owned(),
             Request::Manual(mode) => Mode::from(mode).name().to_owned(),
+            Request::Offboard => "offboard".to_owned(),
             Request::GoTo(goal) => format!("goto {}", numbers(&goal)),
             Request::LandAt(goal) => format!("land-at {}", numbers(&goal)),
             Request::Speed { kind, speed_m_s } => {
@@ -91,6 +93,7 @@ pub(super) fn read(words: &[&str]) -> Result<Asked> {
         ("speed-up", [speed]) => Request::Speed { kind: SpeedKind::Up, speed_m_s: given(*speed) },
         ("speed-down", [speed]) => Request::Speed { kind: SpeedKind::Down, speed_m_s: given(*speed) },
         ("velocity", [x, y, z, rate]) => Request::Velocity { velocity_m_s: [*x, *y, *z], yaw_rate_rad_s: *rate },
+        ("offboard", _) => Request::Offboard,
         ("acro", _) => Request::Manual(ManualMode::Acro),
         ("stabilized", _) => Request::Manual(ManualMode::Stabilized),
         ("altitude", _) => Request::Manual(ManualMode::Altitude),

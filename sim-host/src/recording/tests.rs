@@ -25,6 +25,7 @@ fn what_is_read_is_what_was_written() {
         Request::Hold,
         Request::GoTo(Goal::at([x, y, z], w)),
         Request::GoTo(Goal { yaw_rad: Some(z), ..Goal::default() }),
+        Request::Offboard,
         Request::Manual(ManualMode::Acro),
         Request::Manual(ManualMode::Stabilized),
         Request::Manual(ManualMode::Altitude),

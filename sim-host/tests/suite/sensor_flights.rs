@@ -157,6 +157,7 @@ fn name(mode: Mode) -> &'static str {
         Mode::GoTo
         | Mode::Velocity
         | Mode::Follow
+        | Mode::Offboard
         | Mode::Acro
         | Mode::Stabilized
         | Mode::Altitude

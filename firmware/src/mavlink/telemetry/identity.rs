@@ -12,12 +12,14 @@ use crate::mavlink::mode;
 
 /// Values of `MAV_STANDARD_MODE`.
 const NON_STANDARD: u8 = 0;
+const POSITION_HOLD: u8 = 1;
+const ALTITUDE_HOLD: u8 = 4;
 const SAFE_RECOVERY: u8 = 5;
 const MISSION: u8 = 6;
 const LAND: u8 = 7;
 const TAKE_OFF: u8 = 8;
 /// Bits of `MAV_MODE_PROPERTY`.
-const NOT_USER_SELECTABLE: u32 = 2;
+const ADVANCED: u32 = 1;
 const AUTO_MODE: u32 = 4;
 
 /// A mode as ground stations list it.
@@ -30,13 +32,17 @@ struct Listed {
 }
 
 /// The modes of `AVAILABLE_MODES`, numbered from 1.
-const LISTED: [Listed; 6] = [
+const LISTED: [Listed; 10] = [
     Listed { mode: Mode::TakeOff, standard_mode: TAKE_OFF, properties: AUTO_MODE, name: "Takeoff" },
     Listed { mode: Mode::Hold, standard_mode: NON_STANDARD, properties: AUTO_MODE, name: "Hold" },
     Listed { mode: Mode::Follow, standard_mode: MISSION, properties: AUTO_MODE, name: "Mission" },
     Listed { mode: Mode::Return, standard_mode: SAFE_RECOVERY, properties: AUTO_MODE, name: "Return" },
     Listed { mode: Mode::Land, standard_mode: LAND, properties: AUTO_MODE, name: "Land" },
-    Listed { mode: Mode::Velocity, standard_mode: NON_STANDARD, properties: NOT_USER_SELECTABLE, name: "Offboard" },
+    Listed { mode: Mode::Position, standard_mode: POSITION_HOLD, properties: 0, name: "Position" },
+    Listed { mode: Mode::Altitude, standard_mode: ALTITUDE_HOLD, properties: 0, name: "Altitude" },
+    Listed { mode: Mode::Stabilized, standard_mode: NON_STANDARD, properties: 0, name: "Stabilized" },
+    Listed { mode: Mode::Acro, standard_mode: NON_STANDARD, properties: ADVANCED, name: "Acro" },
+    Listed { mode: Mode::Offboard, standard_mode: NON_STANDARD, properties: 0, name: "Offboard" },
 ];
 
 /// The number of modes.
@@ -57,6 +63,12 @@ pub(super) fn available_mode(number: u8) -> Option<AVAILABLE_MODES_DATA> {
         properties: *properties,
         mode_name: CharArray::new(mode_name),
     })
+}
+
+/// The `custom_mode` of a standard mode; `None` if the vehicle does not have it.
+pub(in crate::mavlink) fn of_standard_mode(number: u8) -> Option<u32> {
+    let listed = LISTED.iter().find(|listed| listed.standard_mode == number && number != NON_STANDARD)?;
+    Some(mode::custom_mode(listed.mode))
 }
 
 /// The mode now. It is also the one that was asked for last, unless a failure has overridden that: 0, unknown.

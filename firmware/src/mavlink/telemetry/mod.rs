@@ -35,7 +35,7 @@ use glissade_dialect::{
 };
 use nalgebra::Vector3;
 
-pub(super) use self::identity::MODES;
+pub(super) use self::identity::{MODES, of_standard_mode};
 pub(super) use self::view::{Place, View};
 use super::outbox::ANSWERS_SHARE;
 use super::port::{Profile, SENT_CAPACITY};

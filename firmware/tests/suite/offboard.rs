@@ -1,0 +1,187 @@
+//! Flights by streamed set-points.
+
+use firmware::commander::{Mode, Request};
+use firmware::config::FlightConfig;
+use firmware::guidance::stream::Motion;
+use firmware::latest::{AttitudeSetPoint, SetPoint, Stamped};
+use firmware::signals::TICK_S;
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::vehicle::{Vehicle, config};
+
+/// Thrust to weight is 2, and yaw has some torque.
+fn agile() -> FlightConfig {
+    let mut config = config();
+    config.airframe.rotor_inertia_kg_m2 = 0.0;
+    for (gains, (lambda, gain)) in config.attitude.axes.iter_mut().zip([(15.0, 60.0), (15.0, 60.0), (6.0, 10.0)]) {
+        (gains.lambda, gains.gain) = (lambda, gain);
+    }
+    config
+}
+
+fn position([x, y, z]: [f32; 3], yaw: f32) -> SetPoint {
+    let motion = Motion::default().with_position([Some(x), Some(y), Some(z)]).with_yaw(yaw);
+    SetPoint::Motion { motion, sent_ms: None }
+}
+
+fn velocity([x, y, z]: [f32; 3]) -> SetPoint {
+    SetPoint::Motion { motion: Motion::default().with_velocity([Some(x), Some(y), Some(z)]), sent_ms: None }
+}
+
+/// Streams set-points at 50 Hz for a time, each made at its time (s); they are seen 10 ms later, as from the link.
+fn stream(vehicle: &mut Vehicle, seconds: f32, make: impl Fn(f32) -> SetPoint) {
+    stream_while(vehicle, seconds, make, |_, _| {});
+}
+
+fn stream_while(
+    vehicle: &mut Vehicle,
+    seconds: f32,
+    make: impl Fn(f32) -> SetPoint,
+    mut look: impl FnMut(f32, &Vehicle),
+) {
+    let start = vehicle.tick;
+    let mut waiting = None;
+    while vehicle.tick - start < (seconds / TICK_S) as u32 {
+        let since = vehicle.tick - start;
+        let t = since as f32 * TICK_S;
+        if since.is_multiple_of(20) {
+            let mut value = make(t);
+            if let SetPoint::Motion { sent_ms, .. } = &mut value {
+                *sent_ms = Some(vehicle.tick + 5_000);
+            }
+            waiting = Some(Stamped { value, at: vehicle.tick });
+        }
+        if since % 20 == 10 {
+            vehicle.latest.setpoint = waiting;
+        }
+        vehicle.tick();
+        look(t, vehicle);
+    }
+}
+
+/// In offboard mode, holding 4 m over the ground.
+fn offboard(config: &FlightConfig) -> Vehicle {
+    let mut vehicle = Vehicle::airborne(config);
+    stream(&mut vehicle, 0.5, |_| position([0.0, 0.0, 4.0], 0.0));
+    vehicle.ask(Request::Offboard);
+    stream(&mut vehicle, 0.5, |_| position([0.0, 0.0, 4.0], 0.0));
+    assert_eq!(vehicle.told.mode, Mode::Offboard);
+    vehicle
+}
+
+#[test]
+fn it_takes_off_goes_to_five_set_points_and_lands_by_the_stream_alone() {
+    let mut vehicle = Vehicle::new(&agile());
+    stream(&mut vehicle, 0.2, |_| position([0.0; 3], 0.0));
+    vehicle.ask(Request::Offboard);
+    vehicle.ask(Request::Arm { force: false });
+    stream(&mut vehicle, 1.0, |_| position([0.0; 3], 0.0));
+    assert_eq!((vehicle.told.mode, vehicle.told.armed), (Mode::Idle, true), "a set-point on the ground lifts nothing");
+    // PX4's test, at half its tolerance: 0.15 m within 10 s.
+    for place in [[0.0, 0.0, 3.0], [0.0, 5.0, 3.0], [5.0, 5.0, 3.0], [5.0, 0.0, 3.0], [0.0, 0.0, 3.0]] {
+        stream(&mut vehicle, 10.0, |_| position(place, 0.0));
+        vehicle.assert_near(place, 0.15);
+        assert_eq!(vehicle.told.mode, Mode::Offboard);
+    }
+    stream(&mut vehicle, 6.0, |_| velocity([0.0, 0.0, -0.6]));
+    stream(&mut vehicle, 3.0, |_| velocity([0.0, 0.0, -0.6]));
+    assert!(!vehicle.told.armed && vehicle.body.nav.position.z == 0.0, "{:?}", vehicle.told.mode);
+    assert_eq!(vehicle.told.shown, Mode::Offboard);
+}
+
+#[test]
+fn offboard_needs_a_stream_and_its_loss_is_answered() {
+    let mut vehicle = Vehicle::airborne(&agile());
+    vehicle.ask(Request::Offboard);
+    vehicle.run(0.1);
+    assert_eq!(vehicle.told.mode, Mode::Hold);
+    let mut vehicle = offboard(&agile());
+    stream(&mut vehicle, 3.0, |_| velocity([3.0, 0.0, 0.0]));
+    assert!((vehicle.body.nav.velocity.x - 3.0).abs() < 0.1);
+    vehicle.run(0.9);
+    assert_eq!(vehicle.told.mode, Mode::Offboard, "not lost yet");
+    vehicle.run(0.2);
+    assert_eq!(vehicle.told.mode, Mode::Hold);
+    vehicle.run(5.0);
+    assert!(vehicle.body.nav.velocity.norm() < 0.02);
+}
+
+#[test]
+fn a_circle_at_eight_metres_a_second_is_flown_within_5_cm() {
+    let mut config = agile();
+    config.tilt_max_rad = 50.0_f32.to_radians();
+    let (radius, speed) = (10.0, 8.0_f32);
+    let rate = speed / radius;
+    let at = |t: f32| [radius * (rate * t).sin(), radius * (1.0 - (rate * t).cos()), 4.0];
+    let mut vehicle = offboard(&config);
+    let (mut sum, mut count) = (0.0, 0);
+    stream_while(
+        &mut vehicle,
+        25.0,
+        |t| position(at(t), 0.0),
+        |t, vehicle| {
+            if t > 12.0 {
+                let error = vehicle.body.nav.position - Vector3::from(at(t));
+                sum += error.norm_squared();
+                count += 1;
+            }
+        },
+    );
+    let rms = (sum / count as f32).sqrt();
+    assert!(rms < 0.05, "{rms} m");
+}
+
+#[test]
+fn from_offboard_to_hold_and_back_nothing_jumps() {
+    let mut vehicle = offboard(&agile());
+    let mut before = vehicle.reference.wanted_acceleration;
+    let mut steepest = 0.0_f32;
+    let mut look = |vehicle: &Vehicle| {
+        if vehicle.tick.is_multiple_of(4) {
+            let jerk = (vehicle.reference.wanted_acceleration - before) / 0.004;
+            steepest = steepest.max(jerk.norm());
+            before = vehicle.reference.wanted_acceleration;
+        }
+    };
+    stream_while(&mut vehicle, 3.0, |_| position([30.0, 0.0, 4.0], 0.0), |_, vehicle| look(vehicle));
+    assert!(vehicle.body.nav.velocity.x > 3.0);
+    vehicle.ask(Request::Hold);
+    stream_while(&mut vehicle, 0.6, |_| position([30.0, 0.0, 4.0], 0.0), |_, vehicle| look(vehicle));
+    assert_eq!(vehicle.told.mode, Mode::Hold);
+    vehicle.ask(Request::Offboard);
+    stream_while(&mut vehicle, 12.0, |_| position([30.0, 0.0, 4.0], 0.0), |_, vehicle| look(vehicle));
+    vehicle.assert_near([30.0, 0.0, 4.0], 0.1);
+    // Horizontally and vertically 10 m/s³ each.
+    assert!(steepest < 15.0, "{steepest} m/s³");
+}
+
+#[test]
+fn an_attitude_is_flown_within_two_and_a_half_degrees() {
+    let mut vehicle = offboard(&agile());
+    let pitch = 20.0_f32.to_radians();
+    let attitude = UnitQuaternion::from_euler_angles(0.0, pitch, 0.0);
+    // The thrust that carries the weight: MPC_THR_HOVER.
+    let wanted = AttitudeSetPoint { attitude: Some(attitude), rates: Vector3::zeros(), thrust: 0.5 };
+    stream_while(
+        &mut vehicle,
+        3.0,
+        |_| SetPoint::Attitude(wanted),
+        |t, vehicle| {
+            let off = vehicle.body.nav.attitude.angle_to(&attitude).to_degrees();
+            assert!(t < 0.5 || off < 2.5, "{off}° at {t} s");
+        },
+    );
+    assert!(vehicle.body.nav.velocity.x > 3.0, "nose down: forward");
+}
+
+#[test]
+fn body_rates_are_flown() {
+    let mut vehicle = offboard(&agile());
+    let rates = Vector3::new(0.0, 0.5, 0.3);
+    let wanted = AttitudeSetPoint { attitude: None, rates, thrust: 0.52 };
+    stream(&mut vehicle, 0.7, |_| SetPoint::Attitude(wanted));
+    assert!((vehicle.body.nav.rates - rates).norm() < 0.05, "{}", vehicle.body.nav.rates);
+    vehicle.ask(Request::Hold);
+    vehicle.run(5.0);
+    assert!(vehicle.body.nav.velocity.norm() < 0.05 && vehicle.body.nav.rates.norm() < 0.05);
+}
