@@ -169,7 +169,7 @@ fn outcomes(state: State) -> Vec<(&'static str, String)> {
         quiet.latest.sticks = Some(Stamped { value: Sticks::CENTRED, at: 0 });
     }
     if state == State::Offboard {
-        quiet.latest.setpoint = streamed(30.0);
+        quiet.latest.setpoint = Some(streamed(30.0));
     }
     let end = |run: &dyn Fn(&mut Bench)| {
         let mut bench = Bench::new(state);
@@ -227,9 +227,9 @@ fn by_hand(state: State, quiet: &CommanderInput) -> String {
 }
 
 /// A set-point at a height, m.
-fn streamed(height_m: f32) -> Option<Stamped<SetPoint>> {
+fn streamed(height_m: f32) -> Stamped<SetPoint> {
     let motion = Motion::default().with_position([Some(50.0), Some(60.0), Some(height_m)]);
-    Some(Stamped { value: SetPoint::Motion { motion, sent_ms: None }, at: 0 })
+    Stamped { value: SetPoint::Motion { motion, sent_ms: None }, at: 0 }
 }
 
 /// Without sticks and set-points.
@@ -242,7 +242,7 @@ fn silenced(state: State, quiet: &CommanderInput) -> String {
 /// Asked for, with a stream.
 fn offboard(state: State, quiet: &CommanderInput) -> String {
     let mut input = quiet.clone();
-    input.latest.setpoint = streamed(quiet.nav.position.z);
+    input.latest.setpoint = Some(streamed(quiet.nav.position.z));
     let mut bench = Bench::new(state);
     bench.ask(Request::Offboard, &input);
     name(&bench.commander.state)
@@ -254,7 +254,7 @@ fn setpoint_up(state: State) -> String {
     let mut bench = Bench::new(state);
     bench.commander.intent = Intent::Offboard;
     let mut input = standing();
-    input.latest.setpoint = streamed(3.0);
+    input.latest.setpoint = Some(streamed(3.0));
     bench.run(0.1, &input);
     situation(&bench.commander)
 }
@@ -289,7 +289,7 @@ fn touched_down(state: State, quiet: &CommanderInput) -> String {
         sticks.value.throttle = 0.0;
     }
     if input.latest.setpoint.is_some() {
-        input.latest.setpoint = streamed(-1.0);
+        input.latest.setpoint = Some(streamed(-1.0));
     }
     let mut bench = Bench::new(state);
     bench.run(0.6, &input);

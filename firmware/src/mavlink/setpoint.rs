@@ -163,15 +163,15 @@ impl Turn {
     }
 }
 
-/// `values`, NaN where the mask ignores them.
-fn masked(values: [f32; 3], mask: u16, first: u16) -> Vector3<f32> {
+/// `values`, NaN where the mask ignores them. x without y, and the other way round, is refused.
+fn masked(values: [f32; 3], mask: u16, first: u16) -> Result<Vector3<f32>, Refused> {
     let mut vector = Vector3::from(values);
     for (axis, value) in vector.iter_mut().enumerate() {
         if mask >> first >> axis & 1 != 0 {
             *value = f32::NAN;
         }
     }
-    vector
+    if vector.x.is_nan() == vector.y.is_nan() { Ok(vector) } else { Err(MASK) }
 }
 
 /// What a message gives of a motion.
@@ -179,16 +179,16 @@ fn motion(m: &MotionMessage, view: &View) -> Result<SetPoint, Refused> {
     let (turn, position) = match m.place {
         PlaceMessage::Local(ned) => {
             let turn = Turn::of_local(m.frame, view)?;
-            let position = turn.apply(&masked(ned, m.mask, POSITION)) + turn.origin;
+            let position = turn.apply(&masked(ned, m.mask, POSITION)?) + turn.origin;
             (turn, position)
         }
         PlaceMessage::Global(place, height) => (Turn::NONE, on_earth(m, place, height, view)?),
     };
-    let velocity = turn.apply(&masked(m.velocity, m.mask, VELOCITY));
-    let acceleration = turn.apply(&masked(m.acceleration, m.mask, ACCELERATION));
+    let velocity = turn.apply(&masked(m.velocity, m.mask, VELOCITY)?);
+    let acceleration = turn.apply(&masked(m.acceleration, m.mask, ACCELERATION)?);
     let vectors = [(position, FARTHEST_M), (velocity, FASTEST_M_S), (acceleration, ACCELERATION_MAX)];
     let gives_force = m.mask & FORCE != 0 && !acceleration.iter().all(|value| value.is_nan());
-    if m.mask & !KNOWN != 0 || gives_force || vectors.iter().any(|(v, _)| v.x.is_nan() != v.y.is_nan()) {
+    if m.mask & !KNOWN != 0 || gives_force {
         return Err(MASK);
     }
     let yaw = (m.mask & IGNORE_YAW == 0).then_some(m.yaw).filter(|yaw| !yaw.is_nan());
@@ -225,7 +225,7 @@ fn on_earth(
     height: f32,
     view: &View,
 ) -> Result<Vector3<f32>, Refused> {
-    let mut position = masked([0.0, 0.0, height], m.mask, POSITION);
+    let mut position = masked([0.0, 0.0, height], m.mask, POSITION)?;
     let above_sea = match m.frame {
         // MAV_FRAME_GLOBAL and _GLOBAL_INT.
         0 | 5 => true,
@@ -247,8 +247,9 @@ fn on_earth(
         if gives_place {
             (position.x, position.y) = (there.x, there.y);
         }
-        // NaN stays.
-        position.z = height - height + there.z;
+        if !height.is_nan() {
+            position.z = there.z;
+        }
     }
     if !above_sea {
         position.z = view.input.home.map_or(0.0, |home| home.z) + height;

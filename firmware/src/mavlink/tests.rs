@@ -8,6 +8,7 @@ mod params;
 mod places;
 mod requests;
 mod services;
+mod setpoints;
 mod status;
 mod sticks;
 mod turns;
