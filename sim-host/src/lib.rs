@@ -77,6 +77,7 @@ pub mod stations;
 pub mod statistics;
 pub mod sweep;
 pub mod truth;
+mod tty;
 pub mod tune;
 
 use glissade_files::{files, refusal, words};

@@ -6,7 +6,9 @@
 //! without any, the flight is bit for bit the one without a console. [`terminal`] reads and prints.
 
 mod answers;
+mod editor;
 pub mod events;
+pub mod keyboard;
 pub mod line;
 pub mod parse;
 mod session;
