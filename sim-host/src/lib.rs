@@ -58,6 +58,7 @@ pub mod console;
 pub mod failures;
 pub mod flash_file;
 pub mod flight;
+pub mod hands;
 pub mod interrupt;
 pub mod link;
 pub mod matrix;

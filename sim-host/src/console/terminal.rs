@@ -1,7 +1,7 @@
 //! Reads typed lines or keys, and prints: on a terminal, or through pipes.
 //!
 //! On a terminal the typed line stays below the printed ones: the terminal's own echo and line editing are switched
-//! off, and [`Editor`] takes their place. Pipes carry whole lines. Who flies by keys types a line after a colon.
+//! off, and `Editor` takes their place. Pipes carry whole lines. Who flies by keys types a line after a colon.
 
 use std::collections::VecDeque;
 use std::io::{IsTerminal as _, Read as _, Write as _};
