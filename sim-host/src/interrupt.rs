@@ -1,6 +1,6 @@
 //! Ctrl-C (SIGINT), SIGTERM, SIGHUP (its terminal is closed) and SIGQUIT. A command that [`listen`]s ends its flight after
 //! a tick and reports it; the second signal (but SIGHUP), or the first in any other command, ends the program at once.
-//! Folders that are not whole are removed either way.
+//! Folders that are not whole are removed either way, and a terminal is left as it was, also while Ctrl-Z stops the program.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,8 +10,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 use anyhow::{Context as _, Result};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP};
 use signal_hook::iterator::Signals;
+use signal_hook::low_level::emulate_default_handler;
+
+use crate::tty;
 
 /// The signal that asked for an end; 0 before.
 static REQUESTED: AtomicI32 = AtomicI32::new(0);
@@ -27,8 +30,9 @@ static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// When the system does not let signals be handled.
 pub fn handle_signals() -> Result<()> {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let further = [SIGHUP, SIGQUIT].into_iter().filter(|signal| !ignores(&status, *signal));
-    let mut signals = Signals::new([SIGINT, SIGTERM].into_iter().chain(further)).context("cannot handle Ctrl-C")?;
+    let further = [SIGHUP, SIGQUIT, SIGTSTP].into_iter().filter(|signal| !ignores(&status, *signal));
+    let mut signals =
+        Signals::new([SIGINT, SIGTERM, SIGCONT].into_iter().chain(further)).context("cannot handle Ctrl-C")?;
     thread::spawn(move || signals.forever().for_each(handle));
     Ok(())
 }
@@ -46,11 +50,21 @@ pub fn listen() {
 }
 
 fn handle(signal: i32) {
+    match signal {
+        SIGTSTP => tty::lend(|| drop(emulate_default_handler(SIGTSTP))),
+        // Stopped by something else than Ctrl-Z.
+        SIGCONT => tty::take_again(),
+        _ => end(signal),
+    }
+}
+
+fn end(signal: i32) {
     let before = REQUESTED.swap(signal, Ordering::Relaxed);
     if ends_at_once(before, signal) || !LISTENING.load(Ordering::Relaxed) {
         // Held until the end, so that no further folder is begun.
         let folders = unfinished();
         folders.iter().for_each(|folder| remove(folder));
+        tty::give_back();
         process::exit(i32::from(exit_code()));
     }
 }

@@ -58,6 +58,7 @@ pub mod console;
 pub mod failures;
 pub mod flash_file;
 pub mod flight;
+pub mod hands;
 pub mod interrupt;
 pub mod link;
 pub mod matrix;
@@ -77,6 +78,7 @@ pub mod stations;
 pub mod statistics;
 pub mod sweep;
 pub mod truth;
+mod tty;
 pub mod tune;
 
 use glissade_files::{files, refusal, words};

@@ -2,7 +2,8 @@
 //!
 //! Owns the wall clock; only the link and its stations read it too, for time-outs. The vehicle knows time by its ticks
 //! alone: `speed` sets how many there are per second, never what a tick does. After a delay of the process, at most 0.1
-//! s is caught up; the rest of the ticks is dropped. Typed lines are executed between ticks.
+//! s is caught up; the rest of the ticks is dropped. Typed lines are executed between ticks, and a pilot's hands are
+//! looked at there; what they do reaches the vehicle as bytes on a link, at ticks.
 
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -15,6 +16,8 @@ use firmware::signals::{TICK_S_EXACT, Tick};
 
 use crate::console::terminal::Terminal;
 use crate::console::{ConsoleInput, Control, Line, Session, Tone};
+use crate::hands::station::Station;
+use crate::hands::{Act, Hands, Sticks};
 use crate::link::Links;
 use crate::recording::Recorder;
 use crate::stations::{LOST_AFTER, News};
@@ -41,6 +44,9 @@ pub trait Vehicle {
 
     /// The lines to print since the last call.
     fn take_lines(&mut self) -> Vec<Line>;
+
+    /// Whether it is armed.
+    fn is_armed(&self) -> bool;
 
     /// The tick that comes next.
     fn next_tick(&self) -> Tick;
@@ -76,6 +82,10 @@ impl Vehicle for Session {
 
     fn take_lines(&mut self) -> Vec<Line> {
         Self::take_lines(self)
+    }
+
+    fn is_armed(&self) -> bool {
+        self.flight().autopilot.inner.commander_output().armed
     }
 
     fn next_tick(&self) -> Tick {
@@ -122,6 +132,8 @@ pub struct Member<V> {
     pub links: Links,
     /// What comes to it from outside is recorded here.
     pub recorder: Option<Recorder>,
+    /// Sends it what a pilot's hands do.
+    pub pilot: Option<Station>,
 }
 
 impl<V: Vehicle> Member<V> {
@@ -134,8 +146,9 @@ impl<V: Vehicle> Member<V> {
         }
     }
 
-    fn tick(&mut self) {
-        let Self { vehicle, links, recorder } = self;
+    /// One tick, with the sticks of who flies it by hand.
+    fn tick(&mut self, sticks: Option<Sticks>) {
+        let Self { vehicle, links, recorder, pilot } = self;
         let typed = vehicle.take_inputs();
         if let Some(recorder) = recorder {
             for (tick, input) in &typed {
@@ -143,6 +156,9 @@ impl<V: Vehicle> Member<V> {
             }
         }
         let tick = vehicle.next_tick();
+        if let Some(pilot) = pilot {
+            links.hear_pilot(&pilot.frames(tick, sticks));
+        }
         links.deliver(vehicle.ports(), |link, event| {
             if let Some(recorder) = recorder {
                 recorder.link(tick, link, event);
@@ -163,16 +179,48 @@ impl<V: Vehicle> Member<V> {
     }
 }
 
-/// Vehicles that fly by one clock, and the one that typed lines are for.
+/// Vehicles that fly by one clock, and the one that typed lines and hands are for.
 #[derive(Debug)]
 struct Fleet<'a, V> {
     members: &'a mut [Member<V>],
     selected: usize,
+    /// Where the pilot's sticks are.
+    sticks: Option<Sticks>,
 }
 
 impl<V: Vehicle> Fleet<'_, V> {
     fn tick(&mut self) {
-        self.members.iter_mut().for_each(Member::tick);
+        for (number, member) in self.members.iter_mut().enumerate() {
+            member.tick(self.sticks.filter(|_| number == self.selected));
+        }
+    }
+
+    /// Simulated time, s.
+    fn time_s(&self) -> Option<f64> {
+        self.members.first().map(|member| f64::from(member.vehicle.next_tick()) * TICK_S_EXACT)
+    }
+
+    /// Looks at a pilot's hands. What they ask is for the selected vehicle.
+    fn look_at(&mut self, hands: &mut dyn Hands, terminal: &mut impl Terminal) -> Option<Control> {
+        let now = Instant::now();
+        while let Some(key) = terminal.next_key() {
+            hands.press(key, now);
+        }
+        let mut control = None;
+        for act in hands.poll(now) {
+            match act {
+                Act::Order(order) => {
+                    if let Some(Member { vehicle, pilot: Some(pilot), .. }) = self.members.get_mut(self.selected) {
+                        pilot.ask(order, vehicle.is_armed());
+                    }
+                }
+                Act::Say(tone, text) => terminal.print(&Line { t_s: self.time_s(), tone, text }),
+                Act::Explain(text) => terminal.print(&Line { t_s: None, tone: Tone::Plain, text }),
+                Act::Quit => control = Some(Control::Quit),
+            }
+        }
+        self.sticks = hands.sticks();
+        control
     }
 
     /// Executes a line: `vehicle 2` selects one, where there are several; any other is the selected one's.
@@ -227,24 +275,26 @@ impl<V: Vehicle> Fleet<'_, V> {
     }
 }
 
-/// Flies until `stop` returns true, or a line ends the program. All vehicles fly in step.
+/// Flies until `stop` returns true, or a line or a key ends the program. All vehicles fly in step.
 ///
 /// # Errors
 /// A speed outside of [`SPEEDS`]; a recording that cannot be written.
 pub fn serve<V: Vehicle>(
     members: &mut [Member<V>],
     terminal: &mut impl Terminal,
+    mut hands: Option<Box<dyn Hands>>,
     pacing: Pacing,
     stop: impl Fn() -> bool,
 ) -> anyhow::Result<Flown> {
     let (low, high) = (SPEEDS.start(), SPEEDS.end());
     ensure!(SPEEDS.contains(&pacing.speed), "--speed must be between {low} and {high}, not {}", pacing.speed);
-    let mut fleet = Fleet { members: &mut *members, selected: 0 };
+    let mut fleet = Fleet { members: &mut *members, selected: 0, sticks: None };
     let (start, mut ticks) = (Instant::now(), 0);
     let mut pacer = Pacer::starting(start, pacing.speed);
     while !stop() {
         fleet.members.iter_mut().for_each(Member::listen);
-        match terminal.next_line().and_then(|line| fleet.enter(&line, terminal)) {
+        let typed = terminal.next_line().and_then(|line| fleet.enter(&line, terminal));
+        match hands.as_mut().and_then(|hands| fleet.look_at(hands.as_mut(), terminal)).or(typed) {
             Some(Control::Quit) => break,
             Some(Control::Speed(speed)) => pacer = Pacer::starting(Instant::now(), speed),
             None => {}
@@ -256,8 +306,7 @@ pub fn serve<V: Vehicle>(
         fleet.print(terminal);
         fleet.flush(terminal)?;
         if let Some(text) = pacer.news(Instant::now()) {
-            let t_s = fleet.members.first().map(|member| f64::from(member.vehicle.next_tick()) * TICK_S_EXACT);
-            terminal.print(&Line { t_s, tone: Tone::Plain, text });
+            terminal.print(&Line { t_s: fleet.time_s(), tone: Tone::Plain, text });
         }
         if due < BATCH {
             sleep(NAP);
@@ -325,183 +374,4 @@ impl Pacer {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::collections::VecDeque;
-    use std::sync::atomic::{AtomicBool, Ordering};
-
-    use super::*;
-
-    /// Counts ticks; stops itself in the end.
-    struct Counter<'a> {
-        ticks: u64,
-        end: u64,
-        ports: Ports,
-        said: Vec<Line>,
-        stop: &'a AtomicBool,
-    }
-
-    impl Vehicle for Counter<'_> {
-        fn tick(&mut self) {
-            self.ticks += 1;
-            if self.ticks == self.end {
-                self.stop.store(true, Ordering::Relaxed);
-            }
-        }
-
-        fn ports(&self) -> &Ports {
-            &self.ports
-        }
-
-        fn truth(&mut self) -> Option<Vec<u8>> {
-            None
-        }
-
-        fn enter(&mut self, line: &str) -> Option<Control> {
-            match line {
-                "end" => self.end = self.ticks + 1,
-                "quit" => return Some(Control::Quit),
-                "faster" => return Some(Control::Speed(100.0)),
-                _ => self.said.push(Line { t_s: None, tone: Tone::Refused, text: line.to_owned() }),
-            }
-            None
-        }
-
-        fn notice(&mut self, _: &News) {}
-
-        fn take_lines(&mut self) -> Vec<Line> {
-            core::mem::take(&mut self.said)
-        }
-
-        fn next_tick(&self) -> Tick {
-            self.ticks as Tick
-        }
-
-        fn take_inputs(&mut self) -> Vec<(Tick, ConsoleInput)> {
-            Vec::new()
-        }
-    }
-
-    /// Lines that have been typed, and what was printed.
-    #[derive(Default)]
-    struct Script {
-        typed: VecDeque<&'static str>,
-        printed: Vec<Line>,
-    }
-
-    impl Script {
-        fn typing(lines: &[&'static str]) -> Self {
-            Self { typed: lines.iter().copied().collect(), printed: Vec::new() }
-        }
-    }
-
-    impl Terminal for Script {
-        fn next_line(&mut self) -> Option<String> {
-            self.typed.pop_front().map(str::to_owned)
-        }
-
-        fn print(&mut self, line: &Line) {
-            self.printed.push(line.clone());
-        }
-    }
-
-    fn counter(end: u64, stop: &AtomicBool) -> Counter<'_> {
-        Counter { ticks: 0, end, ports: Ports::new(), said: Vec::new(), stop }
-    }
-
-    /// A vehicle that nobody hears.
-    fn alone<V>(vehicle: V) -> [Member<V>; 1] {
-        let links = Links::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port");
-        [Member { vehicle, links, recorder: None }]
-    }
-
-    #[test]
-    fn a_tenth_of_a_second_takes_no_less() {
-        let stop = AtomicBool::new(false);
-        let mut fleet = alone(counter(100, &stop));
-        let start = Instant::now();
-        serve(&mut fleet, &mut Script::default(), Pacing { speed: 1.0 }, || stop.load(Ordering::Relaxed))
-            .expect("flies");
-        let took = start.elapsed();
-        assert!(took >= Duration::from_millis(100), "{took:?}");
-        assert!(fleet[0].vehicle.ticks < 100 + BATCH);
-    }
-
-    #[test]
-    fn lines_are_carried_out_and_what_is_said_is_printed() {
-        let stop = AtomicBool::new(false);
-        let mut fleet = alone(counter(u64::MAX, &stop));
-        let mut script = Script::typing(&["", "nonsense", "faster", "end"]);
-        let flown =
-            serve(&mut fleet, &mut script, Pacing { speed: 10.0 }, || stop.load(Ordering::Relaxed)).expect("it ends");
-        assert_eq!(flown.simulated_s, fleet[0].vehicle.ticks as f64 * TICK_S_EXACT);
-        let printed: Vec<&str> = script.printed.iter().map(|line| line.text.as_str()).collect();
-        assert_eq!(printed, ["", "nonsense"]);
-    }
-
-    #[test]
-    fn a_line_can_end_it() {
-        let stop = AtomicBool::new(false);
-        let mut fleet = alone(counter(u64::MAX, &stop));
-        let mut script = Script::typing(&["nonsense", "quit", "more"]);
-        serve(&mut fleet, &mut script, Pacing { speed: 1.0 }, || stop.load(Ordering::Relaxed)).expect("it ends");
-        assert_eq!((script.typed.len(), script.printed.len()), (1, 1));
-    }
-
-    #[test]
-    fn several_vehicles_fly_in_step_and_lines_are_for_the_one_selected() {
-        let stop = AtomicBool::new(false);
-        let [one] = alone(counter(u64::MAX, &stop));
-        let [two] = alone(counter(u64::MAX, &stop));
-        let mut fleet = vec![one, two];
-        let lines = ["first", "vehicle 2", "second", "vehicle 3", "vehicle", "help vehicle", "help", "quit"];
-        let mut script = Script::typing(&lines);
-        serve(&mut fleet, &mut script, Pacing { speed: 10.0 }, || stop.load(Ordering::Relaxed)).expect("it ends");
-        let printed: Vec<&str> = script.printed.iter().map(|line| line.text.as_str()).collect();
-        let wrong = "there are the vehicles 1 to 2; lines are for vehicle 2";
-        let help = "vehicle N: the lines that follow are for vehicle N";
-        assert_eq!(printed, ["1: first", "lines are for vehicle 2", "2: second", wrong, wrong, help, help, "2: help"]);
-        assert_eq!(fleet[0].vehicle.ticks, fleet[1].vehicle.ticks);
-    }
-
-    #[test]
-    fn a_speed_that_is_not_reached_is_told_once_and_so_is_that_it_is_again() {
-        let start = Instant::now();
-        let mut pacer = Pacer::starting(start, 10.0);
-        let mut at = |seconds: u64, done: u64| {
-            pacer.done += done;
-            pacer.news(start + Duration::from_secs(seconds))
-        };
-        assert_eq!(at(1, 10_000), None, "too early to say");
-        assert_eq!(at(3, 20_000), None, "reached");
-        let text = "runs at 5.00 x real time, not at 10: this machine does no more now";
-        assert_eq!(at(6, 15_000).as_deref(), Some(text));
-        assert_eq!(at(9, 15_000), None, "told");
-        assert_eq!(at(12, 30_000).as_deref(), Some("runs at 10 x real time again"));
-    }
-
-    #[test]
-    fn a_delay_is_caught_up_only_so_far() {
-        let start = Instant::now();
-        let mut pacer = Pacer::starting(start, 2.0);
-        let at = |ms: u64| start + Duration::from_millis(ms);
-        assert_eq!(pacer.due(at(50)), 100);
-        pacer.done += 100;
-        assert_eq!(pacer.due(at(50)), 0);
-        assert_eq!(pacer.due(at(10_000)), 200);
-        pacer.done += 200;
-        assert_eq!(pacer.due(at(10_000)), 0, "the rest is dropped");
-        assert_eq!(pacer.due(at(10_001)), 2);
-    }
-
-    #[test]
-    fn nonsense_speeds_are_refused() {
-        let stop = AtomicBool::new(true);
-        for speed in [0.0, -1.0, 1e4, f64::NAN, f64::INFINITY] {
-            let mut script = Script::default();
-            let flown =
-                serve(&mut alone(counter(1, &stop)), &mut script, Pacing { speed }, || stop.load(Ordering::Relaxed));
-            let refusal = flown.expect_err("refused").to_string();
-            assert!(refusal.contains("between 0.01 and 1000"), "{refusal}");
-        }
-    }
-}
+mod tests;

@@ -5,12 +5,12 @@
 
 use firmware::frames::flip_vector;
 use firmware::signals::{TICK_US, Tick};
-use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MessageData};
 use glissade_dialect::{HIL_STATE_QUATERNION_DATA, SIM_STATE_DATA};
 use nalgebra::Vector3;
 
 use crate::angles::roll_pitch_yaw;
 use crate::geodesy::{LocalFrame, Place};
+use crate::link::frames::Component;
 use crate::plant::Motion;
 use crate::sensors::Home;
 
@@ -26,30 +26,26 @@ pub struct TruthStream {
     frame: LocalFrame,
     /// Height of the geoid above the ellipsoid, m.
     geoid_m: f64,
-    /// MAVLink system of the vehicle.
-    system: u8,
-    sequence: u8,
+    component: Component,
 }
 
 impl TruthStream {
     /// For a vehicle, a MAVLink system, that flies about a home.
     pub fn new(home: &Home, system: u8) -> Self {
-        Self { frame: LocalFrame::at(&home.place()), geoid_m: home.geoid_m, system, sequence: 0 }
+        Self {
+            frame: LocalFrame::at(&home.place()),
+            geoid_m: home.geoid_m,
+            component: Component::new(system, COMPONENT_ID),
+        }
     }
 
     /// Both messages, as whole frames. `specific_force` is what an ideal accelerometer reads, FLU, m/s².
     pub fn frames(&mut self, at: Tick, motion: &Motion, specific_force: &Vector3<f64>) -> Vec<u8> {
-        let mut frames = self.frame_of(&self.hil_state(at, motion, specific_force));
-        frames.extend(self.frame_of(&self.sim_state(motion, specific_force)));
+        let (hil_state, sim_state) =
+            (self.hil_state(at, motion, specific_force), self.sim_state(motion, specific_force));
+        let mut frames = self.component.frame(&hil_state);
+        frames.extend(self.component.frame(&sim_state));
         frames
-    }
-
-    fn frame_of(&mut self, message: &impl MessageData) -> Vec<u8> {
-        let header = MavHeader { system_id: self.system.into(), component_id: COMPONENT_ID, sequence: self.sequence };
-        self.sequence = self.sequence.wrapping_add(1);
-        let mut raw = MAVLinkV2MessageRaw::new();
-        raw.serialize_message_data(header, message);
-        raw.raw_bytes().to_vec()
     }
 
     /// Where the vehicle is, with its height above mean sea level.

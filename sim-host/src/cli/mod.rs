@@ -11,6 +11,7 @@ mod compare;
 mod complaints;
 mod demo;
 mod fly;
+mod hands;
 mod names;
 mod numbers;
 mod paper;
@@ -314,6 +315,8 @@ struct ServeArgs {
     /// Keep the parameters that ground stations set in this file, and load them from it.
     #[arg(long, value_name = "FILE")]
     params: Option<PathBuf>,
+    #[command(flatten)]
+    hands: hands::HandsArgs,
     #[command(flatten)]
     settings: Settings,
 }

@@ -12,9 +12,9 @@ use firmware::settings::{MAV_SYS_ID, Value};
 use super::ServeArgs;
 use super::names::{self, Kind};
 use crate::console::Session;
-use crate::console::terminal::Stdio;
 use crate::flash_file::ParameterFile;
 use crate::flight;
+use crate::hands::station::Station;
 use crate::interrupt::{self, Interrupted};
 use crate::link::{DEFAULT_PEERS, Links, Peer};
 use crate::recording::{Header, Recorder, arguments};
@@ -36,11 +36,15 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     scenario.require_rigid_body()?;
     super::note_mismatches(&scenario, &set);
     let (scenario, parameters) = with_parameters(args, scenario)?;
+    let hands = args.hands.open()?;
     let header = Header::new(&scenario, &set, args.seed)?;
     let recorder = recorder(args, &header)?;
     let mut fleet = Vec::new();
     for number in 0..args.vehicles {
         fleet.push(member(&scenario, args, number)?);
+    }
+    if hands.is_some() {
+        fleet.iter_mut().try_for_each(seat_pilot)?;
     }
     greet(args, &scenario, &fleet)?;
     if let Some(first) = fleet.first_mut() {
@@ -48,8 +52,8 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
         first.recorder = recorder;
     }
     interrupt::listen();
-    let mut terminal = Stdio::new();
-    let flown = serve(&mut fleet, &mut terminal, Pacing { speed: args.speed }, interrupt::requested);
+    let mut terminal = args.hands.terminal()?;
+    let flown = serve(&mut fleet, &mut terminal, hands, Pacing { speed: args.speed }, interrupt::requested);
     // However it has ended: what was set in flight is not lost with a recording that cannot be written.
     let saved = fleet.first_mut().map_or(Ok(0), |first| first.vehicle.save_at_end());
     drop(terminal);
@@ -95,6 +99,15 @@ fn greet(args: &ServeArgs, scenario: &Scenario, fleet: &[Member<Session>]) -> Re
         let (number, listen) = (number + 1, member.links.local_address()?);
         super::tell(&format!("Vehicle {number} sends to {}, and listens on {listen}.", addresses.join(" and ")));
     }
+    args.hands.hint().into_iter().for_each(super::tell);
+    Ok(())
+}
+
+/// Gives a link of a vehicle to who flies by hand.
+fn seat_pilot(member: &mut Member<Session>) -> Result<()> {
+    member.vehicle.seat_pilot(member.links.seat_pilot()?);
+    let system = member.vehicle.flight().autopilot.ground.settings().system_id();
+    member.pilot = Some(Station::new(system));
     Ok(())
 }
 
@@ -124,7 +137,7 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
         let whose = if args.vehicles > 1 { format!(" of vehicle {}", number + 1) } else { String::new() };
         super::tell(&format!("Ground stations{whose} can connect by TCP to {server}."));
     }
-    Ok(Member { vehicle, links, recorder: None })
+    Ok(Member { vehicle, links, recorder: None, pilot: None })
 }
 
 /// The address of the vehicle with this number; a port that the system chooses stays that.

@@ -27,9 +27,21 @@ pub(super) struct Answers {
     awaited: Vec<Asked>,
     /// Commands that were told to be unsupported: some stations ask again every other second, for good.
     unsupported: Vec<Asked>,
+    /// The link of who flies by hand in this process.
+    pilot: Option<u8>,
 }
 
 impl Answers {
+    /// A pilot of this process has this link.
+    pub(super) fn seat_pilot(&mut self, link: u8) {
+        self.pilot = Some(link);
+    }
+
+    /// Who has asked, in words.
+    pub(super) fn who(&self, link: u8, system: u8) -> String {
+        if self.pilot == Some(link) { "pilot".to_owned() } else { format!("ground station {system}") }
+    }
+
     /// The commander's answer was told; its acknowledgement follows.
     pub(super) fn told(&mut self, reply: &Reply) {
         let Origin::Station { link, sender, command, .. } = reply.command.origin else { return };
@@ -48,7 +60,7 @@ impl Answers {
             if let Some(place) = self.awaited.iter().position(|awaited| *awaited == asked) {
                 self.awaited.remove(place);
             } else if let Some(text) = answer(&ack, reason.as_deref()).filter(|_| !self.was_told(&ack, asked)) {
-                tell(text);
+                tell(format!("{}: {text}", self.who(link, ack.target_system)));
             }
         }
     }
@@ -127,13 +139,12 @@ fn answer(ack: &COMMAND_ACK_DATA, reason: Option<&str>) -> Option<String> {
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => "refused, too many at once",
         // Of arming and disarming only a kill is accepted without the commander.
         MavResult::MAV_RESULT_ACCEPTED if known == Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => {
-            return Some(format!("ground station {}: kill: accepted", ack.target_system));
+            return Some("kill: accepted".to_owned());
         }
         MavResult::MAV_RESULT_ACCEPTED | MavResult::MAV_RESULT_IN_PROGRESS => return None,
     };
     let name = known.map(|known| format!(" ({})", format!("{known:?}").trim_start_matches("MAV_CMD_")));
-    let (station, number, name) = (ack.target_system, ack.command, name.unwrap_or_default());
-    Some(format!("ground station {station}: command {number}{name}: {outcome}"))
+    Some(format!("command {}{}: {outcome}", ack.command, name.unwrap_or_default()))
 }
 
 #[cfg(test)]
@@ -166,5 +177,22 @@ mod tests {
             Answers::default().read(0, &frames, &mut |text| told.push(text));
             assert_eq!(told, [format!("ground station 255: command 179 (DO_SET_HOME): {expected}")]);
         }
+    }
+    #[test]
+    fn who_flies_in_this_process_is_a_pilot_and_no_ground_station() {
+        let mut answers = Answers::default();
+        answers.seat_pilot(2);
+        let ack = COMMAND_ACK_DATA {
+            command: 176,
+            result: MavResult::MAV_RESULT_DENIED,
+            target_system: 254,
+            ..COMMAND_ACK_DATA::DEFAULT
+        };
+        let mut told = Vec::new();
+        for link in [1, 2] {
+            answers.read(link, &frame(&ack), &mut |text| told.push(text));
+        }
+        let denied = "command 176 (DO_SET_MODE): denied";
+        assert_eq!(told, [format!("ground station 254: {denied}"), format!("pilot: {denied}")]);
     }
 }

@@ -15,14 +15,16 @@ use super::answers::Answers;
 use super::events::{self, Watch};
 use super::line::{Line, Tone};
 use super::parse::{self, COMMANDS, Command};
-use crate::failures::{self, Equipment};
+use crate::failures::Equipment;
 use crate::flash_file::ParameterFile;
 use crate::plant::Plant as _;
 use crate::plant::rigid_body::RigidBody;
 use crate::report::timeline::fault_name;
-use crate::sensors::{Fault, Home};
+use crate::sensors::Home;
 use crate::sil::{Flight, Lockstep as _};
 use crate::truth::TruthStream;
+
+mod faults;
 
 /// A line's instruction to the loop that runs the session.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,6 +104,11 @@ impl Session {
     pub fn telling_the_truth(mut self, home: &Home) -> Self {
         self.truth = Some(TruthStream::new(home, self.flight.autopilot.ground.settings().system_id()));
         self
+    }
+
+    /// A pilot of this process has this link: answers to what is asked there are told as the pilot's.
+    pub fn seat_pilot(&mut self, link: u8) {
+        self.answers.seat_pilot(link);
     }
 
     /// The truth as MAVLink frames of a component of its own, when it is due.
@@ -233,9 +240,9 @@ impl Session {
     fn hear(&mut self, reply: &Reply) {
         let request = reply.command.request;
         let who = match reply.command.origin {
-            Origin::Station { sender: (system, _), .. } => {
+            Origin::Station { link, sender: (system, _), .. } => {
                 self.answers.told(reply);
-                format!("ground station {system}: ")
+                format!("{}: ", self.answers.who(link, system))
             }
             Origin::OnBoard => {
                 let mine = self.asked.iter().position(|asked| asked.sent && asked.request == request);
@@ -380,52 +387,6 @@ impl Session {
     fn say_wind(&mut self, what: &str) {
         let [north, west, up] = shown(self.flight.steady_wind());
         self.say(Tone::Plain, format!("{what}: north {north:.1}, west {west:.1}, up {up:.1} m/s"));
-    }
-
-    /// Starts a fault. One that begins at once is reported by [`Watch`], as scheduled ones are.
-    fn inject(&mut self, fault: &Fault) -> Result<()> {
-        let now_s = self.time_s();
-        let fault = Fault { from_s: fault.from_s.max(now_s), ..*fault };
-        self.flight.inject(&fault)?;
-        if fault.from_s > now_s {
-            self.say(Tone::Plain, format!("fault from {} s on: {}", fault.from_s, fault_name(&fault)));
-        }
-        Ok(())
-    }
-
-    fn list_faults(&mut self) {
-        let now_s = self.time_s();
-        let line = |fault: &Fault| {
-            let typed = failures::describe(fault);
-            if fault.from_s > now_s {
-                format!("from {} s on: fault {typed}", fault.from_s)
-            } else {
-                format!("fault {typed}")
-            }
-        };
-        let lines: Vec<String> = self.faults().iter().map(line).collect();
-        if lines.is_empty() {
-            self.say(Tone::Plain, "no faults".to_owned());
-        }
-        for line in lines {
-            self.say(Tone::Plain, line);
-        }
-    }
-
-    /// The faults that act, and those to come.
-    fn faults(&self) -> Vec<Fault> {
-        let tick = self.flight.next_tick();
-        self.flight.sensors().map_or_else(Vec::new, |suite| suite.faults().list(tick).collect())
-    }
-
-    fn clear(&mut self, of: Option<Equipment>) -> Result<()> {
-        let is_meant = |fault: &Fault| of.is_none_or(|of| of.has(fault));
-        let count = self.faults().iter().filter(|fault| is_meant(fault)).count();
-        self.flight.clear_faults_where(is_meant)?;
-        let what = of.map_or_else(String::new, |of| format!(" of {}", of.name()));
-        let text = if count == 0 { format!("no faults{what}") } else { format!("no faults{what}: {count} cleared") };
-        self.say(Tone::Plain, text);
-        Ok(())
     }
 
     fn status(&self) -> String {

@@ -1,9 +1,11 @@
-//! The borders of MAVLink frames in datagrams: which frames come whole, and where to cut what is sent.
+//! MAVLink frames: their borders in datagrams, which come whole, where to cut what is sent, and frames of one's own.
 
 use std::ops::Range;
 
 use glissade_dialect::MavMessage;
-use glissade_dialect::mavlink_core::{Message as _, calculate_crc, consts};
+use glissade_dialect::mavlink_core::{
+    MAVLinkV2MessageRaw, MavHeader, Message as _, MessageData, calculate_crc, consts,
+};
 
 const HEADER_V1: usize = consts::STX_SIZE + consts::v1::HEADER_SIZE;
 const HEADER_V2: usize = consts::STX_SIZE + consts::v2::MIN_HEADER_SIZE;
@@ -20,6 +22,27 @@ pub struct Frame {
     pub system: u8,
     /// Whether it is known here and its checksum is right.
     pub valid: bool,
+}
+
+/// A MAVLink component of this process. It numbers its frames.
+#[derive(Clone, Copy, Debug)]
+pub struct Component {
+    next: MavHeader,
+}
+
+impl Component {
+    /// A component of a system, before its first frame.
+    pub fn new(system: u8, component: u8) -> Self {
+        Self { next: MavHeader { system_id: system.into(), component_id: component, sequence: 0 } }
+    }
+
+    /// Its next frame, of MAVLink 2.
+    pub fn frame(&mut self, message: &impl MessageData) -> Vec<u8> {
+        let mut raw = MAVLinkV2MessageRaw::new();
+        raw.serialize_message_data(self.next, message);
+        self.next.sequence = self.next.sequence.wrapping_add(1);
+        raw.raw_bytes().to_vec()
+    }
 }
 
 /// The whole frames of a datagram. A frame ends where its datagram ends at the latest: half a one, and bytes that belong to
@@ -98,16 +121,14 @@ pub fn datagrams(mut frames: &[u8], most: usize) -> impl Iterator<Item = &[u8]> 
 #[cfg(test)]
 mod tests {
     use glissade_dialect::HEARTBEAT_DATA;
-    use glissade_dialect::mavlink_core::{MAVLinkV1MessageRaw, MAVLinkV2MessageRaw, MavHeader};
+    use glissade_dialect::mavlink_core::MAVLinkV1MessageRaw;
 
     use super::*;
 
     const FROM: MavHeader = MavHeader { system_id: 255, component_id: 190, sequence: 0 };
 
     fn heartbeat() -> Vec<u8> {
-        let mut raw = MAVLinkV2MessageRaw::new();
-        raw.serialize_message_data(FROM, &HEARTBEAT_DATA { mavtype: 6, ..HEARTBEAT_DATA::DEFAULT });
-        raw.raw_bytes().to_vec()
+        Component::new(255, 190).frame(&HEARTBEAT_DATA { mavtype: 6, ..HEARTBEAT_DATA::DEFAULT })
     }
 
     #[test]
@@ -141,6 +162,13 @@ mod tests {
         let mut frame = heartbeat();
         frame[12] ^= 1;
         assert!(whole(&frame).all(|frame| !frame.valid));
+    }
+
+    #[test]
+    fn a_component_numbers_its_frames() {
+        let mut component = Component::new(255, 190);
+        let numbers = (0..300).map(|_| component.frame(&HEARTBEAT_DATA::DEFAULT)[4]);
+        assert!(numbers.eq((0..300).map(|number| number as u8)));
     }
 
     #[test]

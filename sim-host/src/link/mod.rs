@@ -1,4 +1,4 @@
-//! The vehicle's links over UDP and TCP: each peer has one of its own.
+//! The vehicle's links over UDP and TCP, and the one of a pilot in this process: each peer has one of its own.
 //!
 //! Owns the sockets and who has which link: the configured peers for good (the defaults while somebody listens there, or
 //! nobody else wants the link), and up to [`LINKS`] in all every other address that a valid frame has come from, and
@@ -7,6 +7,7 @@
 
 pub mod address;
 pub mod frames;
+mod slot;
 mod tcp;
 
 use std::collections::VecDeque;
@@ -18,6 +19,7 @@ use anyhow::{Context, bail, ensure};
 use firmware::mavlink::port::{LINKS, LinkEvent, Ports, Profile, SENT_CAPACITY};
 
 use self::address::{cannot_listen, cannot_listen_by_tcp, elsewhere, is_own};
+use self::slot::{Carrier, Occupant, Slot};
 use self::tcp::Connection;
 use crate::stations::{News, Stations};
 
@@ -84,109 +86,12 @@ const WAITING_MAX: usize = 8;
 const WAIT_AT_MOST: Duration = Duration::from_secs(5);
 /// A link stays this long after its connection has ended and all of it was read, for the answers.
 const ANSWER_WITHIN: Duration = Duration::from_millis(250);
-/// Bytes of a stream in which a whole frame is looked for.
-const TAIL_MAX: usize = 2 * frames::LONGEST;
 /// Datagrams read at one go, so that a flood cannot hold up the flight.
 const BURST: usize = 256;
 /// No datagram is larger.
 const DATAGRAM_MAX: usize = 65_536;
-/// What is sent is cut so that no network has to.
-const SENT_MAX: usize = 1_400;
 /// Bytes of a peer that wait for its link; the rest is lost, and counted.
 const INBOX_MAX: usize = 65_536;
-
-/// Who is at a link.
-#[derive(Clone, Copy, Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "each tells something else of who is there")]
-struct Occupant {
-    address: SocketAddr,
-    profile: Profile,
-    /// Whether it was not named at the start.
-    guest: bool,
-    /// Whether it is a default peer, which nobody has asked for, and was never heard.
-    presumed: bool,
-    /// Whether it has connected and sent something else than MAVLink.
-    junk: bool,
-    /// Whether it has connected and sent anything.
-    spoken: bool,
-    heard: Instant,
-    /// Whether the vehicle has been told of it.
-    opened: bool,
-}
-
-impl Occupant {
-    fn guest(address: SocketAddr, now: Instant) -> Self {
-        let profile = Profile::Normal;
-        Self { address, profile, guest: true, presumed: false, junk: false, spoken: false, heard: now, opened: false }
-    }
-
-    fn peer(peer: Peer, presumed: bool) -> Self {
-        let Peer { address, profile } = peer;
-        Self {
-            address,
-            profile,
-            guest: false,
-            presumed,
-            junk: false,
-            spoken: false,
-            heard: Instant::now(),
-            opened: false,
-        }
-    }
-
-    /// Whether it is a default peer of this machine at whose port nobody listens: it can be bound.
-    fn is_nobody(&self) -> bool {
-        self.presumed && self.address.ip().is_loopback() && UdpSocket::bind(self.address).is_ok()
-    }
-}
-
-/// A link: who is there, and what has come from there.
-#[derive(Debug, Default)]
-struct Slot {
-    peer: Option<Occupant>,
-    /// The connection of a peer that has come by TCP.
-    connection: Option<Connection>,
-    inbox: Vec<u8>,
-    /// The end of what has come by the connection, in which no valid frame was found yet.
-    tail: Vec<u8>,
-    lost: u32,
-    /// It has closed its connection, or its half of it: the link stays until the vehicle has read what was sent before,
-    /// and for its answers.
-    ended: bool,
-    /// When the vehicle had read all from one that has ended.
-    read: Option<Instant>,
-}
-
-impl Slot {
-    /// The system of the first valid frame in what has come by the connection, the last bytes in the inbox from `from` on
-    /// among it.
-    fn find_frame(&mut self, from: usize) -> Option<u8> {
-        self.tail.extend_from_slice(&self.inbox[from..]);
-        let (mut found, mut passed) = (None, 0);
-        while let Some(frame) = frames::first_valid(&self.tail[passed..]) {
-            found = found.or(Some(frame.system));
-            passed += frame.range.end;
-        }
-        self.tail.drain(..passed.max(self.tail.len().saturating_sub(TAIL_MAX)));
-        found
-    }
-
-    /// Whether who is there has not taken what was sent before.
-    fn is_busy(&mut self) -> bool {
-        self.connection.as_mut().is_some_and(Connection::is_busy)
-    }
-
-    /// Sends whole frames to whoever is there.
-    fn send(&mut self, socket: &UdpSocket, frames: &[u8]) {
-        match (&mut self.connection, &self.peer) {
-            (Some(connection), _) => connection.write(frames),
-            (None, Some(peer)) => frames::datagrams(frames, SENT_MAX).for_each(|piece| {
-                let _ = socket.send_to(piece, peer.address);
-            }),
-            (None, None) => {}
-        }
-    }
-}
 
 /// Sockets that never block, and their peers.
 #[derive(Debug)]
@@ -258,6 +163,27 @@ impl Links {
         self
     }
 
+    /// Gives a link to the pilot of this process, for good. Returns its number.
+    ///
+    /// # Errors
+    /// One line, if peers have all of them.
+    pub fn seat_pilot(&mut self) -> anyhow::Result<u8> {
+        let free = (0..).zip(&mut self.slots).find(|(_, slot)| slot.peer.is_none());
+        let Some((number, slot)) = free else {
+            bail!("a pilot needs one of the vehicle's {LINKS} links: name at most {} peers", LINKS - 1);
+        };
+        *slot = Slot { peer: Some(Occupant::pilot()), carrier: Carrier::Inside, ..Slot::default() };
+        Ok(number)
+    }
+
+    /// Whole frames of the pilot, for the next tick.
+    pub fn hear_pilot(&mut self, frames: &[u8]) {
+        let seat = self.slots.iter_mut().find(|slot| matches!(slot.carrier, Carrier::Inside));
+        if let Some(slot) = seat.filter(|slot| slot.inbox.len() + frames.len() <= INBOX_MAX) {
+            slot.inbox.extend_from_slice(frames);
+        }
+    }
+
     /// Takes connections over TCP too.
     ///
     /// # Errors
@@ -312,7 +238,7 @@ impl Links {
     fn seat(&mut self, now: Instant) {
         while let Some((connection, address, since)) = self.waiting.pop_front() {
             if let Some(number) = self.place_for_guest(now) {
-                self.put(number, Occupant::guest(address, now), Some(connection));
+                self.put(number, Occupant::guest(address, now), Carrier::Stream(connection));
             } else if now.saturating_duration_since(since) > WAIT_AT_MOST {
                 self.stations.turn_away(address);
             } else {
@@ -323,9 +249,9 @@ impl Links {
     }
 
     /// Gives a link to someone; a default peer that gives way is kept in mind.
-    fn put(&mut self, number: usize, peer: Occupant, connection: Option<Connection>) {
+    fn put(&mut self, number: usize, peer: Occupant, carrier: Carrier) {
         let Some(slot) = self.slots.get_mut(number) else { return };
-        let before = core::mem::replace(slot, Slot { peer: Some(peer), connection, ..Slot::default() });
+        let before = core::mem::replace(slot, Slot { peer: Some(peer), carrier, ..Slot::default() });
         if let Some(Occupant { address, profile, presumed: true, .. }) = before.peer {
             self.absent.push(Peer { address, profile });
         }
@@ -334,7 +260,7 @@ impl Links {
     fn read_connections(&mut self) {
         let now = Instant::now();
         for slot in &mut self.slots {
-            let Some(connection) = &mut slot.connection else { continue };
+            let Carrier::Stream(connection) = &mut slot.carrier else { continue };
             let before = slot.inbox.len();
             slot.ended = slot.ended || !connection.read(&mut slot.inbox, INBOX_MAX);
             if slot.inbox.len() == before {
@@ -380,7 +306,7 @@ impl Links {
                     return None;
                 };
                 self.absent.retain(|peer| peer.address != from);
-                self.put(number, Occupant::guest(from, now), None);
+                self.put(number, Occupant::guest(from, now), Carrier::Datagrams);
                 number
             }
             None => return None,
@@ -479,7 +405,7 @@ impl Links {
 
     fn forget_at(&mut self, now: Instant) {
         // Who is connected is there.
-        for slot in self.slots.iter_mut().filter(|slot| slot.connection.is_none()) {
+        for slot in self.slots.iter_mut().filter(|slot| matches!(slot.carrier, Carrier::Datagrams)) {
             if slot.peer.is_some_and(|peer| peer.guest && now.saturating_duration_since(peer.heard) > FORGET_AFTER) {
                 *slot = Slot::default();
             }

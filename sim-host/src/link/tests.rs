@@ -2,9 +2,10 @@ use std::io::{Read as _, Write as _};
 use std::net::{Shutdown, TcpStream};
 
 use glissade_dialect::HEARTBEAT_DATA;
-use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
 
 use super::address::beside;
+use super::frames::Component;
+use super::slot::TAIL_MAX;
 use super::*;
 
 fn local() -> SocketAddr {
@@ -22,10 +23,7 @@ fn station_at(address: SocketAddr) -> Peer {
 }
 
 fn heartbeat(system: u8) -> Vec<u8> {
-    let from = MavHeader { system_id: system.into(), component_id: 190, sequence: 0 };
-    let mut raw = MAVLinkV2MessageRaw::new();
-    raw.serialize_message_data(from, &HEARTBEAT_DATA { mavtype: 6, ..HEARTBEAT_DATA::DEFAULT });
-    raw.raw_bytes().to_vec()
+    Component::new(system, 190).frame(&HEARTBEAT_DATA { mavtype: 6, ..HEARTBEAT_DATA::DEFAULT })
 }
 
 fn hears(station: &UdpSocket) -> Vec<u8> {
@@ -381,4 +379,30 @@ fn a_connection_whose_frames_come_in_pieces_is_heard() {
 fn a_stream_without_a_frame_takes_no_more_memory_for_ever() {
     let mut slot = Slot { inbox: vec![0xfd; 5000], ..Slot::default() };
     assert_eq!((slot.find_frame(0), slot.tail.len()), (None, TAIL_MAX));
+}
+
+#[test]
+fn a_pilot_keeps_the_link_that_is_free_and_is_sent_nothing() {
+    let station = station();
+    let mut bench = Bench::new(&[station.local_addr().expect("bound")]);
+    assert_eq!(bench.links.seat_pilot().expect("a free link"), 1);
+    bench.links.hear_pilot(&heartbeat(254));
+    assert_eq!(bench.receive(1), heartbeat(254));
+    bench.say(b"telemetry");
+    assert_eq!(hears(&station), b"telemetry");
+    assert!(!bench.ports.get(1).expect("a link").has_output(), "it is taken, and dropped");
+    assert_eq!(bench.links.news(), None, "the pilot is no ground station that connects");
+    // However silent: neither a guest nor time takes the link.
+    let long_after = Instant::now() + Duration::from_secs(3_600);
+    bench.links.forget_at(long_after);
+    assert_eq!(bench.links.place_for_guest(long_after), Some(2));
+    assert!(bench.links.slots[1].peer.is_some());
+}
+
+#[test]
+fn a_pilot_without_a_free_link_is_refused_in_a_line() {
+    let others: Vec<UdpSocket> = (0..LINKS).map(|_| station()).collect();
+    let addresses: Vec<SocketAddr> = others.iter().map(|other| other.local_addr().expect("bound")).collect();
+    let error = Bench::new(&addresses).links.seat_pilot().expect_err("no link").to_string();
+    assert_eq!(error, "a pilot needs one of the vehicle's 4 links: name at most 3 peers");
 }

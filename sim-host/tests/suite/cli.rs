@@ -45,6 +45,24 @@ fn bad_values_of_options_are_refused() {
     folder.refuses(&["bench", "--seconds", "nan"], &["--seconds"]);
 }
 
+#[test]
+fn hands_that_there_are_not_are_refused() {
+    let folder = Folder::new("hands");
+    folder.refuses(&["serve", "--keys"], &["--keys", "terminal", "leave it out"]);
+    folder.refuses(&["serve", "--keys", "--joystick"], &["--keys", "--joystick"]);
+    folder.refuses(&["serve", "--joystick-axes", "x,y,rx,ry"], &["--joystick"]);
+    folder.refuses(&["serve", "--joystick", "--joystick-axes", "-x,y"], &["--joystick-axes", "-x,y", "four"]);
+    folder.refuses(&["serve", "--joystick", "--joystick-axes", "x,y,rx,x"], &["axis x", "twice"]);
+    if cfg!(target_os = "linux") {
+        folder.refuses(&["serve", "--joystick", "no such pad"], &["--joystick", "`no such pad`", "--keys"]);
+        folder.refuses(&["serve", "--joystick", "/dev/null"], &["/dev/null", "no input device"]);
+        folder.refuses(&["serve", "--record", "kept", "--joystick", "/gone"], &["/gone", "not there"]);
+        assert!(folder.names().is_empty(), "no recording is begun");
+    } else {
+        folder.refuses(&["serve", "--joystick"], &["--joystick", "Linux", "--keys"]);
+    }
+}
+
 /// helix.toml with `from` replaced, which must be there.
 fn spoilt(from: &str, to: &str) -> String {
     assert!(HELIX.contains(from), "{from}");

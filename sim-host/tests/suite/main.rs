@@ -17,6 +17,7 @@ mod effects;
 mod endings;
 mod fault_schedules;
 mod flights;
+mod hands;
 mod landing;
 mod messages;
 mod no_panic;

@@ -19,14 +19,23 @@ use crate::common::folder::Folder;
 use crate::common::load::load;
 use crate::common::station::flight_by_two;
 
-const SEED: u64 = 3;
+pub(crate) const SEED: u64 = 3;
 
 /// A flight, tick by tick.
 #[derive(Debug, Default, PartialEq)]
-struct Course {
+pub(crate) struct Course {
     motions: Vec<Motion>,
-    modes: Vec<Mode>,
+    pub(crate) modes: Vec<Mode>,
     sent: AllSent,
+}
+
+impl Course {
+    /// A tick was flown.
+    pub(crate) fn watch(&mut self, session: &Session) {
+        take_sent(session.ports(), &mut self.sent);
+        self.motions.push(session.flight().plant().motion());
+        self.modes.push(session.flight().autopilot.inner.commander_output().mode);
+    }
 }
 
 /// Flies a session, as `serve` does, on these inputs and typed lines. Returns what was flown, and its recording.
@@ -45,16 +54,14 @@ fn by_hand(scenario: &Scenario, inputs: &[Entry], typed: &[(Tick, &str)], ticks:
             recorder.link(tick, *link, event.event());
         }
         session.tick();
-        take_sent(session.ports(), &mut course.sent);
-        course.motions.push(session.flight().plant().motion());
-        course.modes.push(session.flight().autopilot.inner.commander_output().mode);
+        course.watch(&session);
     }
     recorder.finish(ticks).expect("memory");
     (course, String::from_utf8(recorder.into_inner()).expect("text"))
 }
 
 /// Flies a recording.
-fn again(scenario: Scenario, recording: &str) -> Course {
+pub(crate) fn again(scenario: Scenario, recording: &str) -> Course {
     let recording = Recording::parse(recording).expect("a recording");
     recording.require(&Header::new(&scenario, &[], SEED).expect("loaded")).expect("of this scenario");
     let scenario = recording.onto(scenario);
