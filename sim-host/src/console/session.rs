@@ -488,7 +488,7 @@ fn accepted(request: &Request, modes: &ModeSettings) -> String {
     };
     let vertical = if up > 0.0 { ("climb_m_s", modes.climb_m_s) } else { ("sink_m_s", modes.sink_m_s) };
     let limits = [
-        ("cruise_m_s", libm::hypotf(north, west), modes.cruise_m_s, "m/s"),
+        ("fastest_m_s", libm::hypotf(north, west), modes.fastest_m_s, "m/s"),
         (vertical.0, up.abs(), vertical.1, "m/s"),
         ("yaw_rate_rad_s", yaw_rate_rad_s.abs(), modes.yaw_rate_rad_s, "rad/s"),
     ];

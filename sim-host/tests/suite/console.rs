@@ -237,11 +237,11 @@ fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
     let mut bench = Bench::new("field");
     bench.until("] ready to arm", 10.0);
     for (command, parameters, told) in [
-        // DO_REPOSITION, to offboard (PX4's main mode 6), neither arm nor disarm.
-        (192, [0.0; 3], &["command 192 (DO_REPOSITION): unsupported"][..]),
+        // PREFLIGHT_STORAGE, to a main mode that there is not, neither arm nor disarm.
+        (245, [0.0; 3], &["command 245 (PREFLIGHT_STORAGE): unsupported"][..]),
         // The same again, as stations do every other second.
-        (192, [0.0; 3], &[]),
-        (176, [1.0, 6.0, 0.0], &["command 176 (DO_SET_MODE): denied"]),
+        (245, [0.0; 3], &[]),
+        (176, [1.0, 9.0, 0.0], &["command 176 (DO_SET_MODE): denied"]),
         (400, [2.0, 0.0, 0.0], &["command 400 (COMPONENT_ARM_DISARM): denied"]),
         // A message that it has not: ground stations ask for many.
         (512, [30_000.0, 0.0, 0.0], &[]),
@@ -372,11 +372,11 @@ fn a_velocity_that_is_cut_says_by_what() {
     let answer =
         |bench: &mut Bench, line: &str| text(&bench.enter(line)).split_once(": ").map(|(_, said)| said.to_owned());
     assert_eq!(answer(&mut bench, "velocity 3 4 1").as_deref(), Some("accepted"));
-    let cut = "accepted, at no more than 5 m/s (modes.cruise_m_s), 2 m/s (modes.climb_m_s)";
+    let cut = "accepted, at no more than 12 m/s (modes.fastest_m_s), 2 m/s (modes.climb_m_s)";
     assert_eq!(answer(&mut bench, "velocity 15 0 3").as_deref(), Some(cut));
     bench.fly(10.0);
     let flown = bench.motion().velocity;
-    assert!((flown.x - 5.0).abs() < 0.3, "{flown}");
+    assert!((flown.x - 12.0).abs() < 0.3, "{flown}");
 }
 
 #[test]

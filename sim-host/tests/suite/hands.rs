@@ -82,7 +82,7 @@ fn sticks_arrive_within_40_ms_and_stop_when_there_are_none() {
     cockpit.until(550, Some(sticks));
     let seen = cockpit.seen().expect("they have come");
     // In the body's frame, forward, left, up.
-    let there = Seen { roll: Some(0.25), pitch: Some(-0.5), yaw: Some(-1.0), throttle: Some(0.0), buttons: 0 };
+    let there = Seen { roll: 0.25, pitch: -0.5, yaw: -1.0, throttle: 0.0, ..Seen::CENTRED };
     assert_eq!(seen.value, there);
     let oldest = (500..5_000).step_by(5).map(|tick| {
         cockpit.until(tick.max(551), Some(sticks));

@@ -55,7 +55,7 @@ fn a_parameter_that_cannot_be_set_is_named_with_its_value_and_what_it_may_be() {
         ("params.MPC_XY_CRUISE=1000", &["`params.MPC_XY_CRUISE` must be between 0.05 and 100, not 1000"]),
         ("params.MAV_SYS_ID=1.5", &["`params.MAV_SYS_ID` must be a whole number from 1 to 250, not 1.5"]),
         ("params.GL_AUTOPILOT=3", &["`params.GL_AUTOPILOT` must be 0 or 12, not 3"]),
-        ("params.COM_RC_IN_MODE=0", &["`params.COM_RC_IN_MODE` cannot be set"]),
+        ("params.SYS_AUTOCONFIG=1", &["`params.SYS_AUTOCONFIG` cannot be set"]),
         ("params.MPC_XY_CRUISE=fast", &["`params.MPC_XY_CRUISE` must be a number, not \"fast\""]),
         ("params.qqqq=3", &["`params.qqqq` is no parameter: docs/parameters.md lists them"]),
         (
