@@ -277,17 +277,17 @@ fn the_modes_that_can_be_set_are_listed_in_order() {
         .filter_map(|m| if let MavMessage::AVAILABLE_MODES(m) = m { Some(m) } else { None })
         .collect();
     let numbers: Vec<_> = listed.iter().map(|mode| (mode.mode_index, mode.number_modes)).collect();
-    assert_eq!(numbers, (1..=10).map(|number| (number, 10)).collect::<Vec<_>>());
+    assert_eq!(numbers, (1..=11).map(|number| (number, 11)).collect::<Vec<_>>());
     let coded: Vec<_> = listed.iter().map(|mode| (mode.custom_mode >> 16 & 0xff, mode.custom_mode >> 24)).collect();
-    assert_eq!(coded, [(4, 2), (4, 3), (4, 4), (4, 5), (4, 6), (3, 0), (2, 0), (7, 0), (5, 0), (6, 0)]);
+    assert_eq!(coded, [(4, 2), (4, 3), (4, 4), (4, 5), (4, 6), (3, 0), (2, 0), (7, 0), (5, 0), (3, 1), (6, 0)]);
     let standard: Vec<_> = listed.iter().map(|mode| mode.standard_mode).collect();
-    assert_eq!(standard, [8, 0, 6, 5, 7, 1, 4, 0, 0, 0]);
+    assert_eq!(standard, [8, 0, 6, 5, 7, 1, 4, 0, 0, 2, 0]);
     assert_eq!(listed[3].mode_name.to_str(), Ok("Return"));
     // One alone, and one that does not exist.
     let messages = bench.job(&command(REQUEST_MESSAGE, 435.0, 3.0));
     let one = messages.iter().find_map(|m| if let MavMessage::AVAILABLE_MODES(m) = m { Some(m) } else { None });
     assert_eq!(one.expect("sent").mode_name.to_str(), Ok("Mission"));
-    assert_eq!(bench.result_of(&command(REQUEST_MESSAGE, 435.0, 11.0)), Some(MavResult::MAV_RESULT_DENIED));
+    assert_eq!(bench.result_of(&command(REQUEST_MESSAGE, 435.0, 12.0)), Some(MavResult::MAV_RESULT_DENIED));
     bench.input.mode = Mode::Return;
     let told = expect!(&mut bench, CURRENT_MODE, CURRENT_MODE_DATA);
     assert_eq!((told.standard_mode, told.custom_mode, told.intended_custom_mode), (5, 5 << 24 | 4 << 16, 0));
