@@ -3,7 +3,7 @@
 use super::{Mailboxes, Released};
 use crate::commander::{
     Answers, Asked, Command, Commander, CommanderInput, CommanderOutput, Commands, Directive, Event, Events, Known,
-    MotorTest, Origin, Outcome, Refusal, Reply, Request,
+    ManualMode, MotorTest, Origin, Outcome, Refusal, Reply, Request,
 };
 use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
@@ -352,6 +352,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         let (inner, outer, airframe) = (self.inner.output(), &self.outer, self.inner.airframe());
         let holds_position = match self.commander.directive {
             Directive::Descend { known, .. } => known == Known::Position,
+            Directive::Manual { mode, .. } => mode == ManualMode::Position,
             _ => true,
         };
         let aim = Aim {
@@ -367,6 +368,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         };
         ControlReport {
             aim: (self.is_armed() && outer.authority != Authority::Idle).then_some(aim),
+            orbit: if let Directive::Orbit(orbit) = self.commander.directive { Some(orbit) } else { None },
             attitude_law: LawReport { s: inner.s, state: self.inner.law_state() },
             position_law: LawReport { s: outer.s, state: outer.law },
             motors: inner.motors,

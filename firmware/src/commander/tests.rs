@@ -3,6 +3,7 @@
 mod any;
 mod battery;
 mod intents;
+mod orders;
 mod station;
 
 use std::collections::BTreeSet;
