@@ -26,6 +26,7 @@ pub mod plant;
 pub mod record;
 pub mod reference;
 pub mod replay;
+mod restart;
 pub mod sensors;
 pub mod touchdown;
 pub mod weather;
@@ -33,5 +34,6 @@ pub mod world;
 
 pub use any::{AnyFlight, UnderLaws};
 pub use delay::DELAY_TICKS_MAX;
-pub use lockstep::{Flight, Lockstep, Restart};
+pub use lockstep::{Flight, Lockstep};
 pub use outcome::{End, Outcome};
+pub use restart::Restart;

@@ -1,0 +1,86 @@
+//! What guidance is told in each state.
+
+use nalgebra::Vector3;
+
+use super::{Commander, Course, Directive, Known, State};
+use crate::guidance::setpoint::{self, Speeds};
+use crate::math;
+
+/// Below this height, m, a descent slows down to the touchdown speed at the latest.
+const FINAL_HEIGHT_M: f32 = 2.0;
+/// Part of the vertical acceleration with which a descent slows down: the vehicle is late, and catches up with the rest.
+const BRAKING_PART: f32 = 0.5;
+/// At this height, m, it has slowed down to it. Chosen: more than the height's error and what the vehicle lags behind.
+const SLOW_HEIGHT_M: f32 = 1.0;
+
+impl Commander {
+    pub(super) fn over_home(&self, height: f32) -> Vector3<f32> {
+        Vector3::new(self.home.x, self.home.y, height)
+    }
+
+    /// The directive for guidance, at a height (z, m).
+    pub(super) fn directive(&self, height: f32) -> Directive {
+        let settings = &self.settings;
+        let climb = |height_m: f32, speed_m_s: f32| Directive::Climb { height_m, speed_m_s, yaw: None };
+        let go_to = |position, yaw| Directive::GoTo { position, yaw, speeds: Speeds::usual(settings) };
+        match self.state {
+            State::Disarmed => Directive::Stop,
+            State::Idle { .. } => Directive::Idle,
+            State::TakeOff { to_m, .. } => climb(to_m, settings.take_off_m_s),
+            State::Hold => Directive::HOLD,
+            State::Orbit(orbit) => Directive::Orbit(orbit),
+            State::Offboard => Directive::Offboard { in_air: self.ground.is_airborne() },
+            State::Manual(mode) => Directive::Manual {
+                mode,
+                in_air: self.ground.is_airborne(),
+                sink_m_s: self.rate_of_descent(settings.sink_m_s, height),
+            },
+            State::GoTo(course) | State::Approach(course) => self.steer(&course, height),
+            State::Velocity { velocity, yaw_rate } => Directive::Velocity { velocity, yaw_rate },
+            State::Join => go_to(self.entry, Some(self.entry_yaw)),
+            State::Follow { since } => Directive::Follow { since },
+            State::Return { at_m, climbs: true } => climb(at_m, settings.climb_m_s),
+            State::Return { at_m, climbs: false } => go_to(self.over_home(at_m), None),
+            State::Land => self.descend(settings.landing_m_s, height, false),
+            State::Descent => self.descend(settings.descent_m_s, height, false),
+            State::MotorOut => self.descend(settings.descent_m_s, height, true),
+        }
+    }
+
+    /// The directive to go on a course, at a height (z, m).
+    fn steer(&self, course: &Course, height: f32) -> Directive {
+        let (height_m, yaw) = (course.height_m, course.yaw);
+        let speeds = self.speeds.within(&self.settings);
+        let Some([x, y]) = course.place_m else {
+            let speed_m_s = if height_m > height { speeds.up_m_s } else { speeds.down_m_s };
+            return Directive::Climb { height_m, speed_m_s, yaw };
+        };
+        Directive::GoTo { position: Vector3::new(x, y, height_m), yaw, speeds }
+    }
+
+    fn descend(&self, rate_m_s: f32, height: f32, heading_free: bool) -> Directive {
+        let known = self.navigation.known();
+        Directive::Descend { rate_m_s: self.rate_of_descent(rate_m_s, height), known, heading_free }
+    }
+
+    /// The rate of a descent at a height (z, m): no more than `rate_m_s`, and slow near the ground.
+    fn rate_of_descent(&self, rate_m_s: f32, height: f32) -> f32 {
+        // Home may have been set to below the ground, and the ground there may be higher than where it last stood.
+        let over_ground = height - math::max(self.home.z, self.ground_m);
+        let touchdown_m_s = math::min(rate_m_s, self.settings.touchdown_m_s);
+        // At an unknown height the ground may be anywhere.
+        let may_touch = self.navigation.known() >= Known::Climb || over_ground < FINAL_HEIGHT_M;
+        let faster_m_s = if may_touch { 0.0 } else { self.faster_by(over_ground - SLOW_HEIGHT_M, touchdown_m_s) };
+        math::min(rate_m_s, touchdown_m_s + faster_m_s)
+    }
+
+    /// How much faster than to touch down a descent may be, m/s, to slow down within a height, m, by the setpoint's braking
+    /// and with twice its delay, after which a fifteenth of a change is left: the root of
+    /// h = t (f/a + 2d) + f (f/2a + 2d).
+    fn faster_by(&self, height: f32, touchdown_m_s: f32) -> f32 {
+        let (a, d) = (BRAKING_PART * self.settings.vertical_acceleration_m_s2, setpoint::delay_s(&self.settings));
+        let half = touchdown_m_s + 2.0 * a * d;
+        let rest = math::max(height - 2.0 * touchdown_m_s * d, 0.0);
+        math::sqrt(half * half + 2.0 * a * rest) - half
+    }
+}
