@@ -187,6 +187,14 @@ impl<A: AttitudeLaw> Inner<A> {
         &self.output
     }
 
+    /// Turns one rotor of a disarmed vehicle, with a speed as a fraction of the greatest.
+    #[cold]
+    pub fn spin(&mut self, rotor: u8, part: f32) {
+        if let Some(omega) = self.output.motors.omega_rad_s.get_mut(usize::from(rotor)) {
+            *omega = part * self.airframe.omega_max_rad_s;
+        }
+    }
+
     /// One tick of control, `dt` seconds after the tick for which the reference is valid.
     #[inline]
     fn control<const GENTLE: bool>(&mut self, reference: &AttitudeReference, dt: f32) {

@@ -23,7 +23,7 @@ use crate::record::Recorder;
 use crate::scenario::{PlantKind, Scenario};
 use crate::sensors::Suite;
 use crate::sil::replay::Replay;
-use crate::sil::{AnyFlight, Flight, Lockstep as _, Outcome, UnderLaws};
+use crate::sil::{AnyFlight, Flight, Lockstep as _, Outcome, Restart, UnderLaws};
 use crate::touchdown::Touchdown;
 use crate::weather::Weather;
 
@@ -54,7 +54,8 @@ pub fn lockstep<P: Plant>(scenario: &Scenario, seed: u64, plant: P) -> Result<Fl
     let config = scenario.flight_config();
     let attitude = SlidingAttitude::new(&config.airframe, &config.attitude);
     let position = SlidingPosition::new(&config.airframe, &config.position);
-    with_laws(scenario, seed, plant, attitude, position)
+    let restart = Restart { config, build: |config, settings, ports| Autopilot::on(config, settings, ports).ok() };
+    Ok(with_laws(scenario, seed, plant, attitude, position)?.with_restart(restart))
 }
 
 /// The same with other control laws.

@@ -3,7 +3,7 @@
 use super::{Mailboxes, Released};
 use crate::commander::{
     Answers, Asked, Command, Commander, CommanderInput, CommanderOutput, Commands, Directive, Event, Events, Known,
-    Origin, Outcome, Refusal, Reply, Request,
+    ManualMode, MotorTest, Origin, Outcome, Refusal, Reply, Request,
 };
 use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
@@ -22,6 +22,9 @@ use crate::schedule::OUTER;
 use crate::settings::Changes;
 use crate::signals::{NavHealth, NavState, SensorFrame, Tick};
 use crate::watchdog::{Fallback, Watchdog};
+
+/// Time between the order to restart and the restart, ticks: the answer goes out before.
+const RESTART_AFTER: Tick = 500;
 
 /// The partitions that have not taken over the last changes of settings. The ground partition sends no others until
 /// all have: a slow one loses none.
@@ -61,6 +64,9 @@ pub struct InnerTask<A = SlidingAttitude> {
     /// Kills since boot, wrapping. The rotors are stopped while the commander has not disarmed for as many: a count
     /// cannot be lost, and an output of before the kill does not undo it.
     kills: u32,
+    /// Whether the flight was terminated, and when the vehicle is to be restarted.
+    terminated: bool,
+    restart_at: Option<Tick>,
     /// Acts when the outer partition or the commander hangs.
     watchdog: Watchdog,
     /// What is flown in place of a partition that hangs.
@@ -105,6 +111,8 @@ impl<A: AttitudeLaw> InnerTask<A> {
             injectable: Injectable::NONE,
             failures: Failures::new(),
             kills: 0,
+            terminated: false,
+            restart_at: None,
             watchdog: Watchdog::default(),
             fallback: Fallback::new(config),
         }
@@ -126,6 +134,9 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 Authority::Gentle if armed => self.inner.step_gently(tick, &self.outer.attitude),
                 _ => self.inner.step(tick, &self.outer.attitude, armed),
             };
+        }
+        if !armed && let Some(MotorTest { rotor, part }) = self.commander.motor_test {
+            self.inner.spin(rotor, part);
         }
         if self.inner.navigator().is_some() {
             self.inner.watch_rotors(armed, !self.commander.landed);
@@ -207,6 +218,10 @@ impl<A: AttitudeLaw> InnerTask<A> {
         if let Some(output) = mail.ground.publish(tick) {
             if output.kill {
                 self.kill();
+            }
+            self.terminated |= output.terminate;
+            if output.restart {
+                self.restart_at = Some(tick.wrapping_add(RESTART_AFTER));
             }
             for command in &output.commands {
                 if let Err(command) = self.commands.push(*command) {
@@ -292,6 +307,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 failed_rotor: self.inner.failed_rotor(),
                 outer_hung: self.watchdog.is_outer_hung(tick),
                 kills: self.kills,
+                terminated: self.terminated,
                 latest: self.latest,
                 commands: core::mem::take(&mut self.commands),
                 changes: self.changes_for(|waiting| &mut waiting.commander),
@@ -336,6 +352,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         let (inner, outer, airframe) = (self.inner.output(), &self.outer, self.inner.airframe());
         let holds_position = match self.commander.directive {
             Directive::Descend { known, .. } => known == Known::Position,
+            Directive::Manual { mode, .. } => mode == ManualMode::Position,
             _ => true,
         };
         let aim = Aim {
@@ -351,6 +368,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         };
         ControlReport {
             aim: (self.is_armed() && outer.authority != Authority::Idle).then_some(aim),
+            orbit: if let Directive::Orbit(orbit) = self.commander.directive { Some(orbit) } else { None },
             attitude_law: LawReport { s: inner.s, state: self.inner.law_state() },
             position_law: LawReport { s: outer.s, state: outer.law },
             motors: inner.motors,
@@ -390,6 +408,23 @@ impl<A: AttitudeLaw> InnerTask<A> {
     /// Accepted failure injections, already acknowledged to the ground station: inject them now.
     pub fn take_failures(&mut self) -> Failures {
         core::mem::take(&mut self.failures)
+    }
+
+    /// Begins at another tick than the first: after a restart whose clock goes on.
+    pub fn start_at(&mut self, tick: Tick) {
+        self.tick = tick;
+        self.watchdog.outer_published(tick);
+        self.watchdog.commander_published(tick);
+    }
+
+    /// Whether a ground station wants the vehicle restarted now: the board resets itself. By then it has been told that it
+    /// will be. It is not while the vehicle is armed.
+    pub fn takes_restart(&mut self) -> bool {
+        let due = self.restart_at.is_some_and(|at| self.tick.wrapping_sub(at) < Tick::MAX / 2);
+        if due {
+            self.restart_at = None;
+        }
+        due && !self.is_armed()
     }
 
     fn is_armed(&self) -> bool {

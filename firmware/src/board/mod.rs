@@ -59,6 +59,10 @@ pub trait Companion {
 
     /// The inner task has finished its tick. `overruns` are those of outer, commander and ground since boot.
     fn see(&mut self, _flight: &InnerTask, _overruns: [u32; 3], _ports: &Ports) {}
+
+    /// A ground station wants the vehicle restarted, which is disarmed: resets the processor. Half a second ago it has been
+    /// told that it will be. A board that cannot stays as it is.
+    fn restart(&mut self) {}
 }
 
 /// A clock that does not depend on the tick: the tick is measured by it.

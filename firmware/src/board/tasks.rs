@@ -137,6 +137,9 @@ impl<B: Sensors + Rotors + Companion, K: Clock, T: Ticker> Inner<B, K, T> {
             mail.lock(|mail| (self.flight.tick(mail, self.ports, sample.as_ref()), mail.overruns()));
         self.board.drive(&self.flight.inner_output().motors);
         self.board.see(&self.flight, overruns, self.ports);
+        if self.flight.takes_restart() {
+            self.board.restart();
+        }
         Wake {
             outer: released.filter || released.outer,
             commander: released.commander,

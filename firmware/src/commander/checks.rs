@@ -16,6 +16,7 @@ impl Commander {
         let q = input.nav.attitude.quaternion();
         let cos_tilt = 1.0 - 2.0 * (q.i * q.i + q.j * q.j);
         self.check_configured()?;
+        self.check_terminated()?;
         self.check_systems(&self.intent, input)?;
         if math::max(cos_tilt, -1.0) < COS_TILT_MAX {
             Err(Refusal::NotLevel)
@@ -29,6 +30,11 @@ impl Commander {
     /// Whether the vehicle was ever configured.
     pub(super) fn check_configured(&self) -> Result<(), Refusal> {
         if self.configured { Ok(()) } else { Err(Refusal::NotConfigured) }
+    }
+
+    /// Whether the flight was terminated since the vehicle was started.
+    pub(super) fn check_terminated(&self) -> Result<(), Refusal> {
+        if self.terminated { Err(Refusal::Terminated) } else { Ok(()) }
     }
 
     /// Whether navigation, battery and rotors are fit for a flight.

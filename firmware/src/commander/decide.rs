@@ -7,6 +7,7 @@ use super::{
 };
 use crate::schedule::COMMANDER;
 use crate::signals::Tick;
+use nalgebra::Vector3;
 
 /// An intent to leave the ground is held for this time while disarmed, s. Ground stations ask for a take-off, wait for
 /// the answer and arm then, which takes about a second on a slow link. A later arming must not launch the vehicle.
@@ -20,6 +21,7 @@ impl Commander {
         let done = match (request, Intent::of(request)) {
             (_, Some(intent)) => self.intend(intent, effective, input),
             (Request::Arm { force }, None) => self.arm(*force, effective, input),
+            (Request::TestMotor { test, seconds }, None) => self.test_motor(*test, *seconds, effective),
             (Request::SetHome { position_m }, None) => self.set_home(*position_m, input),
             (Request::Speed { kind, speed_m_s }, None) => {
                 self.speeds.choose(*kind, *speed_m_s);
@@ -41,6 +43,7 @@ impl Commander {
         }
         // Nobody can know what it would do: not even forced.
         self.check_configured()?;
+        self.check_terminated()?;
         let intent = self.intent;
         let launch = if intent.leaves_ground() { self.check_take_off(&intent, input) } else { Ok(()) };
         if !force {
@@ -93,7 +96,9 @@ impl Commander {
                 self.keep(intent, Some(effective.wrapping_add(ticks(LAUNCH_HELD_S))));
             }
             Intent::LandAt(_) => self.keep(Intent::Land, None),
-            Intent::GoTo(_) | Intent::Velocity { .. } | Intent::Return => return Err(Refusal::Disarmed),
+            Intent::GoTo(_) | Intent::Orbit(_) | Intent::Velocity { .. } | Intent::Return => {
+                return Err(Refusal::Disarmed);
+            }
         }
         Ok(())
     }
@@ -114,7 +119,9 @@ impl Commander {
                 self.check_take_off(&intent, input)?;
                 self.engage(intent, effective, input);
             }
-            Intent::GoTo(_) | Intent::Velocity { .. } | Intent::Return => return Err(Refusal::OnGround),
+            Intent::GoTo(_) | Intent::Orbit(_) | Intent::Velocity { .. } | Intent::Return => {
+                return Err(Refusal::OnGround);
+            }
         }
         Ok(())
     }
@@ -171,7 +178,7 @@ impl Commander {
 
     /// Begins with what the pilot wants, and ends what has overridden it.
     pub(super) fn engage(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) {
-        self.state = self.state_for(&intent, effective, input.nav.position.z);
+        self.state = self.state_for(&intent, effective, &input.nav.position);
         if let Intent::GoTo(Goal { speed_m_s: Some(speed_m_s), .. }) = intent {
             self.speeds.choose(SpeedKind::Horizontal, Some(speed_m_s));
         }
@@ -181,22 +188,23 @@ impl Commander {
     }
 
     /// A failure takes over; the intent is kept.
-    pub(super) fn override_by(&mut self, failure: Override, effective: Tick, height: f32) {
+    pub(super) fn override_by(&mut self, failure: Override, effective: Tick, here: &Vector3<f32>) {
         self.state = match failure {
             Override::Loss { .. } | Override::OuterHung => State::Descent,
             Override::RotorFailed => State::MotorOut,
-            Override::BatteryLow => self.state_for(&Intent::Return, effective, height),
+            Override::BatteryLow => self.state_for(&Intent::Return, effective, here),
             Override::BatteryCritical => State::Land,
             Override::StationLost { action } | Override::SticksLost { action } | Override::SetPointsLost { action } => {
-                self.state_for(&action.pursues(), effective, height)
+                self.state_for(&action.pursues(), effective, here)
             }
             Override::SensorsGone => State::Disarmed,
         };
         self.overridden = Some(failure);
     }
 
-    /// The state that an intent leads to, at a height (z, m).
-    fn state_for(&self, intent: &Intent, effective: Tick, height: f32) -> State {
+    /// The state that an intent leads to, of a vehicle at a place.
+    fn state_for(&self, intent: &Intent, effective: Tick, here: &Vector3<f32>) -> State {
+        let height = here.z;
         match *intent {
             Intent::TakeOff { height_m } => {
                 let from_m = if let State::TakeOff { from_m, .. } = self.state { from_m } else { height };
@@ -212,6 +220,7 @@ impl Commander {
             Intent::Hold => State::Hold,
             Intent::Manual(mode) => State::Manual(mode),
             Intent::Offboard => State::Offboard,
+            Intent::Orbit(goal) => State::Orbit(self.orbit(&goal, here)),
         }
     }
 

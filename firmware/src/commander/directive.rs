@@ -2,6 +2,8 @@
 
 use nalgebra::Vector3;
 
+use super::Orbit;
+
 use crate::guidance::hands::ManualMode;
 use crate::guidance::setpoint::Speeds;
 use crate::signals::{NavHealth, Tick};
@@ -73,6 +75,8 @@ pub enum Directive {
         /// Whether the vehicle is off the ground; while it is not, it is kept level.
         in_air: bool,
     },
+    /// Fly a circle.
+    Orbit(Orbit),
     /// Fly with a velocity; zero brakes and holds the place where the vehicle stops.
     Velocity {
         /// In the world, m/s.
@@ -108,6 +112,9 @@ impl Directive {
     pub fn is_finite(&self) -> bool {
         match self {
             Self::Stop | Self::Idle | Self::Follow { .. } | Self::Offboard { .. } => true,
+            Self::Orbit(Orbit { center, radius_m, speed_m_s, .. }) => {
+                crate::math::all_finite(center.as_slice()) && crate::math::all_finite(&[*radius_m, *speed_m_s])
+            }
             Self::Manual { sink_m_s, .. } => sink_m_s.is_finite(),
             Self::GoTo { position, yaw, .. } => {
                 crate::math::all_finite(position.as_slice()) && yaw.is_none_or(f32::is_finite)
@@ -140,6 +147,8 @@ pub enum Mode {
     Velocity,
     /// Following streamed set-points.
     Offboard,
+    /// Flying a circle.
+    Orbit,
     /// By hand: body rates and thrust.
     Acro,
     /// By hand: tilt and thrust.

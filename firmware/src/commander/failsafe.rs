@@ -3,6 +3,7 @@
 use super::{Charge, Commander, CommanderInput, Event, Known, Override, State};
 use crate::schedule::COMMANDER;
 use crate::signals::Tick;
+use nalgebra::Vector3;
 
 impl Commander {
     /// Failsafes, the most severe first.
@@ -10,26 +11,26 @@ impl Commander {
         if matches!(self.state, State::Disarmed | State::Idle { .. }) {
             return None;
         }
-        let height = input.nav.position.z;
+        let here = &input.nav.position;
         if self.navigation.is_gone() {
             self.stop();
-            self.override_by(Override::SensorsGone, effective, height);
+            self.override_by(Override::SensorsGone, effective, here);
             return Some(Event::SensorsGone);
         }
         if self.state == State::MotorOut {
             return None;
         }
         if let Some(rotor) = input.failed_rotor {
-            self.override_by(Override::RotorFailed, effective, height);
+            self.override_by(Override::RotorFailed, effective, here);
             return Some(Event::RotorFailed { rotor });
         }
         let event = self.answer_loss(effective, input);
         // The inner loop has reported it.
         if input.outer_hung && self.state != State::Descent {
-            self.override_by(Override::OuterHung, effective, height);
+            self.override_by(Override::OuterHung, effective, here);
         }
         event
-            .or_else(|| self.answer_battery(effective, height))
+            .or_else(|| self.answer_battery(effective, here))
             .or_else(|| self.answer_silence(effective.wrapping_sub(COMMANDER.offset), effective, input))
     }
 
@@ -48,7 +49,7 @@ impl Commander {
             _ if known == Known::Position => return None,
             _ => Known::Position,
         };
-        self.override_by(Override::Loss { known }, effective, input.nav.position.z);
+        self.override_by(Override::Loss { known }, effective, &input.nav.position);
         (known > before).then_some(match known {
             Known::Position | Known::Velocity => Event::PositionLost,
             Known::Height => Event::VelocityLost,
@@ -59,7 +60,7 @@ impl Commander {
     }
 
     /// Each level acts once, so that the pilot can override it.
-    fn answer_battery(&mut self, effective: Tick, height: f32) -> Option<Event> {
+    fn answer_battery(&mut self, effective: Tick, here: &Vector3<f32>) -> Option<Event> {
         let charge = self.battery.charge();
         if charge <= self.battery_answered {
             return None;
@@ -74,7 +75,7 @@ impl Commander {
             (_, State::Land | State::Descent) => return None,
             // The pilot has come first.
             (Charge::Low, State::Return { .. }) => {}
-            _ => self.override_by(failure, effective, height),
+            _ => self.override_by(failure, effective, here),
         }
         self.battery_answered = charge;
         Some(event)

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Goal, Known, ManualMode, Mode, Request, StationAction};
+use super::{Goal, Known, ManualMode, Mode, OrbitGoal, Request, StationAction};
 
 /// What the pilot wants: the last request to fly that was accepted. It is kept while a failure overrides it. A landing
 /// and a disarming end it, unless it is to fly by hand or offboard; then it is [`Hold`](Self::Hold), as before the first request.
@@ -21,6 +21,8 @@ pub enum Intent {
     Manual(ManualMode),
     /// Follow streamed set-points.
     Offboard,
+    /// Fly a circle.
+    Orbit(OrbitGoal),
     /// Fly with a velocity.
     Velocity {
         /// In the world, m/s.
@@ -42,10 +44,17 @@ impl Intent {
     /// What a request to fly wants; `None` for any other.
     pub(super) fn of(request: &Request) -> Option<Self> {
         Some(match *request {
-            Request::Arm { .. } | Request::Disarm | Request::SetHome { .. } | Request::Speed { .. } => return None,
+            Request::Arm { .. }
+            | Request::Disarm
+            | Request::TestMotor { .. }
+            | Request::SetHome { .. }
+            | Request::Speed { .. } => {
+                return None;
+            }
             Request::Hold => Self::Hold,
             Request::Manual(mode) => Self::Manual(mode),
             Request::Offboard => Self::Offboard,
+            Request::Orbit(goal) => Self::Orbit(goal),
             Request::TakeOff { height_m } => Self::TakeOff { height_m },
             Request::GoTo(goal) => Self::GoTo(goal),
             Request::Velocity { velocity_m_s, yaw_rate_rad_s } => {
@@ -64,6 +73,7 @@ impl Intent {
             Self::Hold => Mode::Hold,
             Self::Manual(mode) => (*mode).into(),
             Self::Offboard => Mode::Offboard,
+            Self::Orbit(_) => Mode::Orbit,
             Self::TakeOff { .. } => Mode::TakeOff,
             Self::GoTo(_) => Mode::GoTo,
             Self::Velocity { .. } => Mode::Velocity,

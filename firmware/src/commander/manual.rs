@@ -218,7 +218,7 @@ impl Commander {
     fn answer_lost_sticks(&mut self, effective: Tick, input: &CommanderInput) -> Option<Event> {
         let State::Manual(_) = self.state else { return None };
         let action = self.hand.lost;
-        self.override_by(Override::SticksLost { action }, effective, input.nav.position.z);
+        self.override_by(Override::SticksLost { action }, effective, &input.nav.position);
         Some(Event::SticksLost { action })
     }
 

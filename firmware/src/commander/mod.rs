@@ -18,7 +18,9 @@ mod goal;
 mod home;
 mod intent;
 mod manual;
+mod motor_test;
 mod offboard;
+mod orbit;
 mod request;
 mod state;
 mod station;
@@ -32,6 +34,8 @@ pub use decide::LAUNCH_HELD_S;
 pub use directive::{Directive, Known, Mode};
 pub use goal::{Goal, SpeedKind};
 pub use intent::{Intent, Override};
+pub use motor_test::MotorTest;
+pub use orbit::{Orbit, OrbitGoal, OrbitHeading};
 
 pub use crate::guidance::hands::ManualMode;
 pub(crate) use request::TURN_MAX;
@@ -79,6 +83,8 @@ pub struct CommanderInput {
     pub outer_hung: bool,
     /// Kills since boot, wrapping.
     pub kills: u32,
+    /// Whether the flight was terminated: the vehicle is not armed again before it is restarted.
+    pub terminated: bool,
     /// Sticks, and when a ground station was last heard.
     pub latest: Latest,
     /// Commands since the last job.
@@ -104,6 +110,8 @@ pub struct CommanderOutput {
     pub overridden: Option<Override>,
     /// The directive for guidance.
     pub directive: Directive,
+    /// The motor that turns though the vehicle is disarmed.
+    pub motor_test: Option<MotorTest>,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
     /// z of the ground where it was armed, or has landed since, m.
@@ -162,6 +170,10 @@ pub struct Commander {
     ground: GroundWatch,
     /// The answer to the loss of the ground station.
     station: StationLoss,
+    /// The motor that turns though it is disarmed, and until when.
+    motor_test: Option<(MotorTest, Tick)>,
+    /// Whether the flight was terminated.
+    terminated: bool,
     /// What sticks may do.
     hand: Hand,
     /// When set-points are lost, and with which thrust one of an attitude hovers.
@@ -230,6 +242,8 @@ impl Commander {
             battery: BatteryWatch::default(),
             ground: GroundWatch::new(flies, start.z),
             station: StationLoss::default(),
+            motor_test: None,
+            terminated: false,
             hand: Hand::default(),
             stream: Stream::default(),
             hover_throttle: config.manual.hover_throttle,
@@ -289,8 +303,10 @@ impl Commander {
         }
         self.watch(released, input);
         let mut replies = Replies::new();
+        self.terminated = input.terminated;
         if input.kills != self.kills {
             self.kills = input.kills;
+            self.motor_test = None;
             self.killed_until = Some(effective.wrapping_add(ticks(KILL_HOLDS_S)));
             self.stop();
         }
@@ -312,7 +328,8 @@ impl Commander {
         self.progress(effective, input);
         let home = self.known_home(input);
         let armable = self.check(input).and_then(|()| self.check_sticks(released, input));
-        CommanderOutput { home, ..self.output(input.nav.position.z, armable, replies, event) }
+        let motor_test = self.tested_motor(effective);
+        CommanderOutput { motor_test, home, ..self.output(input.nav.position.z, armable, replies, event) }
     }
 
     /// The output, at a height (z, m), while home is unknown.
@@ -332,6 +349,7 @@ impl Commander {
             intent: self.intent,
             overridden: self.overridden,
             directive: self.directive(height),
+            motor_test: None,
             landed: !self.ground.is_airborne(),
             ground_m: self.ground_m,
             home: None,
@@ -449,6 +467,7 @@ impl Commander {
             State::Idle { .. } => Directive::Idle,
             State::TakeOff { to_m, .. } => climb(to_m, settings.take_off_m_s),
             State::Hold => Directive::HOLD,
+            State::Orbit(orbit) => Directive::Orbit(orbit),
             State::Offboard => Directive::Offboard { in_air: self.ground.is_airborne() },
             State::Manual(mode) => Directive::Manual {
                 mode,

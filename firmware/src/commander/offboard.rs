@@ -106,7 +106,7 @@ impl Commander {
                 StationAction::Hold
             }
         };
-        self.override_by(Override::SetPointsLost { action }, effective, input.nav.position.z);
+        self.override_by(Override::SetPointsLost { action }, effective, &input.nav.position);
         Event::SetPointsLost { action: Some(action) }
     }
 

@@ -2,7 +2,7 @@
 
 use core::ops::RangeInclusive;
 
-use super::{Goal, ManualMode, SpeedKind, StationAction};
+use super::{Goal, ManualMode, MotorTest, OrbitGoal, SpeedKind, StationAction};
 use crate::math;
 
 /// Default height of a take-off, m.
@@ -27,6 +27,13 @@ pub enum Request {
     },
     /// Disarm, on the ground: the rotors stop.
     Disarm,
+    /// Turn a motor of a disarmed vehicle.
+    TestMotor {
+        /// Which, and how fast.
+        test: MotorTest,
+        /// For how long, s.
+        seconds: f32,
+    },
     /// Climb from the ground, and hold there.
     TakeOff {
         /// Over the ground, m.
@@ -38,6 +45,8 @@ pub enum Request {
     Manual(ManualMode),
     /// Follow streamed set-points.
     Offboard,
+    /// Fly a circle.
+    Orbit(OrbitGoal),
     /// Go to a place, a height or a heading, and stay.
     GoTo(Goal),
     /// Set a speed for the way to a goal.
@@ -82,7 +91,9 @@ impl Request {
     pub fn is_sane(&self) -> bool {
         match self {
             Self::TakeOff { height_m } => TAKE_OFF_HEIGHTS_M.contains(height_m),
+            Self::TestMotor { test, seconds } => test.is_sane(*seconds),
             Self::GoTo(goal) | Self::LandAt(goal) => goal.is_sane(),
+            Self::Orbit(goal) => goal.is_sane(),
             Self::Velocity { velocity_m_s, yaw_rate_rad_s } => {
                 within(velocity_m_s, FASTEST_M_S) && within(&[*yaw_rate_rad_s], TURN_MAX)
             }
@@ -182,6 +193,10 @@ pub enum Refusal {
     OnGround,
     /// Disarmed: arm first.
     Disarmed,
+    /// Armed: disarm first.
+    Armed,
+    /// The flight was terminated: restart the vehicle.
+    Terminated,
     /// Not at the start point of the trajectory.
     NotAtStart,
     /// The vehicle was never configured.

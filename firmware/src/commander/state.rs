@@ -17,6 +17,7 @@
 //! Offboard                     ─ touchdown ────────► Idle
 //! Idle                         ─ set-point up ─────► Offboard
 //! Manual, Cruise, TakeOff, Land, Descent ─ offboard ► Offboard
+//! Manual, Cruise, TakeOff, Land, Descent ─ orbit ──► Orbit
 //! Offboard                     ─ set-points lost ──► Hold by SetPointsLost
 //! Manual                       ─ touchdown, stick down ► Idle
 //! Idle                         ─ stick up ─────────► Manual
@@ -29,20 +30,20 @@
 //! Manual, Cruise, TakeOff, Land, Descent ─ return ─────────► Return
 //! Manual, Cruise, TakeOff                ─ land ───────────► Land
 //! Manual, Cruise, TakeOff, Land, Descent ─ land there ─────► Approach
-//! Hold, Manual, GoTo, Velocity, Offboard, Return, Approach, TakeOff, Land, Descent ─ follow ► Join
+//! Hold, Manual, GoTo, Velocity, Offboard, Orbit, Return, Approach, TakeOff, Land, Descent ─ follow ► Join
 //!
 //! Manual, Cruise, TakeOff              ─ battery critical ─► Land by BatteryCritical
-//! Hold, Manual, GoTo, Velocity, Offboard, Join, Follow, Approach, TakeOff ─ battery low ► Return by BatteryLow
-//! GoTo, Velocity, Offboard, Join, Follow, Approach, TakeOff ─ station lost: hold ► Hold by StationLost
-//! Hold, GoTo, Velocity, Offboard, Join, Follow, Approach, TakeOff ─ station lost: return ► Return by StationLost
-//! Hold, GoTo, Velocity, Offboard, Join, Follow, Approach, TakeOff ─ station lost: land ► Land by StationLost
+//! Hold, Manual, GoTo, Velocity, Offboard, Orbit, Join, Follow, Approach, TakeOff ─ battery low ► Return by BatteryLow
+//! GoTo, Velocity, Offboard, Orbit, Join, Follow, Approach, TakeOff ─ station lost: hold ► Hold by StationLost
+//! Hold, GoTo, Velocity, Offboard, Orbit, Join, Follow, Approach, TakeOff ─ station lost: return ► Return by StationLost
+//! Hold, GoTo, Velocity, Offboard, Orbit, Join, Follow, Approach, TakeOff ─ station lost: land ► Land by StationLost
 //! Cruise, TakeOff, Land        ─ loss ─────────────► Descent by Loss
 //! Manual, Cruise, TakeOff, Land        ─ hung ─────────────► Descent by OuterHung
 //! Manual, Cruise, TakeOff, Land, Descent ─ rotor failed ───► MotorOut by RotorFailed
 //! Manual, Cruise, TakeOff, Land, Descent, MotorOut ─ gone ─► Disarmed by SensorsGone
 //! Idle, Manual, Cruise, TakeOff, Land, Descent, MotorOut ─ kill ────────► Disarmed
 //!
-//! Cruise = Hold, GoTo, Velocity, Offboard, Join, Follow, Return, Approach
+//! Cruise = Hold, GoTo, Velocity, Offboard, Orbit, Join, Follow, Return, Approach
 //! ```
 //!
 //! A test checks this diagram against the code.
@@ -61,7 +62,7 @@
 
 use nalgebra::Vector3;
 
-use super::{ManualMode, Mode};
+use super::{ManualMode, Mode, Orbit};
 use crate::signals::Tick;
 
 /// State of the commander (see the diagram above).
@@ -89,6 +90,8 @@ pub enum State {
     Manual(ManualMode),
     /// Following streamed set-points.
     Offboard,
+    /// Flying a circle.
+    Orbit(Orbit),
     /// Flying with a velocity.
     Velocity {
         /// m/s.
@@ -141,6 +144,7 @@ impl State {
             Self::Hold => Mode::Hold,
             Self::Manual(mode) => (*mode).into(),
             Self::Offboard => Mode::Offboard,
+            Self::Orbit(_) => Mode::Orbit,
             Self::GoTo(_) => Mode::GoTo,
             Self::Velocity { .. } => Mode::Velocity,
             Self::Join | Self::Follow { .. } => Mode::Follow,

@@ -71,7 +71,7 @@ impl Commander {
             self.station.answered = false;
         } else if !self.station.answered && self.flies_by_itself() {
             self.station.answered = true;
-            self.override_by(Override::StationLost { action }, effective, input.nav.position.z);
+            self.override_by(Override::StationLost { action }, effective, &input.nav.position);
             return Some(Event::StationLost { action });
         }
         None

@@ -3,6 +3,7 @@
 mod any;
 mod battery;
 mod intents;
+mod orders;
 mod station;
 
 use std::collections::BTreeSet;
@@ -31,6 +32,7 @@ pub(super) fn standing() -> CommanderInput {
         failed_rotor: None,
         outer_hung: false,
         kills: 0,
+        terminated: false,
         latest: Latest::default(),
         commands: Commands::new(),
         changes: Changes::new(),
@@ -98,6 +100,7 @@ fn wanted(state: &State) -> (Intent, Option<Override>) {
         State::TakeOff { from_m, to_m } => (Intent::TakeOff { height_m: to_m - from_m }, None),
         State::Manual(mode) => (Intent::Manual(mode), None),
         State::Offboard => (Intent::Offboard, None),
+        State::Orbit(orbit) => (Intent::Orbit(OrbitGoal { radius_m: Some(orbit.radius_m), ..ORBIT }), None),
         State::GoTo(course) => (Intent::GoTo(goal(&course)), None),
         State::Approach(course) => (Intent::LandAt(goal(&course)), None),
         State::Velocity { velocity, yaw_rate } => (Intent::Velocity { velocity, yaw_rate }, None),
@@ -123,6 +126,8 @@ const GO_TO: Request = Request::GoTo(Goal::at([1.0, 2.0, 3.0], 0.5));
 const LAND_AT: Request =
     Request::LandAt(Goal { place_m: Some([4.0, 5.0]), height_m: None, yaw_rad: Some(0.5), speed_m_s: None });
 const VELOCITY: Request = Request::Velocity { velocity_m_s: [1.0, 0.0, 0.0], yaw_rate_rad_s: 0.1 };
+const ORBIT: OrbitGoal =
+    OrbitGoal { center_m: None, height_m: None, radius_m: Some(20.0), speed_m_s: None, heading: OrbitHeading::Center };
 const TAKE_OFF: Request = Request::TakeOff { height_m: 2.0 };
 
 /// Every state, none of them about to time out.
@@ -137,6 +142,7 @@ fn states() -> Vec<State> {
         State::Approach(course(velocity.into(), 0.0)),
         State::Manual(ManualMode::Position),
         State::Offboard,
+        State::Orbit(Orbit { center: velocity, radius_m: 9.0, speed_m_s: 2.0, heading: OrbitHeading::Center }),
         State::Velocity { velocity, yaw_rate: 0.0 },
         State::Join,
         State::Follow { since: 0 },
@@ -191,6 +197,7 @@ fn outcomes(state: State) -> Vec<(&'static str, String)> {
         ("stick moved", stick_moved(state, &quiet)),
         ("stick up", stick_up(state)),
         ("go to", ask(GO_TO)),
+        ("orbit", ask(Request::Orbit(ORBIT))),
         ("velocity", ask(VELOCITY)),
         ("land", ask(Request::Land)),
         ("land there", ask(LAND_AT)),

@@ -417,4 +417,4 @@ fn shorten(x: f32, y: f32, most: f32) -> (f32, f32) {
 
 #[cfg(test)]
 #[path = "setpoint_tests.rs"]
-mod tests;
+pub(super) mod tests;

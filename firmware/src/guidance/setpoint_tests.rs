@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::guidance::{Guidance, Trajectory};
 
-const LIMITS: ModeSettings = ModeSettings {
+pub(in crate::guidance) const LIMITS: ModeSettings = ModeSettings {
     cruise_m_s: 5.0,
     fastest_m_s: 5.0,
     climb_m_s: 2.0,

@@ -10,7 +10,7 @@ use glissade_dialect::{MavCmd, MavModeFlag, MavResult};
 use super::incoming::{CommandMessage, Form};
 use super::telemetry::{IntervalError, MODES, Report, Telemetry, View, is_available, of_standard_mode, report_by_id};
 use super::{GroundOutput, goal, mode, place};
-use crate::commander::{Outcome, Request};
+use crate::commander::{MotorTest, Outcome, Refusal, Request};
 use crate::failure::{Failure, Failures, Injectable, Manner, Unit};
 
 /// Value of `param2` that forces arming and disarming, and the one that forces arming alone.
@@ -71,10 +71,18 @@ pub(super) fn carry_out(
             MavResult::MAV_RESULT_ACCEPTED.into()
         }
         Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => arm_request(message).into(),
+        Some(MavCmd::MAV_CMD_DO_FLIGHTTERMINATION) if message.param1 >= 0.5 => {
+            (output.kill, output.terminate) = (true, true);
+            MavResult::MAV_RESULT_ACCEPTED.into()
+        }
+        Some(MavCmd::MAV_CMD_DO_FLIGHTTERMINATION) => MavResult::MAV_RESULT_DENIED.into(),
+        Some(MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN) => restart(message, view, output),
+        Some(MavCmd::MAV_CMD_DO_MOTOR_TEST) => motor_test(message).into(),
         Some(MavCmd::MAV_CMD_NAV_TAKEOFF) => place::take_off(message, view).into(),
         Some(MavCmd::MAV_CMD_DO_SET_HOME) => place::set_home(message, view).into(),
         Some(MavCmd::MAV_CMD_NAV_LAND) => goal::land(message, view).into(),
         Some(MavCmd::MAV_CMD_DO_REPOSITION) => goal::reposition(message, view).into(),
+        Some(MavCmd::MAV_CMD_DO_ORBIT) => goal::orbit(message, view).into(),
         Some(MavCmd::MAV_CMD_CONDITION_YAW) => goal::turn(message, view).into(),
         Some(MavCmd::MAV_CMD_DO_CHANGE_SPEED) => match goal::change_speed(message) {
             Ok(Some(request)) => Effect::Ask(request),
@@ -122,6 +130,31 @@ fn mode_request(message: &CommandMessage, take_off_m: f32) -> Option<Request> {
     let flags = MavModeFlag::from_bits_truncate(whole(message.param1)?.into());
     let custom = flags.contains(MavModeFlag::MAV_MODE_FLAG_CUSTOM_MODE_ENABLED);
     custom.then(|| mode::request(message.param2, message.param3, take_off_m)).flatten()
+}
+
+/// Restarts the autopilot, while disarmed; other parts of the vehicle and a shutdown are not supported.
+fn restart(message: &CommandMessage, view: &View, output: &mut GroundOutput) -> Effect {
+    if message.param1 != 1.0 {
+        return MavResult::MAV_RESULT_UNSUPPORTED.into();
+    }
+    if view.input.armed {
+        return Effect::Refuse { request: "Restart", reason: Refusal::Armed.reason() };
+    }
+    output.restart = true;
+    MavResult::MAV_RESULT_ACCEPTED.into()
+}
+
+/// Turns one motor: number in parameter 1, from 1, throttle in percent, for parameter 4 in seconds.
+fn motor_test(message: &CommandMessage) -> Option<Request> {
+    const PERCENT: f32 = 0.0;
+    let rotor = whole(message.param1)?.checked_sub(1)?;
+    let count = match message.form {
+        Form::Long([count, _]) => count,
+        Form::Int { xy: [count, _], .. } => count as f32,
+    };
+    let one = is_unset(count) || count == 1.0;
+    let test = MotorTest { rotor, part: message.param3 / 100.0 };
+    (one && message.param2 == PERCENT).then_some(Request::TestMotor { test, seconds: message.param4 })
 }
 
 /// The mode that stands for a standard one.

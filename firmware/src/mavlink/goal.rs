@@ -1,4 +1,4 @@
-//! Commands that send the vehicle somewhere: `DO_REPOSITION`, `NAV_LAND` with a place, `CONDITION_YAW`, and
+//! Commands that send the vehicle somewhere: `DO_REPOSITION`, `DO_ORBIT`, `NAV_LAND` with a place, `CONDITION_YAW`, and
 //! `DO_CHANGE_SPEED`.
 //!
 //! A value that is NaN, or the least or greatest integer in place of a latitude or longitude, is not given.
@@ -10,7 +10,7 @@ use super::command::Effect;
 use super::incoming::{CommandMessage, Form};
 use super::place::{Datum, datum, is_on_earth};
 use super::telemetry::{Place, View};
-use crate::commander::{Goal, Mode, Request, SpeedKind};
+use crate::commander::{Goal, Mode, OrbitGoal, OrbitHeading, Request, SpeedKind};
 use crate::frames::flip_vector;
 use crate::math;
 
@@ -54,6 +54,34 @@ pub(super) fn land(message: &CommandMessage, view: &View) -> Result<Request, Eff
     let yaw_rad = yaw_deg.map(|yaw| math::wrap_angle(-yaw.to_radians()));
     let goal = Goal { place_m, yaw_rad, ..Goal::default() };
     Ok(if place_m.is_none() && yaw_rad.is_none() { Request::Land } else { Request::LandAt(goal) })
+}
+
+/// `DO_ORBIT`: radius, positive for clockwise; speed; where the nose points; centre and height. For ever: the number of
+/// turns must be open.
+pub(super) fn orbit(message: &CommandMessage, view: &View) -> Result<Request, Effect> {
+    let CommandMessage { param1: radius, param2: speed, param3: behaviour, param4: turns, .. } = *message;
+    if !(turns.is_nan() || turns == 0.0) {
+        return Err(DENIED);
+    }
+    let heading = match behaviour {
+        0.0 => OrbitHeading::Center,
+        3.0 => OrbitHeading::Along,
+        1.0 | 2.0 | 4.0 | 5.0 => OrbitHeading::Kept,
+        nan if nan.is_nan() => OrbitHeading::Center,
+        _ => return Err(DENIED),
+    };
+    let (center_m, height_m) = place(message, view, "Orbit")?;
+    let radius = given(radius);
+    // Clockwise is negative here. Of a speed that is not given the direction is that of the radius.
+    let clockwise = radius.is_none_or(|radius| radius > 0.0) != given(speed).is_some_and(|speed| speed < 0.0);
+    let speed = given(speed).map_or(view.cruise_m_s, math::abs);
+    Ok(Request::Orbit(OrbitGoal {
+        center_m,
+        height_m,
+        radius_m: radius.map(math::abs),
+        speed_m_s: Some(if clockwise { -speed } else { speed }),
+        heading,
+    }))
 }
 
 /// `CONDITION_YAW`: a heading in degrees, or a turn by them for parameter 4 = 1, to the left for parameter 3 = −1. It is

@@ -177,6 +177,10 @@ pub struct GroundOutput {
     pub commands: Commands,
     /// Whether a ground station stops the rotors now. No entry of a queue: it is never lost, and acts first.
     pub kill: bool,
+    /// Whether it terminates the flight: a kill, after which the vehicle is not armed again.
+    pub terminate: bool,
+    /// Whether it restarts the vehicle.
+    pub restart: bool,
     /// Accepted failure injections, for the board.
     pub failures: Failures,
     /// Sticks, and when a ground station was last heard.

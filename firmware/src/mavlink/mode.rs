@@ -11,6 +11,7 @@ const AUTO: u8 = 4;
 const ACRO: u8 = 5;
 const STABILIZED: u8 = 7;
 const OFFBOARD: u8 = 6;
+const ORBIT: u8 = 1;
 const TAKE_OFF: u8 = 2;
 const LOITER: u8 = 3;
 const MISSION: u8 = 4;
@@ -30,6 +31,7 @@ pub(super) fn custom_mode(mode: Mode) -> u32 {
         Mode::Stabilized => (STABILIZED, 0),
         Mode::Altitude => (ALTITUDE, 0),
         Mode::Position => (POSITION, 0),
+        Mode::Orbit => (POSITION, ORBIT),
     };
     u32::from(main) << 16 | u32::from(sub) << 24
 }
@@ -55,7 +57,7 @@ const MANUAL: [(u8, ManualMode); 5] = [
 /// The request that corresponds to setting a mode; `None` if it cannot be set. A take-off goes to `take_off_m`.
 pub(super) fn request(main: f32, sub: f32, take_off_m: f32) -> Option<Request> {
     for (number, mode) in MANUAL {
-        if main == f32::from(number) {
+        if main == f32::from(number) && (sub == 0.0 || sub.is_nan()) {
             return Some(Request::Manual(mode));
         }
     }

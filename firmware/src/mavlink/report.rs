@@ -3,6 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3, Vector4};
 
 use crate::airframe::ROTORS;
+use crate::commander::Orbit;
 use crate::control::law::LawState;
 use crate::sensors::{BaroSample, GnssSample, ImuSample, MagSample};
 use crate::signals::MotorCommand;
@@ -44,6 +45,8 @@ pub struct LawReport {
 pub struct ControlReport {
     /// What is aimed at; `None` while the rotors stand or idle.
     pub aim: Option<Aim>,
+    /// The circle that is flown.
+    pub orbit: Option<Orbit>,
     /// The attitude law.
     pub attitude_law: LawReport,
     /// The position law.
@@ -67,6 +70,7 @@ impl ControlReport {
         let law = LawReport { s: zero, state: LawState { reaching: zero, disturbance: zero } };
         Self {
             aim: None,
+            orbit: None,
             attitude_law: law,
             position_law: law,
             motors: MotorCommand::STOPPED,

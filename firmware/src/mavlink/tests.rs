@@ -4,6 +4,7 @@ mod failures;
 mod goals;
 mod messages;
 mod modes;
+mod orders;
 mod params;
 mod places;
 mod requests;

@@ -8,10 +8,12 @@
 
 mod by_hand;
 mod offboard;
+mod orbit;
 
 use nalgebra::{Vector3, Vector4};
 
 use self::by_hand::ByHand;
+use self::orbit::Circling;
 
 use crate::commander::{Directive, Known};
 use crate::config::{FlightConfig, ModeSettings};
@@ -113,6 +115,7 @@ pub struct Outer<P = SlidingPosition> {
     modes: ModeSettings,
     source: Source,
     by_hand: ByHand,
+    circling: Circling,
     stream: Stream,
     setpoint: Setpoint,
     guidance: Guidance,
@@ -181,6 +184,7 @@ impl<P: PositionLaw> Outer<P> {
             setpoint: Setpoint::new(&config.modes),
             source: Source::Ground,
             by_hand: ByHand::new(&config.manual),
+            circling: Circling::default(),
             law,
             limited: false,
             blind_force: config.modes.blind_thrust_part * config.airframe.gravity_m_s2,
@@ -233,6 +237,7 @@ impl<P: PositionLaw> Outer<P> {
             Directive::Manual { mode, in_air, sink_m_s } => {
                 self.fly_by_hand(effective, input, (mode, in_air, sink_m_s))
             }
+            Directive::Orbit(orbit) => self.fly_orbit(effective, input, &orbit),
             Directive::Offboard { in_air } => self.follow_setpoint(effective, input, in_air),
             Directive::Stop | Directive::Idle => self.rest(&input.nav),
             Directive::Follow { since } => {

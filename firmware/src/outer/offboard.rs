@@ -38,7 +38,7 @@ impl<P: PositionLaw> Outer<P> {
     }
 
     /// The stream's reference, continued from the last reference, or from where the vehicle stands.
-    fn stream_to(&mut self, effective: Tick, input: &OuterInput, sample: &Sample) -> FlatReference {
+    pub(super) fn stream_to(&mut self, effective: Tick, input: &OuterInput, sample: &Sample) -> FlatReference {
         if self.source != Source::Stream {
             let reference = self.last_reference(input);
             self.stream.start(&reference);

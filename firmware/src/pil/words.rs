@@ -5,7 +5,7 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::airframe::ROTORS;
-use crate::commander::{Asked, Goal, ManualMode, Request, SpeedKind};
+use crate::commander::{Asked, Goal, ManualMode, MotorTest, OrbitGoal, OrbitHeading, Request, SpeedKind};
 use crate::inner::InnerOutput;
 use crate::pil::Sent;
 use crate::sensors::{BaroSample, BatterySample, Geodetic, GnssSample, ImuSample, MagSample, Measurements, PoseSample};
@@ -217,6 +217,7 @@ pub(super) use as_words;
 
 const KINDS: [SpeedKind; 3] = [SpeedKind::Horizontal, SpeedKind::Up, SpeedKind::Down];
 
+const HEADINGS: [OrbitHeading; 3] = [OrbitHeading::Center, OrbitHeading::Kept, OrbitHeading::Along];
 const MODES: [ManualMode; 4] = [ManualMode::Acro, ManualMode::Stabilized, ManualMode::Altitude, ManualMode::Position];
 
 fn number_in<T: PartialEq, const N: usize>(all: &[T; N], one: &T) -> f32 {
@@ -239,6 +240,10 @@ impl Words for Asked {
             }
             Self::Request(Request::Manual(mode)) => (14, [number_in(&MODES, &mode), 0.0, 0.0, 0.0, 0.0]),
             Self::Request(Request::Offboard) => (15, [0.0; 5]),
+            Self::Request(Request::TestMotor { test: MotorTest { rotor, part }, seconds }) => {
+                (16, [f32::from(rotor), part, seconds, 0.0, 0.0])
+            }
+            Self::Request(Request::Orbit(goal)) => (17 + number_in(&HEADINGS, &goal.heading) as u32, goal.numbers()),
             Self::Request(Request::Land) => (6, [0.0; 5]),
             Self::Request(Request::LandAt(goal)) => (12, goal.numbers()),
             Self::Request(Request::Speed { kind, speed_m_s }) => {
@@ -271,6 +276,8 @@ impl Words for Asked {
             10 => Request::SetHome { position_m: None },
             11 => Request::SetHome { position_m: Some([x, y, z]) },
             15 => Request::Offboard,
+            17..20 => Request::Orbit(OrbitGoal::of_numbers([x, y, z, w, v], *HEADINGS.get(kind as usize - 17)?)),
+            16 => Request::TestMotor { test: MotorTest { rotor: x as u8, part: y }, seconds: z },
             14 => Request::Manual(*MODES.get(x as usize)?),
             12 => Request::LandAt(Goal::of_numbers([x, y, z, w, v])),
             13 => Request::Speed { kind: *KINDS.get(x as usize)?, speed_m_s: Some(y).filter(|y| !y.is_nan()) },

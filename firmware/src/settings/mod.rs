@@ -77,6 +77,7 @@ pub const RC_MAP_KILL_SW: usize = rows::index_of("RC_MAP_KILL_SW");
 pub const COM_FLTMODE1: usize = rows::index_of("COM_FLTMODE1");
 /// Index of the thrust with which a set-point of an attitude hovers.
 pub(crate) const MPC_THR_HOVER: usize = rows::index_of("MPC_THR_HOVER");
+const MPC_XY_CRUISE: usize = rows::index_of("MPC_XY_CRUISE");
 /// Index of what is done when sticks are lost.
 pub const NAV_RCL_ACT: usize = rows::index_of("NAV_RCL_ACT");
 /// Index of whether the sticks arm.
@@ -473,6 +474,11 @@ impl Settings {
     /// Age at which a stream of set-points is lost, s.
     pub fn setpoint_loss_s(&self) -> f32 {
         self.get(COM_OF_LOSS_T).map_or(0.0, Value::real)
+    }
+
+    /// Horizontal speed on the way to a place, m/s.
+    pub fn cruise_m_s(&self) -> f32 {
+        self.get(MPC_XY_CRUISE).map_or(0.0, Value::real)
     }
 
     /// Height of a take-off for which none is given, m.

@@ -12,6 +12,7 @@ mod mixer;
 mod modes;
 mod moving_start;
 mod offboard;
+mod orbit;
 mod parameters;
 mod settings;
 mod sliding;

@@ -116,6 +116,7 @@ impl Vehicle {
                 failed_rotor: None,
                 outer_hung: false,
                 kills: 0,
+                terminated: false,
                 latest: self.latest,
                 commands: core::mem::take(&mut self.commands),
                 changes: Changes::new(),

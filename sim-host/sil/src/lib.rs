@@ -33,5 +33,5 @@ pub mod world;
 
 pub use any::{AnyFlight, UnderLaws};
 pub use delay::DELAY_TICKS_MAX;
-pub use lockstep::{Flight, Lockstep};
+pub use lockstep::{Flight, Lockstep, Restart};
 pub use outcome::{End, Outcome};

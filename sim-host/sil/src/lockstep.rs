@@ -6,16 +6,19 @@
 use anyhow::{Context as _, Result, ensure};
 use firmware::autopilot::Autopilot;
 use firmware::commander::Asked;
+use firmware::config::{FlightConfig, Start};
 use firmware::control::attitude::SlidingAttitude;
 use firmware::control::law::{AttitudeLaw, PositionLaw};
 use firmware::control::position::SlidingPosition;
 use firmware::failure::{Failures, Injectable, Manner};
 use firmware::guidance::Trajectory;
 use firmware::inner::InnerOutput;
+use firmware::mavlink::port::Ports;
 use firmware::navigator::Navigator;
 use firmware::outer::OuterOutput;
 use firmware::pil::AllSent;
 use firmware::schedule::OUTER;
+use firmware::settings::Settings;
 use firmware::signals::{MotorCommand, SensorFrame, TICK_S_EXACT, TICK_US, Tick};
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -99,6 +102,16 @@ pub struct Flight<P, A = SlidingAttitude, L = SlidingPosition> {
     sensors: Option<Box<Suite>>,
     pilot: Option<Box<Pilot>>,
     replay: Option<Box<Replay>>,
+    restart: Option<Box<Restart<A, L>>>,
+}
+
+/// How the firmware is built again when a ground station restarts it.
+#[derive(Clone, Debug)]
+pub struct Restart<A, L> {
+    /// The configuration, into which the settings are written as they are then.
+    pub config: FlightConfig,
+    /// Builds it of both, with its links.
+    pub build: fn(&FlightConfig, Settings, Ports) -> Option<Autopilot<A, L>>,
 }
 
 impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
@@ -116,6 +129,7 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
             sensors: None,
             pilot: None,
             replay: None,
+            restart: None,
         }
     }
 
@@ -125,6 +139,27 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
     pub fn with_actuation_delay(mut self, ticks: usize) -> Self {
         self.delay = (ticks > 0).then(|| Box::new(Delay::new(ticks, self.plant.omega())));
         self
+    }
+
+    /// With firmware that a ground station can restart. Its clock goes on, and its links stay open.
+    #[must_use]
+    pub fn with_restart(mut self, restart: Restart<A, L>) -> Self {
+        self.restart = Some(Box::new(restart));
+        self
+    }
+
+    /// Builds the firmware again, as it is after a restart on the ground.
+    #[cold]
+    fn restart(&mut self) {
+        let Some(Restart { config, build }) = self.restart.as_deref() else { return };
+        let settings = self.autopilot.ground.settings().clone();
+        let mut config = FlightConfig { start: Start::OnGround, ..config.clone() };
+        settings.write_to(&mut config);
+        let ports = core::mem::replace(&mut self.autopilot.ports, Ports::new());
+        let Some(mut autopilot) = build(&config, settings, ports) else { return };
+        autopilot.inner.start_at(self.autopilot.inner.next_tick());
+        autopilot.inner.allow_failures(self.injectable());
+        self.autopilot = autopilot;
     }
 
     /// In a weather, which is asked for every tick.
@@ -463,6 +498,9 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Lockstep for Flight<P, A, L> {
             self.ask_pilot();
         }
         self.autopilot.tick(Some(&sample));
+        if self.restart.is_some() && self.autopilot.inner.takes_restart() {
+            self.restart();
+        }
         if self.replay.is_some() {
             self.send_replayed();
         }

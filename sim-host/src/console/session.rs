@@ -4,7 +4,9 @@ use std::collections::VecDeque;
 use std::net::SocketAddr;
 
 use anyhow::{Result, ensure};
-use firmware::commander::{self, Goal, LAUNCH_HELD_S, Mode, Origin, Outcome, Refusal, Reply, Request, SpeedKind};
+use firmware::commander::{
+    self, Goal, LAUNCH_HELD_S, Mode, OrbitGoal, Origin, Outcome, Refusal, Reply, Request, SpeedKind,
+};
 use firmware::config::ModeSettings;
 use firmware::failure::Manner;
 use firmware::mavlink::port::{LINKS, Ports, SENT_CAPACITY};
@@ -456,6 +458,12 @@ fn describe(request: &Request) -> String {
         Request::TakeOff { height_m } => format!("take-off to {} m", (f64::from(height_m) * 100.0).round() / 100.0),
         Request::Hold => "hold".to_owned(),
         Request::Manual(mode) => format!("{} mode", Mode::from(mode).name()),
+        Request::TestMotor { test, seconds } => format!("motor {} for {seconds} s", test.rotor + 1),
+        Request::Orbit(OrbitGoal { radius_m, speed_m_s, .. }) => {
+            let radius = radius_m.map_or_else(String::new, |radius| format!(" of {radius} m"));
+            let speed = speed_m_s.map_or_else(String::new, |speed| format!(" at {} m/s", speed.abs()));
+            format!("orbit{radius}{speed}")
+        }
         Request::Offboard => "offboard mode".to_owned(),
         Request::GoTo(goal) => format!("go to {}", describe_goal(&goal)),
         Request::LandAt(goal) => format!("land at {}", describe_goal(&goal)),

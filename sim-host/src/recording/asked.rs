@@ -2,10 +2,10 @@
 //! reads back as the same bits.
 
 use anyhow::{Result, bail, ensure};
-use firmware::commander::{Asked, Goal, ManualMode, Mode, Request, SpeedKind};
+use firmware::commander::{Asked, Goal, ManualMode, Mode, MotorTest, OrbitGoal, OrbitHeading, Request, SpeedKind};
 
 /// The kinds, each with how many numbers it has.
-const KINDS: [(&str, usize); 22] = [
+const KINDS: [(&str, usize); 26] = [
     ("arm", 0),
     ("arm-force", 0),
     ("disarm", 0),
@@ -25,6 +25,10 @@ const KINDS: [(&str, usize); 22] = [
     ("speed-down", 1),
     ("acro", 0),
     ("offboard", 0),
+    ("orbit", 5),
+    ("orbit-kept", 5),
+    ("orbit-along", 5),
+    ("motor-test", 3),
     ("stabilized", 0),
     ("altitude", 0),
     ("position", 0),
@@ -42,6 +46,17 @@ pub(super) fn text(asked: &Asked) -> String {
             Request::Hold => "hold".to_owned(),
             Request::Manual(mode) => Mode::from(mode).name().to_owned(),
             Request::Offboard => "offboard".to_owned(),
+            Request::Orbit(goal) => {
+                let name = match goal.heading {
+                    OrbitHeading::Center => "orbit",
+                    OrbitHeading::Kept => "orbit-kept",
+                    OrbitHeading::Along => "orbit-along",
+                };
+                format!("{name} {}", goal.numbers().map(|number| number.to_string()).join(" "))
+            }
+            Request::TestMotor { test: MotorTest { rotor, part }, seconds } => {
+                format!("motor-test {rotor} {part} {seconds}")
+            }
             Request::GoTo(goal) => format!("goto {}", numbers(&goal)),
             Request::LandAt(goal) => format!("land-at {}", numbers(&goal)),
             Request::Speed { kind, speed_m_s } => {
@@ -94,6 +109,12 @@ pub(super) fn read(words: &[&str]) -> Result<Asked> {
         ("speed-down", [speed]) => Request::Speed { kind: SpeedKind::Down, speed_m_s: given(*speed) },
         ("velocity", [x, y, z, rate]) => Request::Velocity { velocity_m_s: [*x, *y, *z], yaw_rate_rad_s: *rate },
         ("offboard", _) => Request::Offboard,
+        ("motor-test", [rotor, part, seconds]) => {
+            Request::TestMotor { test: MotorTest { rotor: *rotor as u8, part: *part }, seconds: *seconds }
+        }
+        ("orbit", numbers) => orbit(numbers, OrbitHeading::Center),
+        ("orbit-kept", numbers) => orbit(numbers, OrbitHeading::Kept),
+        ("orbit-along", numbers) => orbit(numbers, OrbitHeading::Along),
         ("acro", _) => Request::Manual(ManualMode::Acro),
         ("stabilized", _) => Request::Manual(ManualMode::Stabilized),
         ("altitude", _) => Request::Manual(ManualMode::Altitude),
@@ -110,4 +131,13 @@ pub(super) fn read(words: &[&str]) -> Result<Asked> {
 
 fn given(number: f32) -> Option<f32> {
     Some(number).filter(|number| !number.is_nan())
+}
+
+/// An orbit of five numbers; there are as many.
+fn orbit(numbers: &[f32], heading: OrbitHeading) -> Request {
+    let mut five = [f32::NAN; 5];
+    for (to, from) in five.iter_mut().zip(numbers) {
+        *to = *from;
+    }
+    Request::Orbit(OrbitGoal::of_numbers(five, heading))
 }

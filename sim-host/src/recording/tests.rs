@@ -1,4 +1,4 @@
-use firmware::commander::{Asked, Goal, ManualMode, Request, SpeedKind};
+use firmware::commander::{Asked, Goal, ManualMode, MotorTest, OrbitGoal, OrbitHeading, Request, SpeedKind};
 
 use super::*;
 use crate::sil::replay::{Entry, Input, OnLink};
@@ -26,6 +26,8 @@ fn what_is_read_is_what_was_written() {
         Request::GoTo(Goal::at([x, y, z], w)),
         Request::GoTo(Goal { yaw_rad: Some(z), ..Goal::default() }),
         Request::Offboard,
+        Request::Orbit(OrbitGoal::of_numbers([x, y, z, w, f32::NAN], OrbitHeading::Along)),
+        Request::TestMotor { test: MotorTest { rotor: 3, part: x }, seconds: z },
         Request::Manual(ManualMode::Acro),
         Request::Manual(ManualMode::Stabilized),
         Request::Manual(ManualMode::Altitude),

@@ -158,6 +158,7 @@ fn name(mode: Mode) -> &'static str {
         | Mode::Velocity
         | Mode::Follow
         | Mode::Offboard
+        | Mode::Orbit
         | Mode::Acro
         | Mode::Stabilized
         | Mode::Altitude

@@ -30,7 +30,11 @@ impl Rotors for Board {
     }
 }
 
-impl Companion for Board {}
+impl Companion for Board {
+    fn restart(&mut self) {
+        cortex_m::peripheral::SCB::sys_reset();
+    }
+}
 
 /// No additions to the partitions' jobs.
 pub type Diagnostics = ();

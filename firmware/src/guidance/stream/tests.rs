@@ -6,26 +6,7 @@ mod steps;
 
 use super::*;
 
-const LIMITS: ModeSettings = ModeSettings {
-    fastest_m_s: 12.0,
-    cruise_m_s: 5.0,
-    climb_m_s: 2.0,
-    sink_m_s: 1.5,
-    acceleration_m_s2: 3.0,
-    vertical_acceleration_m_s2: 2.0,
-    jerk_m_s3: 10.0,
-    yaw_rate_rad_s: 1.0,
-    yaw_acceleration_rad_s2: 2.0,
-    take_off_m_s: 1.5,
-    landing_m_s: 0.7,
-    touchdown_m_s: 0.4,
-    descent_m_s: 1.0,
-    return_height_m: 10.0,
-    battery_low_v: 0.0,
-    battery_critical_v: 0.0,
-    idle_part: 0.1,
-    blind_thrust_part: 0.93,
-};
+const LIMITS: ModeSettings = ModeSettings { fastest_m_s: 12.0, ..crate::guidance::setpoint::tests::LIMITS };
 
 const FASTEST: Fastest = Fastest { speed_m_s: 12.0, acceleration_m_s2: 10.0 };
 

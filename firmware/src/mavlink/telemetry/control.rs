@@ -2,8 +2,8 @@
 
 use glissade_dialect::mavlink_core::types::CharArray;
 use glissade_dialect::{
-    ATTITUDE_TARGET_DATA, DEBUG_FLOAT_ARRAY_DATA, ESC_STATUS_DATA, POSITION_TARGET_LOCAL_NED_DATA,
-    SERVO_OUTPUT_RAW_DATA,
+    ATTITUDE_TARGET_DATA, DEBUG_FLOAT_ARRAY_DATA, ESC_STATUS_DATA, ORBIT_EXECUTION_STATUS_DATA,
+    POSITION_TARGET_LOCAL_NED_DATA, SERVO_OUTPUT_RAW_DATA,
 };
 
 use super::motion::quaternion;
@@ -12,8 +12,9 @@ use crate::frames::flip_vector;
 use crate::math;
 use crate::mavlink::report::LawReport;
 
-/// `MAV_FRAME_LOCAL_NED`.
+/// `MAV_FRAME_LOCAL_NED`, and `_GLOBAL_INT`.
 const LOCAL_NED: u8 = 1;
+const GLOBAL_INT: u8 = 5;
 /// Bits of `POSITION_TARGET_TYPEMASK`: what is not aimed at.
 const IGNORE_X_Y: u16 = 1 | 2;
 const IGNORE_VX_VY: u16 = 8 | 16;
@@ -62,6 +63,20 @@ pub(super) fn position_target(view: &View) -> Option<POSITION_TARGET_LOCAL_NED_D
         yaw: math::wrap_angle(-aim.place.w),
         yaw_rate: -aim.yaw_rate,
     })
+}
+
+/// The circle that is flown, on the map if there is one.
+pub(super) fn orbit(view: &View) -> Option<ORBIT_EXECUTION_STATUS_DATA> {
+    let orbit = view.input.control.orbit?;
+    let radius = if orbit.speed_m_s < 0.0 { orbit.radius_m } else { -orbit.radius_m };
+    let (frame, x, y, z) = if let Some(map) = &view.map {
+        let place = map.place(&orbit.center);
+        (GLOBAL_INT, place.latitude_e7, place.longitude_e7, place.height_msl_mm as f32 * 1e-3)
+    } else {
+        let center = flip_vector(&orbit.center) * 1e4;
+        (LOCAL_NED, center.x as i32, center.y as i32, center.z * 1e-4)
+    };
+    Some(ORBIT_EXECUTION_STATUS_DATA { time_usec: view.boot_us(), radius, x, y, z, frame })
 }
 
 /// Commanded rotor speeds as pulse widths: 1000 µs at a standstill, 2000 µs at ωmax.

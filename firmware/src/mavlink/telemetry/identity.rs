@@ -13,6 +13,7 @@ use crate::mavlink::mode;
 /// Values of `MAV_STANDARD_MODE`.
 const NON_STANDARD: u8 = 0;
 const POSITION_HOLD: u8 = 1;
+const ORBIT: u8 = 2;
 const ALTITUDE_HOLD: u8 = 4;
 const SAFE_RECOVERY: u8 = 5;
 const MISSION: u8 = 6;
@@ -20,6 +21,7 @@ const LAND: u8 = 7;
 const TAKE_OFF: u8 = 8;
 /// Bits of `MAV_MODE_PROPERTY`.
 const ADVANCED: u32 = 1;
+const NOT_USER_SELECTABLE: u32 = 2;
 const AUTO_MODE: u32 = 4;
 
 /// A mode as ground stations list it.
@@ -32,7 +34,7 @@ struct Listed {
 }
 
 /// The modes of `AVAILABLE_MODES`, numbered from 1.
-const LISTED: [Listed; 10] = [
+const LISTED: [Listed; 11] = [
     Listed { mode: Mode::TakeOff, standard_mode: TAKE_OFF, properties: AUTO_MODE, name: "Takeoff" },
     Listed { mode: Mode::Hold, standard_mode: NON_STANDARD, properties: AUTO_MODE, name: "Hold" },
     Listed { mode: Mode::Follow, standard_mode: MISSION, properties: AUTO_MODE, name: "Mission" },
@@ -42,6 +44,7 @@ const LISTED: [Listed; 10] = [
     Listed { mode: Mode::Altitude, standard_mode: ALTITUDE_HOLD, properties: 0, name: "Altitude" },
     Listed { mode: Mode::Stabilized, standard_mode: NON_STANDARD, properties: 0, name: "Stabilized" },
     Listed { mode: Mode::Acro, standard_mode: NON_STANDARD, properties: ADVANCED, name: "Acro" },
+    Listed { mode: Mode::Orbit, standard_mode: ORBIT, properties: NOT_USER_SELECTABLE, name: "Orbit" },
     Listed { mode: Mode::Offboard, standard_mode: NON_STANDARD, properties: 0, name: "Offboard" },
 ];
 
@@ -67,7 +70,9 @@ pub(super) fn available_mode(number: u8) -> Option<AVAILABLE_MODES_DATA> {
 
 /// The `custom_mode` of a standard mode; `None` if the vehicle does not have it.
 pub(in crate::mavlink) fn of_standard_mode(number: u8) -> Option<u32> {
-    let listed = LISTED.iter().find(|listed| listed.standard_mode == number && number != NON_STANDARD)?;
+    let listed = LISTED.iter().find(|listed| {
+        listed.standard_mode == number && number != NON_STANDARD && listed.properties & NOT_USER_SELECTABLE == 0
+    })?;
     Some(mode::custom_mode(listed.mode))
 }
 

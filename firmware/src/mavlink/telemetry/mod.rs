@@ -29,9 +29,9 @@ use glissade_dialect::{
     AVAILABLE_MODES_DATA, BATTERY_STATUS_DATA, CURRENT_MODE_DATA, DEBUG_FLOAT_ARRAY_DATA, ESC_STATUS_DATA,
     ESTIMATOR_STATUS_DATA, EXTENDED_SYS_STATE_DATA, GLOBAL_POSITION_INT_DATA, GPS_GLOBAL_ORIGIN_DATA, GPS_RAW_INT_DATA,
     HEARTBEAT_DATA, HIGHRES_IMU_DATA, HOME_POSITION_DATA, LOCAL_POSITION_NED_DATA, MESSAGE_INTERVAL_DATA,
-    NAMED_VALUE_INT_DATA, ODOMETRY_DATA, POSITION_TARGET_LOCAL_NED_DATA, PROTOCOL_VERSION_DATA, RC_CHANNELS_DATA,
-    SCALED_IMU_DATA, SCALED_PRESSURE_DATA, SERVO_OUTPUT_RAW_DATA, SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA,
-    VIBRATION_DATA, WIND_COV_DATA,
+    NAMED_VALUE_INT_DATA, ODOMETRY_DATA, ORBIT_EXECUTION_STATUS_DATA, POSITION_TARGET_LOCAL_NED_DATA,
+    PROTOCOL_VERSION_DATA, RC_CHANNELS_DATA, SCALED_IMU_DATA, SCALED_PRESSURE_DATA, SERVO_OUTPUT_RAW_DATA,
+    SYS_STATUS_DATA, SYSTEM_TIME_DATA, VFR_HUD_DATA, VIBRATION_DATA, WIND_COV_DATA,
 };
 use nalgebra::Vector3;
 
@@ -75,6 +75,7 @@ pub(super) enum Report {
     CurrentMode,
     RcChannels,
     LoopTiming,
+    Orbit,
     SlidingMode,
     AutopilotVersion,
     ProtocolVersion,
@@ -123,7 +124,7 @@ const fn stream<D: MessageData>(report: Report, periods: [Tick; 2], phase: Tick)
     }
 }
 
-const STREAM_COUNT: usize = 33;
+const STREAM_COUNT: usize = 34;
 
 /// Every message that can be sent, its default periods and first tick. The heartbeat is the first. Rates
 /// follow PX4's `normal` and `onboard` modes. A link's test holds the sum of `normal` below 60 % of 57,600 baud.
@@ -156,6 +157,7 @@ const STREAMS: [Stream; STREAM_COUNT] = [
     stream::<VIBRATION_DATA>(Report::Vibration, [2000, 500], 230),
     stream::<RC_CHANNELS_DATA>(Report::RcChannels, [500, 50], 240),
     stream::<NAMED_VALUE_INT_DATA>(Report::LoopTiming, [1000, 1000], 250),
+    stream::<ORBIT_EXECUTION_STATUS_DATA>(Report::Orbit, [500, 200], 260),
     stream::<DEBUG_FLOAT_ARRAY_DATA>(Report::SlidingMode, [0, 0], 0),
     stream::<AUTOPILOT_VERSION_DATA>(Report::AutopilotVersion, [0, 0], 0),
     stream::<PROTOCOL_VERSION_DATA>(Report::ProtocolVersion, [0, 0], 0),
@@ -393,6 +395,7 @@ pub(super) fn write(report: Report, view: &View, out: &mut Writer) -> bool {
         Report::PositionTarget => known(control::position_target(view), out),
         Report::ServoOutput => out.write(&control::servo_output(view)),
         Report::EscStatus => out.write(&control::esc_status(view)),
+        Report::Orbit => known(control::orbit(view), out),
         Report::SlidingMode => out.write(&control::sliding_mode(view)),
         Report::HighresImu => known(sensors::highres_imu(view), out),
         Report::ScaledImu => known(sensors::scaled_imu(view), out),
@@ -433,6 +436,7 @@ pub(super) fn is_available(report: Report, view: &View) -> bool {
         Report::HomePosition => global::home_position(view).is_some(),
         Report::AttitudeTarget => control::attitude_target(view).is_some(),
         Report::PositionTarget => control::position_target(view).is_some(),
+        Report::Orbit => control::orbit(view).is_some(),
         Report::HighresImu => sensors::highres_imu(view).is_some(),
         Report::ScaledImu => sensors::scaled_imu(view).is_some(),
         Report::ScaledPressure => sensors::scaled_pressure(view).is_some(),

@@ -71,6 +71,8 @@ pub(in crate::mavlink) struct View<'a> {
     pub(in crate::mavlink) battery_percent: i8,
     /// Height of a take-off that names none, m.
     pub(in crate::mavlink) take_off_m: f32,
+    /// Horizontal speed for which none is given, m/s.
+    pub(in crate::mavlink) cruise_m_s: f32,
     /// What was read last, on whatever link.
     pub(in crate::mavlink) latest: Latest,
     /// A radio's channels, unless they are lost, and whether there ever were any.
@@ -100,6 +102,7 @@ impl<'a> View<'a> {
             us,
             battery_percent: charge.map_or(-1, |charge| (charge * 100.0 + 0.5) as i8),
             take_off_m: settings.take_off_height_m(),
+            cruise_m_s: settings.cruise_m_s(),
             map,
             latest: Latest::default(),
             channels: None,

@@ -3,6 +3,7 @@
 
 use super::status::status;
 use super::*;
+use crate::commander::{Orbit, OrbitHeading};
 use crate::control::law::LawState;
 use crate::estimator::status::Status;
 use crate::frames::Origin as MapOrigin;
@@ -201,6 +202,13 @@ fn wind_and_battery_are_told_with_what_is_unknown_of_them() {
     assert_eq!((told.battery_remaining, told.current_consumed, told.temperature), (-1, -1, i16::MAX));
 }
 
+const ORBIT: Orbit = Orbit {
+    center: Vector3::new(1.1118, -0.7551, 10.0),
+    radius_m: 8.0,
+    speed_m_s: -3.0,
+    heading: OrbitHeading::Center,
+};
+
 pub(super) fn flying() -> ControlReport {
     let aim = Aim {
         attitude: UnitQuaternion::identity(),
@@ -219,6 +227,7 @@ pub(super) fn flying() -> ControlReport {
     };
     ControlReport {
         aim: Some(aim),
+        orbit: Some(ORBIT),
         attitude_law: law(1.0),
         position_law: law(10.0),
         motors: MotorCommand { omega_rad_s: [0.0, 250.0, 500.0, 1_000.0] },
@@ -227,6 +236,18 @@ pub(super) fn flying() -> ControlReport {
         thrust_max_n: 40.0,
         omega_max_rad_s: 1_000.0,
     }
+}
+
+#[test]
+fn the_circle_is_told_on_the_map_while_one_is_flown() {
+    let mut bench = vehicle();
+    assert_eq!(requested(&mut bench, 360), None);
+    bench.input.control = flying();
+    let told = expect!(&mut bench, ORBIT_EXECUTION_STATUS, ORBIT_EXECUTION_STATUS_DATA);
+    assert_eq!((told.radius, told.frame), (8.0, 5));
+    assert!(
+        (told.x - 473_977_100).abs() < 2 && (told.y - 85_456_100).abs() < 2 && crate::math::abs(told.z - 451.0) < 0.01
+    );
 }
 
 #[test]
@@ -277,17 +298,17 @@ fn the_modes_that_can_be_set_are_listed_in_order() {
         .filter_map(|m| if let MavMessage::AVAILABLE_MODES(m) = m { Some(m) } else { None })
         .collect();
     let numbers: Vec<_> = listed.iter().map(|mode| (mode.mode_index, mode.number_modes)).collect();
-    assert_eq!(numbers, (1..=10).map(|number| (number, 10)).collect::<Vec<_>>());
+    assert_eq!(numbers, (1..=11).map(|number| (number, 11)).collect::<Vec<_>>());
     let coded: Vec<_> = listed.iter().map(|mode| (mode.custom_mode >> 16 & 0xff, mode.custom_mode >> 24)).collect();
-    assert_eq!(coded, [(4, 2), (4, 3), (4, 4), (4, 5), (4, 6), (3, 0), (2, 0), (7, 0), (5, 0), (6, 0)]);
+    assert_eq!(coded, [(4, 2), (4, 3), (4, 4), (4, 5), (4, 6), (3, 0), (2, 0), (7, 0), (5, 0), (3, 1), (6, 0)]);
     let standard: Vec<_> = listed.iter().map(|mode| mode.standard_mode).collect();
-    assert_eq!(standard, [8, 0, 6, 5, 7, 1, 4, 0, 0, 0]);
+    assert_eq!(standard, [8, 0, 6, 5, 7, 1, 4, 0, 0, 2, 0]);
     assert_eq!(listed[3].mode_name.to_str(), Ok("Return"));
     // One alone, and one that does not exist.
     let messages = bench.job(&command(REQUEST_MESSAGE, 435.0, 3.0));
     let one = messages.iter().find_map(|m| if let MavMessage::AVAILABLE_MODES(m) = m { Some(m) } else { None });
     assert_eq!(one.expect("sent").mode_name.to_str(), Ok("Mission"));
-    assert_eq!(bench.result_of(&command(REQUEST_MESSAGE, 435.0, 11.0)), Some(MavResult::MAV_RESULT_DENIED));
+    assert_eq!(bench.result_of(&command(REQUEST_MESSAGE, 435.0, 12.0)), Some(MavResult::MAV_RESULT_DENIED));
     bench.input.mode = Mode::Return;
     let told = expect!(&mut bench, CURRENT_MODE, CURRENT_MODE_DATA);
     assert_eq!((told.standard_mode, told.custom_mode, told.intended_custom_mode), (5, 5 << 24 | 4 << 16, 0));

@@ -1,0 +1,70 @@
+//! Motor test, termination, and how long an armed vehicle waits on the ground.
+
+use super::*;
+
+fn test(rotor: u8, part: f32, seconds: f32) -> Request {
+    Request::TestMotor { test: MotorTest { rotor, part }, seconds }
+}
+
+#[test]
+fn a_motor_turns_for_its_time_while_disarmed_and_is_stopped_by_arming_and_by_a_kill() {
+    let mut bench = Bench::new(State::Disarmed);
+    assert_eq!(bench.ask(test(2, 0.1, 1.0), &standing()), Outcome::Accepted);
+    let turning = Some(MotorTest { rotor: 2, part: 0.1 });
+    for _ in 0..48 {
+        let output = bench.step(&standing());
+        assert_eq!((output.motor_test, output.armed), (turning, false));
+    }
+    bench.run(0.1, &standing());
+    assert_eq!(bench.step(&standing()).motor_test, None);
+    for stop in [asking(ARM, &standing()), CommanderInput { kills: 1, ..standing() }] {
+        let mut bench = Bench::new(State::Disarmed);
+        bench.ask(test(0, 0.1, 5.0), &standing());
+        assert_eq!(bench.step(&stop).motor_test, None);
+        assert_eq!(bench.step(&CommanderInput { commands: Commands::new(), ..stop }).motor_test, None);
+    }
+    let mut armed = Bench::new(State::Idle { disarm_at: None });
+    assert_eq!(armed.ask(test(0, 0.1, 1.0), &standing()), Outcome::TemporarilyRejected(Refusal::Armed));
+    for wrong in [test(4, 0.1, 1.0), test(0, 0.31, 1.0), test(0, f32::NAN, 1.0), test(0, 0.1, 11.0), test(0, 0.1, -1.0)]
+    {
+        assert_eq!(bench.ask(wrong, &standing()), Outcome::Denied);
+    }
+}
+
+#[test]
+fn a_terminated_vehicle_is_not_armed_not_even_by_force() {
+    let mut bench = Bench::new(State::Hold);
+    let ended = CommanderInput { kills: 1, terminated: true, ..hovering() };
+    assert!(!bench.step(&ended).armed);
+    let down = CommanderInput { kills: 1, terminated: true, ..standing() };
+    bench.run(3.0, &down);
+    for force in [false, true] {
+        let refused = Outcome::TemporarilyRejected(Refusal::Terminated);
+        assert_eq!(bench.ask(Request::Arm { force }, &down), refused);
+    }
+    assert_eq!(bench.step(&down).armable, Err(Refusal::Terminated));
+}
+
+#[test]
+fn an_armed_vehicle_that_is_not_used_disarms_after_the_time_that_is_set() {
+    for (seconds, disarms) in [(10.0, true), (3.0, true), (0.0, false), (-1.0, false)] {
+        let mut bench = Bench::new(State::Disarmed);
+        bench.commander.set(crate::settings::COM_DISARM_PRFLT, Value::Real(seconds));
+        bench.ask(ARM, &standing());
+        bench.run(math::max(seconds, 12.0) - 0.1, &standing());
+        let is_armed = bench.step(&standing()).armed;
+        assert_eq!(is_armed, !disarms, "{seconds} s");
+    }
+    let mut bench = Bench::new(State::Disarmed);
+    bench.commander.set(crate::settings::COM_DISARM_PRFLT, Value::Real(3.0));
+    bench.ask(ARM, &standing());
+    bench.run(2.8, &standing());
+    assert!(bench.step(&standing()).armed, "not before");
+    // Another arming begins anew, and a take-off ends it.
+    bench.ask(ARM, &standing());
+    bench.run(2.8, &standing());
+    assert!(bench.step(&standing()).armed);
+    bench.ask(TAKE_OFF, &standing());
+    bench.run(5.0, &hovering());
+    assert!(bench.step(&hovering()).armed);
+}
