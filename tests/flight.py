@@ -25,8 +25,8 @@ NEAR_M = 2.5
 MOVED_M = 1.5
 # The same of heights, of which the barometer keeps the difference, m, and of headings, degrees.
 HEIGHT_M, HEADING_DEG = 1.0, 8.0
-# The simulator's own component beside the vehicle.
-SIMULATOR = 191
+# For `serve`: a battery that many flights in a row do not empty. A low one brings the vehicle home.
+ENDLESS = ("--set", "airframe.battery.capacity_ah=1000")
 MODES = {
     "MANUAL": (1, 0),
     "ALTITUDE": (2, 0),
@@ -167,6 +167,10 @@ class Observer(Client):
 
     def wait_armed(self, armed=True, within_ms=1_500):
         return self.wait("HEARTBEAT", lambda heartbeat: is_armed(heartbeat) == armed, within_ms)
+
+    def most_tilt(self, duration_s):
+        """The greatest of roll and pitch in so much simulated time."""
+        return max(max(abs(truth.roll), abs(truth.pitch)) for truth in self.during(duration_s))
 
     def wait_landed(self, within_s=60.0):
         """Until it stands disarmed on the ground; what is true then."""

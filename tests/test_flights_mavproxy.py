@@ -1,21 +1,24 @@
 """Whole flights by lines that are typed into MAVProxy, judged by the simulator's truth.
 
-`mode NAME` fails within MAVProxy 1.8.75 for every mode of every PX4, before anything is sent; modes are asked for by `long`,
-with the numbers that pymavlink has for the names.
+`mode NAME` fails within MAVProxy 1.8.75 for every mode of every PX4, before anything is sent; modes are asked for by
+`long`, with the numbers that pymavlink has for the names.
 """
 
+import re
 import socket
 
 import pytest
 from pymavlink import mavutil
 
 from conftest import PREARM_CHECK, Simulator
-from flight import HEIGHT_M, MOVED_M, Observer, place, turn
+from flight import ENDLESS, HEIGHT_M, MOVED_M, NEAR_M, Observer, place, turn
 from test_mavproxy import Mavproxy, wait_until
 from test_mavsdk import free_port
 
 SPEED = "5"
 TAKEOFF_M = 5.0
+# How long MAVProxy may say nothing of a command, s.
+SILENCE_S = 5
 STICKS = {"roll": 1, "pitch": 2, "throttle": 3, "yaw": 4}
 # Modes by MAVProxy's names, and by those that the truth's station has for them.
 PILOTED = {"ALTCTL": "ALTITUDE", "POSCTL": "POSITION", "STABILIZED": "STABILIZED", "ACRO": "ACRO", "MANUAL": "STABILIZED"}
@@ -30,10 +33,21 @@ class Flyer(Mavproxy):
         self.true = true
 
     def ask(self, line, command):
-        """Types a line whose command is accepted."""
-        self.true.catch_up()
-        self.type(line)
-        self.says(rf"Got COMMAND_ACK: {command}: ACCEPTED")
+        """Types a line whose command is accepted; again, as a person would, if nothing is said of it.
+
+        MAVProxy repeats no command, and on a busy machine it reads so slowly that its socket loses answers.
+        """
+        accepted = re.compile(rf"Got COMMAND_ACK: {command}: (ACCEPTED)")
+        before = self.read
+        for _ in range(4):
+            self.true.catch_up()
+            self.type(line)
+            try:
+                wait_until(lambda: accepted.search(self.output, before), SILENCE_S)
+                break
+            except AssertionError:
+                continue
+        self.says(accepted, since=before)
 
     def ask_mode(self, name):
         flags, main, sub = mavutil.px4_map[name]
@@ -75,7 +89,7 @@ def flown(simulator_path, tmp_path_factory):
     true = Observer()
     mavproxy = Flyer(port, tmp_path_factory.mktemp("mavproxy"), true)
     mavproxy.says("Waiting for heartbeat")
-    simulator = Simulator(true, "--peer", f"127.0.0.1:{port}", "--speed", SPEED)
+    simulator = Simulator(true, "--peer", f"127.0.0.1:{port}", "--speed", SPEED, *ENDLESS)
     mavproxy.says("Detected vehicle 1:1")
     mavproxy.says(r"Received \d+ parameters")
     true.wait("SYS_STATUS", lambda status: status.onboard_control_sensors_health & PREARM_CHECK, within_ms=10_000)
@@ -178,7 +192,7 @@ def test_it_goes_on_by_long_commands(mavproxy):
     mavproxy.ask(f"long NAV_LAND 0 0 0 nan {latitude:.7f} {longitude:.7f} 0", "NAV_LAND")
     mavproxy.true.wait_mode("LAND")
     landed = mavproxy.true.wait_landed()
-    assert landed.distance(start.north, start.east + 6) < MOVED_M + 0.4
+    assert landed.distance(start.north, start.east + 6) < NEAR_M
 
 
 def test_disarming_is_refused_in_the_air(mavproxy):

@@ -14,7 +14,7 @@ import socket
 import pytest
 
 from conftest import HANG_S, Simulator
-from flight import HEIGHT_M, MOVED_M, NEAR_M, Observer, place, turn
+from flight import ENDLESS, HEIGHT_M, MOVED_M, NEAR_M, Observer, place, turn
 from test_mavsdk import CALL_S, CONNECT_S, Grpc, Native, Pilot, free_port
 
 # Of `field`'s x500, and of a set-point's scale: half the thrust hovers.
@@ -27,7 +27,7 @@ class Flyer(Pilot):
     """A pilot who flies, and whose waiting is done by who knows the truth."""
 
     def __init__(self, sdk):
-        super().__init__(sdk, Observer(), SPEED)
+        super().__init__(sdk, Observer(), SPEED, *ENDLESS)
         package = {"Grpc": "mavsdk_grpc", "Native": "mavsdk.asyncio.plugins"}[type(sdk).__name__]
         # Set-points and sticks, as the two packages name them alike.
         self.types = importlib.import_module(f"{package}.offboard")
@@ -405,14 +405,7 @@ def test_it_is_flown_by_sticks(pilot, control, mode):
     pilot.hold_sticks(0.0, 0.6, 0.5, 0.0, lambda truth: moved(truth, 0, 1), "to the right")
     after = pilot.true.now()
     assert abs(after.up - before.up) < HEIGHT_M
-    pilot.hold_sticks(0.0, 0.0, 0.0, 0.0, lambda truth: truth.up < 0.2, "down")
-    pilot.hold_sticks(0.0, 0.0, 0.0, 0.0, lambda truth: not pilot_is_armed(pilot), "disarmed")
-
-
-def pilot_is_armed(pilot):
-    """By the heartbeat that was heard last."""
-    message = pilot.true.wait("HEARTBEAT")
-    return bool(message.base_mode & 128)
+    pilot.land()
 
 
 @by_one
@@ -440,7 +433,7 @@ def test_two_vehicles_fly_at_once(simulator_path):
     ports = consecutive_ports()
     first, second = Observer(1), Observer(2)
     simulator = Simulator(
-        first, "--peer", second.address, "--onboard", f"127.0.0.1:{ports}", "--vehicles", "2", "--speed", "4"
+        first, "--peer", second.address, "--onboard", f"127.0.0.1:{ports}", "--vehicles", "2", "--speed", SPEED
     )
     loop = asyncio.new_event_loop()
     pair = [Grpc(), Grpc()]
@@ -499,9 +492,9 @@ def test_it_lands_by_a_set_point(own_pilot):
     fly_positions(pilot)
     pilot.aim("position_ned", "PositionNedYaw", 0.0, 10.0, 0.0, 180.0)
     pilot.true.until(lambda truth: truth.up < 0.3, "down")
-    truths = pilot.true.during(6)
-    assert max(max(abs(truth.roll), abs(truth.pitch)) for truth in truths) < 15, "it stays level on the ground"
-    assert truths[-1].faces(180) and truths[-1].distance(0, 10) < NEAR_M
+    assert pilot.true.most_tilt(6) < 15, "it stays level on the ground"
+    landed = pilot.true.now()
+    assert landed.faces(180) and landed.distance(0, 10) < NEAR_M
     pilot.wait_down()
     pilot.stop_offboard()
 

@@ -218,12 +218,12 @@ class Native:
 class Pilot:
     """A program that is connected to a vehicle of its own, at three times real time."""
 
-    def __init__(self, sdk, raw=None, speed="3"):
+    def __init__(self, sdk, raw=None, speed="3", *arguments):
         self.loop = asyncio.new_event_loop()
         self.sdk = sdk
         self.raw = raw or Client()
         port = free_port(socket.SOCK_DGRAM)
-        self.simulator = Simulator(self.raw, "--onboard", f"127.0.0.1:{port}", "--speed", speed)
+        self.simulator = Simulator(self.raw, "--onboard", f"127.0.0.1:{port}", "--speed", speed, *arguments)
         self.do(sdk.connect(f"udpin://127.0.0.1:{port}"), HANG_S)
         self.do(sdk.wait_connected(), CONNECT_S)
         self.raw.wait("SYS_STATUS", lambda status: status.onboard_control_sensors_health & PREARM_CHECK)
