@@ -229,7 +229,7 @@ def test_offboard_velocities(pilot):
     pilot.land()
 
 
-@by_both
+@by_one
 def test_offboard_velocities_of_the_body(pilot):
     pilot.act("arm")
     pilot.aim("velocity_body", "VelocityBodyYawspeed", 0.0, 0.0, 0.0, 0.0)
