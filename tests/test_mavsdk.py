@@ -159,7 +159,7 @@ class Grpc:
 
         self.system = System(port=free_port(socket.SOCK_STREAM))
         await self.system.connect(url)
-        for plugin in ("action", "info", "param", "telemetry"):
+        for plugin in ("action", "info", "manual_control", "offboard", "param", "telemetry"):
             setattr(self, plugin, getattr(self.system, plugin))
 
     async def wait_connected(self):
@@ -193,6 +193,8 @@ class Native:
     async def wait_connected(self):
         from mavsdk.asyncio.plugins.action import ActionAsync
         from mavsdk.asyncio.plugins.info import InfoAsync
+        from mavsdk.asyncio.plugins.manual_control import ManualControlAsync
+        from mavsdk.asyncio.plugins.offboard import OffboardAsync
         from mavsdk.asyncio.plugins.param import ParamAsync
         from mavsdk.asyncio.plugins.telemetry import TelemetryAsync
 
@@ -200,6 +202,7 @@ class Native:
         self.action, self.info, self.param, self.telemetry = (
             plugin(system) for plugin in (ActionAsync, InfoAsync, ParamAsync, TelemetryAsync)
         )
+        self.manual_control, self.offboard = ManualControlAsync(system), OffboardAsync(system)
 
     def subscribe(self, name):
         return getattr(self.telemetry, f"subscribe_{name}")()
@@ -215,12 +218,12 @@ class Native:
 class Pilot:
     """A program that is connected to a vehicle of its own, at three times real time."""
 
-    def __init__(self, sdk):
+    def __init__(self, sdk, raw=None, speed="3", *arguments):
         self.loop = asyncio.new_event_loop()
         self.sdk = sdk
-        self.raw = Client()
+        self.raw = raw or Client()
         port = free_port(socket.SOCK_DGRAM)
-        self.simulator = Simulator(self.raw, "--onboard", f"127.0.0.1:{port}", "--speed", "3")
+        self.simulator = Simulator(self.raw, "--onboard", f"127.0.0.1:{port}", "--speed", speed, *arguments)
         self.do(sdk.connect(f"udpin://127.0.0.1:{port}"), HANG_S)
         self.do(sdk.wait_connected(), CONNECT_S)
         self.raw.wait("SYS_STATUS", lambda status: status.onboard_control_sensors_health & PREARM_CHECK)
