@@ -310,7 +310,7 @@ impl<P: PositionLaw> Outer<P> {
     fn last_reference(&self, input: &OuterInput) -> FlatReference {
         match self.source {
             Source::Setpoint => self.setpoint.reference(),
-            Source::Stream => self.stream.reference(),
+            Source::Stream => self.after_stream(),
             Source::Trajectory(reference) | Source::ByHand(reference) => reference,
             Source::Ground => FlatReference::standing(input.nav.position, input.nav.yaw()),
         }
@@ -337,6 +337,15 @@ impl<P: PositionLaw> Outer<P> {
         }
         match known {
             Known::Position | Known::Velocity if heading_free => self.damp(effective, &now, &reference),
+    /// The stream's reference, for the generator to go on from. A stream may bend within milliseconds; the generator's lags
+    /// carry on what they begin with for half a second, and a sharp bend would become metres per second.
+    fn after_stream(&self) -> FlatReference {
+        let reference = self.stream.reference();
+        let size = math::sqrt(reference.jerk.norm_squared());
+        let jerk = reference.jerk * math::min(1.0, self.modes.jerk_m_s3 / math::max(size, 1e-6));
+        FlatReference { jerk, snap: Vector3::zeros(), ..reference }
+    }
+
             Known::Position | Known::Velocity => self.track(effective, &now, &reference),
             Known::Height => {
                 now.forget_horizontal();

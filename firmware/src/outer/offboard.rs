@@ -24,6 +24,7 @@ impl<P: PositionLaw> Outer<P> {
             Some(Stamped { value: SetPoint::Motion { motion, sent_ms }, at }) => {
                 let reference = self.stream_to(effective, input, &Sample { motion, at, sent_ms });
                 self.follow(effective, input, &reference)
+                self.by_hand.end();
             }
             Some(Stamped { value: SetPoint::Attitude(wanted), .. }) => {
                 let output = self.follow_attitude(effective, input, &wanted, in_air);
@@ -31,6 +32,7 @@ impl<P: PositionLaw> Outer<P> {
             }
             None => {
                 let hold = super::velocity(Vector3::zeros(), 0.0);
+                self.by_hand.end();
                 let reference = self.steer(input, &hold);
                 self.follow(effective, input, &reference)
             }
