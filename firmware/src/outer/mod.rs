@@ -20,7 +20,7 @@ use crate::control::law::{LawState, PositionDemand, PositionInput, PositionLaw};
 use crate::control::position::{ForceLimits, SlidingPosition, Translation};
 use crate::guidance::Guidance;
 use crate::guidance::setpoint::{Setpoint, Target};
-use crate::guidance::stream::{Fastest, Stream};
+use crate::guidance::stream::Stream;
 use crate::latest::Latest;
 use crate::math;
 use crate::schedule::{OUTER, OUTER_AHEAD_S};
@@ -168,10 +168,7 @@ impl<P: PositionLaw> Outer<P> {
     /// The value of the trajectory or of the joining path that is out of range.
     pub fn new(config: &FlightConfig, law: P) -> Result<Self, ConfigError> {
         let limits = ForceLimits::new(&config.airframe, config.tilt_max_rad);
-        let fastest = Fastest {
-            speed_m_s: config.modes.fastest_m_s,
-            acceleration_m_s2: limits.tan_tilt_max() * config.airframe.gravity_m_s2,
-        };
+        let fastest = offboard::fastest(&config.modes, &limits, config.airframe.gravity_m_s2);
         Ok(Self {
             mass_kg: config.airframe.mass_kg,
             model: Translation::new(&config.airframe),

@@ -27,7 +27,7 @@ const LIMITS: ModeSettings = ModeSettings {
     blind_thrust_part: 0.93,
 };
 
-const FASTEST: Fastest = Fastest { speed_m_s: 12.0, acceleration_m_s2: 10.0 };
+const FASTEST: Fastest = Fastest { speed_m_s: 12.0, acceleration_m_s2: 10.0, vertical_m_s2: 10.0 };
 
 /// Random numbers, 0 to 1.
 struct Random(u64);
