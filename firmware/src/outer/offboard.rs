@@ -24,17 +24,16 @@ impl<P: PositionLaw> Outer<P> {
     pub(super) fn follow_setpoint(&mut self, effective: Tick, input: &OuterInput, in_air: bool) -> OuterOutput {
         match input.latest.setpoint {
             Some(Stamped { value: SetPoint::Motion { motion, sent_ms }, at }) => {
+                self.by_hand.end();
                 let reference = self.stream_to(effective, input, &Sample { motion, at, sent_ms });
                 self.follow(effective, input, &reference)
-                self.by_hand.end();
             }
             Some(Stamped { value: SetPoint::Attitude(wanted), .. }) => {
-                let output = self.follow_attitude(effective, input, &wanted, in_air);
-                OuterOutput { authority: if in_air { Authority::Full } else { Authority::Gentle }, ..output }
+                self.follow_attitude(effective, input, &wanted, in_air)
             }
             None => {
-                let hold = super::velocity(Vector3::zeros(), 0.0);
                 self.by_hand.end();
+                let hold = super::velocity(Vector3::zeros(), 0.0);
                 let reference = self.steer(input, &hold);
                 self.follow(effective, input, &reference)
             }
