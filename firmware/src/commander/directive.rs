@@ -65,15 +65,19 @@ pub enum Directive {
     Manual {
         /// How.
         mode: ManualMode,
-        /// Whether the vehicle is off the ground; while it is not, it is kept level.
+        /// Whether the vehicle is clear of the ground; while it is not, it is kept level.
         in_air: bool,
+        /// Whether the ground may be touched at any time.
+        may_touch: bool,
         /// Greatest speed downwards where the stick's centre holds the height, m/s.
         sink_m_s: f32,
     },
     /// Follow the latest set-point.
     Offboard {
-        /// Whether the vehicle is off the ground; while it is not, it is kept level.
+        /// Whether the vehicle is clear of the ground; while it is not, it is kept level.
         in_air: bool,
+        /// Whether the ground may be touched at any time.
+        may_touch: bool,
     },
     /// Fly a circle.
     Orbit(Orbit),

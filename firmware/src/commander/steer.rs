@@ -29,10 +29,13 @@ impl Commander {
             State::TakeOff { to_m, .. } => climb(to_m, settings.take_off_m_s),
             State::Hold => Directive::HOLD,
             State::Orbit(orbit) => Directive::Orbit(orbit),
-            State::Offboard => Directive::Offboard { in_air: self.ground.is_airborne() },
+            State::Offboard => {
+                Directive::Offboard { in_air: self.ground.is_clear(), may_touch: self.may_touch(height) }
+            }
             State::Manual(mode) => Directive::Manual {
                 mode,
-                in_air: self.ground.is_airborne(),
+                in_air: self.ground.is_clear(),
+                may_touch: self.may_touch(height),
                 sink_m_s: self.rate_of_descent(settings.sink_m_s, height),
             },
             State::GoTo(course) | State::Approach(course) => self.steer(&course, height),
@@ -63,14 +66,23 @@ impl Commander {
         Directive::Descend { rate_m_s: self.rate_of_descent(rate_m_s, height), known, heading_free }
     }
 
+    /// A height (z, m) over the ground, m. Home may have been set to below the ground, and the ground there may be higher
+    /// than where the vehicle last stood.
+    fn over_ground(&self, height: f32) -> f32 {
+        height - math::max(self.home.z, self.ground_m)
+    }
+
+    /// Whether the ground may be touched at any time, at a height (z, m): near it, and at an unknown height.
+    fn may_touch(&self, height: f32) -> bool {
+        self.navigation.known() >= Known::Climb || self.over_ground(height) < FINAL_HEIGHT_M
+    }
+
     /// The rate of a descent at a height (z, m): no more than `rate_m_s`, and slow near the ground.
     fn rate_of_descent(&self, rate_m_s: f32, height: f32) -> f32 {
-        // Home may have been set to below the ground, and the ground there may be higher than where it last stood.
-        let over_ground = height - math::max(self.home.z, self.ground_m);
+        let over_ground = self.over_ground(height);
         let touchdown_m_s = math::min(rate_m_s, self.settings.touchdown_m_s);
-        // At an unknown height the ground may be anywhere.
-        let may_touch = self.navigation.known() >= Known::Climb || over_ground < FINAL_HEIGHT_M;
-        let faster_m_s = if may_touch { 0.0 } else { self.faster_by(over_ground - SLOW_HEIGHT_M, touchdown_m_s) };
+        let faster_m_s =
+            if self.may_touch(height) { 0.0 } else { self.faster_by(over_ground - SLOW_HEIGHT_M, touchdown_m_s) };
         math::min(rate_m_s, touchdown_m_s + faster_m_s)
     }
 

@@ -143,6 +143,10 @@ const LIFT_OFF_M: f32 = 0.15;
 /// Airborne with a thrust above this fraction of the weight for [`LIFT_OFF_S`], whatever the height estimate says.
 const LIFT_OFF_THRUST: f32 = 0.85;
 const LIFT_OFF_S: f32 = 0.5;
+/// And with a thrust above this fraction for [`CLEAR_S`] it has left the ground, whatever the height estimate says: half a
+/// metre in a second, more than a foot reaches down.
+const CLEAR_THRUST: f32 = 1.1;
+const CLEAR_S: f32 = 1.0;
 /// Touchdown while descending: thrust below this fraction of the weight, yet slower than [`STANDING_M_S`], for
 /// [`STANDING_S`]. A flying vehicle with so little thrust would fall.
 const STANDING_THRUST: f32 = 0.55;
@@ -157,9 +161,12 @@ const RESTING_S: f32 = 2.0;
 #[derive(Clone, Debug)]
 pub(super) struct GroundWatch {
     airborne: bool,
+    /// Whether it is high enough to lean.
+    clear: bool,
     /// z of the ground, as last stood on, m.
     ground_m: f32,
     lifting: Persistence,
+    leaving: Persistence,
     standing: Persistence,
     resting: Persistence,
     at_rest: Persistence,
@@ -168,7 +175,8 @@ pub(super) struct GroundWatch {
 impl GroundWatch {
     pub(super) fn new(airborne: bool, ground_m: f32) -> Self {
         let none = Persistence::default();
-        Self { airborne, ground_m, lifting: none, standing: none, resting: none, at_rest: none }
+        let (lifting, leaving, standing, resting, at_rest) = (none, none, none, none, none);
+        Self { airborne, clear: airborne, ground_m, lifting, leaving, standing, resting, at_rest }
     }
 
     /// With rotors stopped or idling: landed once the vehicle has come to rest.
@@ -184,7 +192,10 @@ impl GroundWatch {
         let descend = descends.is_some_and(|known| known <= Known::Climb);
         let thrust = input.thrust_n / weight_n;
         let lifting = self.lifting.step(thrust > LIFT_OFF_THRUST, jobs(LIFT_OFF_S));
-        self.airborne |= lifting || input.nav.position.z - self.ground_m > LIFT_OFF_M;
+        let is_high = input.nav.position.z - self.ground_m > LIFT_OFF_M;
+        self.airborne |= lifting || is_high;
+        let has_left = self.leaving.step(thrust > CLEAR_THRUST, jobs(CLEAR_S));
+        self.clear |= is_high || has_left || (self.airborne && !input.health.height);
         let vertical = math::abs(input.nav.velocity.z);
         let standing = descend && thrust < STANDING_THRUST && vertical < STANDING_M_S;
         let resting = descend && thrust < RESTING_THRUST && vertical < RESTING_M_S;
@@ -196,5 +207,11 @@ impl GroundWatch {
 
     pub(super) fn is_airborne(&self) -> bool {
         self.airborne
+    }
+
+    /// Whether it may lean. A vehicle that gives nearly all of its weight for thrust counts as airborne and may still stand:
+    /// one that leans then is tipped over by its feet.
+    pub(super) fn is_clear(&self) -> bool {
+        self.clear
     }
 }

@@ -4,6 +4,9 @@
 //! gyroscope. The difference from the expected U, converted to squared speeds by the inverse of Eq. 4, gives one value
 //! per rotor: a rotor with effectiveness η lacks (1 − η) ω² and leaves the others' values unchanged, while an external
 //! push changes all of them. Both sides pass through the same low-pass, so a manoeuvre does not show as a difference.
+//!
+//! A slow rotor's thrust is small beside drag in a fast climb, and beside what yaw is off by, whose lever is a tenth of an
+//! arm's. So a rotor that has failed must also tip the vehicle by its arm.
 
 use nalgebra::{Matrix4, Vector3, Vector4};
 
@@ -134,7 +137,8 @@ impl RotorMonitor {
                 *baseline = math::clamp(next, BASELINE.0, BASELINE.1);
             }
         }
-        self.suspect = match (weak.filter(|rotor| alone(*rotor)), self.suspect) {
+        let weak = weak.filter(|rotor| alone(*rotor) && self.tips(*rotor, missing));
+        self.suspect = match (weak, self.suspect) {
             (Some(rotor), Some((before, ticks))) if usize::from(before) == rotor => Some((before, ticks + 1)),
             (Some(rotor), _) => Some((rotor as u8, 1)),
             (None, _) => None,
@@ -144,6 +148,20 @@ impl RotorMonitor {
         {
             self.failed.get_or_insert(rotor);
         }
+    }
+}
+
+impl RotorMonitor {
+    /// Whether the roll and pitch that are missing are those of this rotor alone.
+    #[cold]
+    fn tips(&self, rotor: usize, missing: &Vector4<f32>) -> bool {
+        let g = &self.airframe.geometry;
+        let of = |row: &[f32; ROTORS]| row.get(rotor).copied().unwrap_or(0.0);
+        let (roll, pitch) = (of(&g.roll), of(&g.pitch));
+        let lack = (roll * missing.y + pitch * missing.z) / math::max(roll * roll + pitch * pitch, f32::MIN_POSITIVE);
+        let (square, baseline) =
+            (self.square.0[rotor.min(ROTORS - 1)], self.baseline.get(rotor).copied().unwrap_or(1.0));
+        square + lack < SOUND_ABOVE * baseline * square
     }
 }
 
@@ -193,6 +211,38 @@ mod tests {
     fn feet_on_the_ground_are_no_failed_rotor() {
         // The torque of a rotor that is gone, but the vehicle is lifted by more than its rotors.
         assert_eq!(watch_held_up([0.0, 1.0, 1.0, 1.0], Vector3::zeros(), 0.5, 300).failed(), None);
+    }
+
+    /// A rotor is slow and the one across from it slower still, to turn the heading and to tip, while the vehicle climbs so
+    /// fast that drag takes a third of the weight.
+    fn turns_in_a_climb(slow: usize, has_failed: bool) -> Option<u8> {
+        let airframe = Airframe::paper(2.0);
+        let mut monitor = RotorMonitor::new(&airframe);
+        let mut omega = [1.3 * airframe.omega_for_thrust_to_weight(1.0); ROTORS];
+        (omega[slow], omega[(slow + 2) % ROTORS]) = (0.5 * omega[slow], 0.25 * omega[slow]);
+        let effect = RotorTorque::new(&airframe).steady(&omega);
+        let mut given = omega.map(|omega| omega * omega);
+        given[slow] *= if has_failed { 0.0 } else { 1.0 };
+        let sum = |row: [f32; ROTORS]| row.iter().zip(given).map(|(b, square)| b * square).sum::<f32>();
+        let g = &airframe.geometry;
+        let torque = Vector3::new(sum(g.roll), sum(g.pitch), sum(g.yaw));
+        let mut rates = Vector3::zeros();
+        monitor.reset(&rates);
+        for _ in 0..150 {
+            let force = sum(g.thrust) / airframe.mass_kg - 0.33 * airframe.gravity_m_s2;
+            monitor.update(&rates, force, &effect, &omega);
+            let holding = attitude::torque(&airframe, &Vector3::zeros(), &rates, effect.spin_rad_s);
+            rates += (torque - holding).component_div(&Vector3::from(airframe.inertia_kg_m2)) * TICK_S;
+        }
+        monitor.failed()
+    }
+
+    #[test]
+    fn drag_in_a_climb_is_none_also_where_a_rotor_is_slow() {
+        for rotor in 0..ROTORS {
+            assert_eq!(turns_in_a_climb(rotor, false), None);
+            assert_eq!(turns_in_a_climb(rotor, true), Some(rotor as u8));
+        }
     }
 
     #[test]

@@ -53,14 +53,15 @@ const LARGEST: f32 = 1e3;
 /// Relative rounding error of a coordinate in a sample.
 const GRAIN: f32 = 2e-7;
 
-/// How fast a target may move horizontally and still be followed; vertically it may climb and sink as [`ModeSettings`]
-/// tell, and accelerate as much as horizontally.
+/// How fast a target may move and still be followed; vertically it may climb and sink as [`ModeSettings`] tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fastest {
     /// Horizontal speed of target and reference, m/s.
     pub speed_m_s: f32,
-    /// Acceleration of target and reference, m/s²: horizontally g tan of the greatest tilt, or less.
+    /// Their horizontal acceleration, m/s²: g tan of the greatest tilt, or less.
     pub acceleration_m_s2: f32,
+    /// Their vertical acceleration, m/s². Well below g: a force that vanishes has no direction.
+    pub vertical_m_s2: f32,
 }
 
 /// Follows a stream of set-points.

@@ -7,7 +7,7 @@
 
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 
-use super::{Authority, Outer, OuterInput, OuterOutput, Source, as_it_moves, forget_horizontal, velocity};
+use super::{Outer, OuterInput, OuterOutput, Source, as_it_moves, forget_horizontal, velocity};
 use crate::config::ManualSettings;
 use crate::control::flatness::{self, ForceProfile, Heading};
 use crate::control::law::PositionLaw;
@@ -209,10 +209,7 @@ impl<P: PositionLaw> Outer<P> {
         match mode {
             ManualMode::Position => self.move_by_hand(effective, input, &sticks, climb),
             ManualMode::Altitude => self.tilt_by_hand(effective, input, &sticks, climb),
-            ManualMode::Stabilized | ManualMode::Acro => {
-                let output = self.thrust_by_hand(effective, input, &sticks, mode);
-                OuterOutput { authority: if in_air { Authority::Full } else { Authority::Gentle }, ..output }
-            }
+            ManualMode::Stabilized | ManualMode::Acro => self.thrust_by_hand(effective, input, &sticks, mode),
         }
     }
 

@@ -23,7 +23,7 @@ use crate::control::law::{LawState, PositionDemand, PositionInput, PositionLaw};
 use crate::control::position::{ForceLimits, SlidingPosition, Translation};
 use crate::guidance::Guidance;
 use crate::guidance::setpoint::{Setpoint, Target};
-use crate::guidance::stream::{Fastest, Stream};
+use crate::guidance::stream::Stream;
 use crate::latest::Latest;
 use crate::math;
 use crate::schedule::{OUTER, OUTER_AHEAD_S};
@@ -127,6 +127,13 @@ const LEAD_DOWN_M: f32 = 0.5;
 /// And at most this far above it, m: a vehicle that has fallen must not climb back to its reference.
 const LAG_UP_M: f32 = 0.5;
 
+/// Near the ground a thrust below this fraction of the weight may be a landing: the law gives less than the weight only
+/// where it sinks faster and faster, or stands. A pilot who has the thrust in hand also flies with little.
+const LANDS: f32 = 0.85;
+const LANDS_BY_HAND: f32 = 0.5;
+/// And so may a reference with this velocity upwards, m/s.
+const SINKS_M_S: f32 = -0.05;
+
 /// Position, velocity, acceleration and thrust axis at the tick when the output takes effect.
 struct Predicted {
     position: Vector3<f32>,
@@ -172,10 +179,7 @@ impl<P: PositionLaw> Outer<P> {
     /// The value of the trajectory or of the joining path that is out of range.
     pub fn new(config: &FlightConfig, law: P) -> Result<Self, ConfigError> {
         let limits = ForceLimits::new(&config.airframe, config.tilt_max_rad);
-        let fastest = Fastest {
-            speed_m_s: config.modes.fastest_m_s,
-            acceleration_m_s2: limits.tan_tilt_max() * config.airframe.gravity_m_s2,
-        };
+        let fastest = offboard::fastest(&config.modes, limits, config.airframe.gravity_m_s2);
         Ok(Self {
             mass_kg: config.airframe.mass_kg,
             model: Translation::new(&config.airframe),
@@ -235,11 +239,19 @@ impl<P: PositionLaw> Outer<P> {
             self.by_hand.end();
         }
         match input.directive {
-            Directive::Manual { mode, in_air, sink_m_s } => {
-                self.fly_by_hand(effective, input, (mode, in_air, sink_m_s))
+            Directive::Manual { mode, in_air, may_touch, sink_m_s } => {
+                let output = self.fly_by_hand(effective, input, (mode, in_air, sink_m_s));
+                OuterOutput {
+                    authority: self.authority(&output, mode.has_direct_thrust(), in_air, may_touch),
+                    ..output
+                }
+            }
+            Directive::Offboard { in_air, may_touch } => {
+                let output = self.follow_setpoint(effective, input, in_air);
+                let has_direct_thrust = matches!(self.source, Source::ByHand(_));
+                OuterOutput { authority: self.authority(&output, has_direct_thrust, in_air, may_touch), ..output }
             }
             Directive::Orbit(orbit) => self.fly_orbit(effective, input, &orbit),
-            Directive::Offboard { in_air } => self.follow_setpoint(effective, input, in_air),
             Directive::Stop | Directive::Idle => self.rest(&input.nav),
             Directive::Follow { since } => {
                 let reference = self.trajectory(effective.wrapping_sub(since));
@@ -266,6 +278,15 @@ impl<P: PositionLaw> Outer<P> {
                 self.follow(effective, input, &reference)
             }
         }
+    }
+
+    /// The authority where the ground may be touched by whom the vehicle obeys. Feet on the ground bear a part of the weight
+    /// and turn the vehicle otherwise than its model says: with full authority it would rock until it tips over.
+    fn authority(&self, output: &OuterOutput, has_direct_thrust: bool, in_air: bool, may_touch: bool) -> Authority {
+        let lands_below = if has_direct_thrust { LANDS_BY_HAND } else { LANDS } * self.mass_kg * self.model.gravity;
+        let is_light = output.attitude.thrust_n < lands_below;
+        let sinks = !has_direct_thrust && output.wanted_velocity.z < SINKS_M_S;
+        if !in_air || (may_touch && (is_light || sinks)) { Authority::Gentle } else { Authority::Full }
     }
 
     /// Output on the ground, where nothing is controlled.
@@ -316,10 +337,19 @@ impl<P: PositionLaw> Outer<P> {
     fn last_reference(&self, input: &OuterInput) -> FlatReference {
         match self.source {
             Source::Setpoint => self.setpoint.reference(),
-            Source::Stream => self.stream.reference(),
+            Source::Stream => self.after_stream(),
             Source::Trajectory(reference) | Source::ByHand(reference) => reference,
             Source::Ground => FlatReference::standing(input.nav.position, input.nav.yaw()),
         }
+    }
+
+    /// The stream's reference, for the generator to go on from. A stream may bend within milliseconds; the generator's lags
+    /// carry on what they begin with for half a second, and a sharp bend would become metres per second.
+    fn after_stream(&self) -> FlatReference {
+        let reference = self.stream.reference();
+        let size = math::sqrt(reference.jerk.norm_squared());
+        let jerk = reference.jerk * math::min(1.0, self.modes.jerk_m_s3 / math::max(size, 1e-6));
+        FlatReference { jerk, snap: Vector3::zeros(), ..reference }
     }
 
     /// The thrust effectiveness, or the one held in a blind descent.

@@ -2,9 +2,11 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use super::{Authority, Outer, OuterInput, OuterOutput, Source, as_it_moves};
+use super::{Outer, OuterInput, OuterOutput, Source, as_it_moves};
+use crate::config::ModeSettings;
 use crate::control::flatness::{ForceProfile, Heading};
 use crate::control::law::PositionLaw;
+use crate::control::position::ForceLimits;
 use crate::guidance::hands;
 use crate::guidance::stream::{Fastest, Sample};
 use crate::latest::{AttitudeSetPoint, SetPoint, Stamped};
@@ -22,14 +24,15 @@ impl<P: PositionLaw> Outer<P> {
     pub(super) fn follow_setpoint(&mut self, effective: Tick, input: &OuterInput, in_air: bool) -> OuterOutput {
         match input.latest.setpoint {
             Some(Stamped { value: SetPoint::Motion { motion, sent_ms }, at }) => {
+                self.by_hand.end();
                 let reference = self.stream_to(effective, input, &Sample { motion, at, sent_ms });
                 self.follow(effective, input, &reference)
             }
             Some(Stamped { value: SetPoint::Attitude(wanted), .. }) => {
-                let output = self.follow_attitude(effective, input, &wanted, in_air);
-                OuterOutput { authority: if in_air { Authority::Full } else { Authority::Gentle }, ..output }
+                self.follow_attitude(effective, input, &wanted, in_air)
             }
             None => {
+                self.by_hand.end();
                 let hold = super::velocity(Vector3::zeros(), 0.0);
                 let reference = self.steer(input, &hold);
                 self.follow(effective, input, &reference)
@@ -79,9 +82,26 @@ impl<P: PositionLaw> Outer<P> {
 
     /// How fast what is streamed may move.
     pub(super) fn fastest(&self) -> Fastest {
-        Fastest {
-            speed_m_s: self.modes.fastest_m_s,
-            acceleration_m_s2: self.limits.tan_tilt_max() * self.model.gravity,
-        }
+        fastest(&self.modes, self.limits, self.model.gravity)
+    }
+}
+
+/// Part of g by which a streamed target may accelerate downwards: what is left of the weight keeps the attitude, also when
+/// the law takes some of it.
+const FALLING: f32 = 0.4;
+
+/// Part of the vehicle's own horizontal acceleration that a streamed target may have: the rest is for drag, wind, and what
+/// the vehicle is off by. Without it the vehicle would fall behind, and race after the reference at more than its speed.
+const FOLLOWED: f32 = 0.8;
+
+/// How fast a stream may move: horizontally as the tilt allows, or as the rotors do while they carry the weight; vertically
+/// as far as neither the rotors are at their end nor the weight is gone.
+pub(super) fn fastest(modes: &ModeSettings, limits: ForceLimits, gravity: f32) -> Fastest {
+    let most = limits.force_max();
+    let across = math::sqrt(math::max(most * most - gravity * gravity, 0.0));
+    Fastest {
+        speed_m_s: modes.fastest_m_s,
+        acceleration_m_s2: FOLLOWED * math::min(limits.tan_tilt_max() * gravity, across),
+        vertical_m_s2: math::clamp(most - gravity, 0.0, FALLING * gravity),
     }
 }

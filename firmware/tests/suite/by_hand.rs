@@ -4,6 +4,7 @@ use firmware::commander::{ManualMode, Mode, Request};
 use firmware::config::FlightConfig;
 use firmware::latest::Sticks;
 use firmware::math::wrap_angle;
+use firmware::outer::Authority;
 use firmware::signals::TICK_S;
 use nalgebra::Vector3;
 
@@ -213,4 +214,32 @@ fn without_sticks_or_with_the_throttle_up_it_is_not_armed_for_a_manual_mode() {
     assert!(vehicle.told.armed);
     vehicle.run(0.5);
     assert!(!vehicle.told.armed, "10 s on the ground, untouched");
+}
+
+#[test]
+fn what_stands_stays_level_until_it_is_clear_of_the_ground_and_touches_it_gently() {
+    let mut vehicle = Vehicle::new(&agile());
+    vehicle.hold(DOWN);
+    vehicle.ask(Request::Manual(ManualMode::Stabilized));
+    vehicle.run(0.1);
+    vehicle.ask(Request::Arm { force: false });
+    vehicle.run(0.1);
+    // Nine tenths of the weight: it stands, and would be tipped over by its feet.
+    vehicle.hold(Sticks { roll: 1.0, throttle: 0.44, ..CENTRED });
+    vehicle.run(3.0);
+    assert_eq!((vehicle.told.mode, vehicle.body.nav.position.z), (Mode::Stabilized, 0.0));
+    let wanted = vehicle.reference.attitude.target.attitude * Vector3::z();
+    assert!(wanted.z > 0.9999 && vehicle.reference.authority == Authority::Gentle, "{wanted}");
+    vehicle.hold(Sticks { roll: 1.0, throttle: 0.8, ..CENTRED });
+    vehicle.run(1.5);
+    assert!(tilt_deg(&vehicle) > 30.0 && vehicle.reference.authority == Authority::Full);
+    for (mode, throttle) in [(ManualMode::Position, 0.0), (ManualMode::Altitude, 0.0), (ManualMode::Stabilized, 0.1)] {
+        let mut vehicle = in_mode(mode);
+        assert_eq!(vehicle.reference.authority, Authority::Full);
+        vehicle.hold(Sticks { throttle, ..CENTRED });
+        while vehicle.body.nav.position.z > 0.3 {
+            vehicle.run(0.02);
+        }
+        assert_eq!(vehicle.reference.authority, Authority::Gentle, "{mode:?}");
+    }
 }

@@ -1,9 +1,9 @@
 //! Flights by streamed set-points.
 
-use firmware::commander::{Mode, Request};
+use firmware::commander::{ManualMode, Mode, Request};
 use firmware::config::FlightConfig;
 use firmware::guidance::stream::Motion;
-use firmware::latest::{AttitudeSetPoint, SetPoint, Stamped};
+use firmware::latest::{AttitudeSetPoint, SetPoint, Stamped, Sticks};
 use firmware::signals::TICK_S;
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -184,4 +184,65 @@ fn body_rates_are_flown() {
     vehicle.ask(Request::Hold);
     vehicle.run(5.0);
     assert!(vehicle.body.nav.velocity.norm() < 0.05 && vehicle.body.nav.rates.norm() < 0.05);
+}
+
+/// The greatest step of the reference between two jobs, m, and its greatest acceleration, m/s², while the stream goes on for
+/// 0.4 s: sticks that were moved before are not lost yet.
+fn soon_after(vehicle: &mut Vehicle, make: impl Fn(f32) -> SetPoint) -> (f32, f32) {
+    let (mut before, mut step, mut most) = (vehicle.reference.wanted, 0.0_f32, 0.0_f32);
+    stream_while(vehicle, 0.4, make, |_, vehicle| {
+        step = step.max((vehicle.reference.wanted - before).xyz().norm());
+        before = vehicle.reference.wanted;
+        most = most.max(vehicle.reference.wanted_acceleration.norm());
+    });
+    (step, most)
+}
+
+#[test]
+fn position_mode_goes_on_from_where_the_stream_has_brought_it() {
+    let mut vehicle = offboard(&agile());
+    for x in [20.0, -20.0] {
+        vehicle.hold(Sticks::CENTRED);
+        vehicle.ask(Request::Manual(ManualMode::Position));
+        // At most 6 m/s.
+        let (step, _) = soon_after(&mut vehicle, |_| position([x, 0.0, 4.0], 0.0));
+        assert!(vehicle.told.mode == Mode::Position && step < 0.024, "{step} m");
+        vehicle.ask(Request::Offboard);
+        stream(&mut vehicle, 4.0, |_| position([x, 0.0, 4.0], 0.0));
+        assert!(vehicle.told.mode == Mode::Offboard && vehicle.body.nav.velocity.norm() > 3.0);
+    }
+}
+
+#[test]
+fn what_takes_over_from_a_stream_that_shakes_does_not_carry_on_its_shaking() {
+    let shaken = |t: f32| {
+        let a = if ((t * 10.0) as u32).is_multiple_of(2) { 6.0 } else { -6.0 };
+        let motion = Motion::default().with_velocity([Some(0.0), Some(0.0), Some(0.0)]);
+        SetPoint::Motion { motion: motion.with_acceleration([Some(a), Some(-a), Some(0.3 * a)]), sent_ms: None }
+    };
+    for late in 0..10 {
+        let mut vehicle = offboard(&agile());
+        stream(&mut vehicle, 2.0 + 0.02 * late as f32, shaken);
+        let before = vehicle.reference.wanted_acceleration.norm();
+        vehicle.ask(Request::Hold);
+        let (_, most) = soon_after(&mut vehicle, shaken);
+        // Until the order comes the shaking goes on.
+        assert!(most < before + 4.0, "{most} m/s² after {before}");
+    }
+}
+
+#[test]
+fn a_stream_never_takes_the_weight_away() {
+    let mut config = agile();
+    config.tilt_max_rad = 1.2;
+    let mut vehicle = offboard(&config);
+    let fall = Motion::default().with_acceleration([Some(0.0), Some(0.0), Some(-15.0)]);
+    let (mut least, g) = (0.0_f32, config.airframe.gravity_m_s2);
+    stream_while(
+        &mut vehicle,
+        1.0,
+        |_| SetPoint::Motion { motion: fall, sent_ms: None },
+        |_, vehicle| least = least.min(vehicle.reference.wanted_acceleration.z),
+    );
+    assert!(least < -2.0 && least > -0.45 * g, "{least} m/s²");
 }

@@ -111,7 +111,7 @@ pub(super) fn level(settings: &ModeSettings, fastest: Fastest) -> (Limits, Gate)
 
 /// The vertical axis.
 pub(super) fn height(settings: &ModeSettings, fastest: Fastest) -> (Limits, Gate) {
-    let strongest = math::max(fastest.acceleration_m_s2, settings.vertical_acceleration_m_s2);
+    let strongest = math::max(fastest.vertical_m_s2, settings.vertical_acceleration_m_s2);
     let limits = Limits {
         up: settings.climb_m_s,
         down: settings.sink_m_s,

@@ -8,7 +8,7 @@ use super::*;
 
 const LIMITS: ModeSettings = ModeSettings { fastest_m_s: 12.0, ..crate::guidance::setpoint::tests::LIMITS };
 
-const FASTEST: Fastest = Fastest { speed_m_s: 12.0, acceleration_m_s2: 10.0 };
+const FASTEST: Fastest = Fastest { speed_m_s: 12.0, acceleration_m_s2: 10.0, vertical_m_s2: 10.0 };
 
 /// Random numbers, 0 to 1.
 struct Random(u64);
