@@ -485,7 +485,6 @@ def own_pilot(simulator_path):
     pilot.close()
 
 
-@pytest.mark.xfail(strict=True, reason="it tumbles where it stands until the landing is seen")
 def test_it_lands_by_a_set_point(own_pilot):
     """As the example of positions ends: with a place on the ground, stopped once it stands there."""
     pilot = own_pilot

@@ -245,13 +245,7 @@ def test_a_joystick_flies_position_mode(station):
     a.wait_landed()
 
 
-@pytest.mark.parametrize(
-    "mode",
-    [
-        "ALTITUDE",
-        pytest.param("POSITION", marks=pytest.mark.xfail(strict=True, reason="it tumbles until the landing is seen")),
-    ],
-)
+@pytest.mark.parametrize("mode", ["ALTITUDE", "POSITION"])
 def test_a_joystick_lands(own, mode):
     """With the throttle down until it is on the ground; it stays level there, and disarms by itself."""
     a = own
