@@ -125,7 +125,10 @@ def test_modes_are_set_as_px4s_are(vehicle, station):
         wait_mode(station, sub)
         if sub == AUTO_TAKEOFF:
             station.wait("LOCAL_POSITION_NED", lambda position: position.z < -1)
+    # By sticks, of which there are none; and a main mode that does not exist.
     station.command_long(SET_MODE, CUSTOM, 1, 0)
+    assert station.ack(SET_MODE) == mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+    station.command_long(SET_MODE, CUSTOM, 9, 0)
     assert station.ack(SET_MODE) == mavlink.MAV_RESULT_DENIED
 
 

@@ -313,10 +313,7 @@ pub static SETTINGS: [Setting; COUNT] =
     concatenated(&[&MODES, &FLIGHT, &AXES, &CONTROL, &AIRFRAME, &CHOICES, &ESTIMATOR, &STATION, &MANUAL, &CHANNELS]);
 
 /// The blocks one after the other.
-#[cfg_attr(
-    target_pointer_width = "64",
-    expect(clippy::large_stack_arrays, reason = "evaluated by the compiler alone; on a board it is smaller")
-)]
+#[expect(clippy::large_stack_arrays, reason = "evaluated by the compiler alone")]
 const fn concatenated(blocks: &[&[Setting]]) -> [Setting; COUNT] {
     let mut all = [MODES[0]; COUNT];
     let (mut at, mut block) = (0, 0);
