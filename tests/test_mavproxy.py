@@ -184,9 +184,8 @@ def test_it_names_px4s_modes(mavproxy):
 
 
 def test_it_flies(connected):
-    mavproxy, simulator, station = connected
+    mavproxy, _, station = connected
     station.wait("SYS_STATUS", lambda status: status.onboard_control_sensors_health & PREARM_CHECK)
-    simulator.write("speed 3")
     mavproxy.type("arm throttle")
     mavproxy.says("Got COMMAND_ACK: COMPONENT_ARM_DISARM: ACCEPTED")
     # The name of the mode comes with the heartbeat that says so.
