@@ -144,9 +144,10 @@ impl<const N: usize> Group<N> {
                 axis.restart(given, *speed);
             }
         } else {
+            let was_silent = self.ahead_s > 0.0;
             self.predict(given, timing.since_s);
             self.correct_by_places(timing);
-            self.correct_by_rates(timing);
+            self.correct_by_rates(timing, was_silent);
         }
     }
 
@@ -231,15 +232,16 @@ impl<const N: usize> Group<N> {
         }
     }
 
-    /// Takes what is given besides places alone.
-    fn correct_by_rates(&mut self, timing: &Timing) {
+    /// Takes what is given besides places alone. After a silence a speed says nothing about its change: what it differs from
+    /// has braked by itself.
+    fn correct_by_rates(&mut self, timing: &Timing, was_silent: bool) {
         let t = timing.since_s;
         let with_speed = || self.axes.iter().filter(|axis| !axis.given.is_place_alone());
         let speed = length(with_speed().map(|axis| axis.speed));
         let is_near = length(with_speed().map(|axis| axis.residual)) <= self.widest(timing, speed);
         let rate = length(with_speed().map(|axis| axis.next_rate));
         let change = length(with_speed().map(|axis| axis.next_rate - axis.rate));
-        let agrees = rate <= self.gate.acceleration && change <= AGREEING * rate;
+        let agrees = !was_silent && rate <= self.gate.acceleration && change <= AGREEING * rate;
         for axis in &mut self.axes {
             if let Some(speed) = axis.given.speed {
                 axis.correct_by_speed(speed, timing.of_rates, t, agrees);

@@ -34,6 +34,8 @@ const BRAKING: f32 = 0.92;
 /// Fraction of the jerk that the braking curve uses, and that the approach to a speed uses.
 const EASING: f32 = 0.75;
 const CHANGING: f32 = 0.8;
+/// The reference may be so much faster than the fastest target: it is not held back on one of these.
+const FASTER: f32 = 1.02;
 
 /// Vector of a chain.
 pub(super) type Axes<const N: usize> = SVector<f32, N>;
@@ -206,11 +208,40 @@ impl<const N: usize> Tracker<N> {
         let relative =
             self.wanted_acceleration(&away.component_mul(&target.placed), &(moving + changing * AHEAD_S), target);
         let wanted = shorten(target.acceleration + relative, self.limits.strongest);
+        let (wanted, passed_on) = self.slow_down(wanted, target.jerk);
         // A target's acceleration beyond the limit is caught up with in the time in which the limit would be reached.
         let excess = math::sqrt(changing.norm_squared()) / self.limits.acceleration;
         let most = math::min(self.limits.jerk * math::max(excess, 1.0), self.limits.sharpest);
         let correction = (wanted - acceleration) * ACCELERATION_RAD_S;
-        target.jerk + shorten(correction, most + against(&target.jerk, &correction))
+        passed_on + shorten(correction, most + against(&passed_on, &correction))
+    }
+
+    /// What of an acceleration and of a target's jerk remains, so that the reference does not become faster than it may be.
+    /// Target and motion relative to it each keep their limits; while a target turns or jumps their sum would not.
+    ///
+    /// Two half-planes are kept: along the acceleration, also while the speed is against it and it will be too late to
+    /// brake when that has turned; and along the speed, which may be beyond the limit already.
+    fn slow_down(&self, wanted: Axes<N>, jerk: Axes<N>) -> (Axes<N>, Axes<N>) {
+        let Chain { speed, acceleration, .. } = &self.chain;
+        let ahead = speed + acceleration * AHEAD_S;
+        let (wanted, jerk) = self.keep_below(&wanted, &ahead, wanted, jerk);
+        self.keep_below(&ahead, &ahead, wanted, jerk)
+    }
+
+    /// Takes from an acceleration and a jerk what would make a speed too great in a direction.
+    fn keep_below(&self, direction: &Axes<N>, speed: &Axes<N>, wanted: Axes<N>, jerk: Axes<N>) -> (Axes<N>, Axes<N>) {
+        let size = math::sqrt(direction.norm_squared());
+        if size < NEAR {
+            return (wanted, jerk);
+        }
+        let direction = direction / size;
+        let Limits { fastest_up, fastest_down, .. } = self.limits;
+        let fastest = FASTER * if direction.sum() < 0.0 { fastest_down } else { fastest_up };
+        let excess = wanted.dot(&direction) - self.correction(fastest - speed.dot(&direction));
+        if excess <= 0.0 {
+            return (wanted, jerk);
+        }
+        (wanted - direction * excess, jerk - direction * math::max(jerk.dot(&direction), 0.0))
     }
 
     /// Acceleration relative to the target, from place and speed relative to it.
@@ -234,14 +265,15 @@ impl<const N: usize> Tracker<N> {
     }
 
     /// The greatest speed relative to the target in the direction −`outward`: within its own limit, and such that the sum
-    /// with the target's speed is within the absolute one.
+    /// with the target's speed is within the absolute one. Against the target's speed it is greater by that: a place that is
+    /// sent with a speed at which it does not move would be left behind for ever.
     fn speed_towards(&self, outward: &Axes<N>, target: &Axes<N>) -> f32 {
         let up = outward.sum() < 0.0;
         let Limits { up: most_up, down, fastest_up, fastest_down, .. } = self.limits;
         let (most, fastest) = if up { (most_up, fastest_up) } else { (down, fastest_down) };
         let with = -target.dot(outward);
         let room = math::max(with * with + fastest * fastest - target.norm_squared(), 0.0);
-        math::clamp(math::sqrt(room) - with, 0.0, most)
+        math::clamp(math::sqrt(room) - with, 0.0, most + math::max(-with, 0.0))
     }
 
     /// Acceleration that reduces an error of the speed: linear, then the square root by which it ends with limited jerk.
