@@ -44,6 +44,11 @@ impl NavState {
         }
     }
 
+    /// The same at a position, m.
+    pub fn at_rest_at(position: Vector3<f32>) -> Self {
+        Self { position, ..Self::at_rest() }
+    }
+
     /// ψ, rad: of Rz(ψ) Ry(θ) Rx(φ).
     pub fn yaw(&self) -> f32 {
         let q = self.attitude.quaternion();

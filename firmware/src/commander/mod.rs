@@ -286,7 +286,7 @@ impl Commander {
 
     /// The output in effect before the first job's.
     pub fn initial_output(&self) -> CommanderOutput {
-        self.output(self.home.z, Err(Refusal::NoNavigation), Replies::new(), None)
+        self.output(&NavState::at_rest_at(self.home), Err(Refusal::NoNavigation), Replies::new(), None)
     }
 
     /// One job, released at `released`.
@@ -323,13 +323,13 @@ impl Commander {
         let home = self.known_home(input);
         let armable = self.check(input).and_then(|()| self.check_sticks(released, input));
         let motor_test = self.tested_motor(effective);
-        CommanderOutput { motor_test, home, ..self.output(input.nav.position.z, armable, replies, event) }
+        CommanderOutput { motor_test, home, ..self.output(&input.nav, armable, replies, event) }
     }
 
-    /// The output, at a height (z, m), while home is unknown.
+    /// The output, from a motion, while home is unknown.
     fn output(
         &self,
-        height: f32,
+        nav: &NavState,
         armable: Result<(), Refusal>,
         replies: Replies,
         event: Option<Event>,
@@ -342,7 +342,7 @@ impl Commander {
             shown: if matches!(mode, Mode::Disarmed | Mode::Idle) { self.intent.mode() } else { mode },
             intent: self.intent,
             overridden: self.overridden,
-            directive: self.directive(height),
+            directive: self.directive(nav),
             motor_test: None,
             landed: !self.ground.is_airborne(),
             ground_m: self.ground_m,

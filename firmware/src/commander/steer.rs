@@ -5,7 +5,10 @@ use nalgebra::Vector3;
 use super::{Commander, Course, Directive, Known, State};
 use crate::guidance::setpoint::{self, Speeds};
 use crate::math;
+use crate::signals::NavState;
 
+/// What stands does not move up or down as fast as this, m/s. Chosen: above the speed of a touchdown.
+const FALLS_M_S: f32 = 0.6;
 /// Below this height, m, a descent slows down to the touchdown speed at the latest.
 const FINAL_HEIGHT_M: f32 = 2.0;
 /// Part of the vertical acceleration with which a descent slows down: the vehicle is late, and catches up with the rest.
@@ -18,9 +21,9 @@ impl Commander {
         Vector3::new(self.home.x, self.home.y, height)
     }
 
-    /// The directive for guidance, at a height (z, m).
-    pub(super) fn directive(&self, height: f32) -> Directive {
-        let settings = &self.settings;
+    /// The directive for guidance, from a motion.
+    pub(super) fn directive(&self, nav: &NavState) -> Directive {
+        let (settings, height) = (&self.settings, nav.position.z);
         let climb = |height_m: f32, speed_m_s: f32| Directive::Climb { height_m, speed_m_s, yaw: None };
         let go_to = |position, yaw| Directive::GoTo { position, yaw, speeds: Speeds::usual(settings) };
         match self.state {
@@ -29,13 +32,11 @@ impl Commander {
             State::TakeOff { to_m, .. } => climb(to_m, settings.take_off_m_s),
             State::Hold => Directive::HOLD,
             State::Orbit(orbit) => Directive::Orbit(orbit),
-            State::Offboard => {
-                Directive::Offboard { in_air: self.ground.is_clear(), may_touch: self.may_touch(height) }
-            }
+            State::Offboard => Directive::Offboard { in_air: self.ground.is_clear(), may_touch: self.may_stand(nav) },
             State::Manual(mode) => Directive::Manual {
                 mode,
                 in_air: self.ground.is_clear(),
-                may_touch: self.may_touch(height),
+                may_touch: self.may_stand(nav),
                 sink_m_s: self.rate_of_descent(settings.sink_m_s, height),
             },
             State::GoTo(course) | State::Approach(course) => self.steer(&course, height),
@@ -75,6 +76,13 @@ impl Commander {
     /// Whether the ground may be touched at any time, at a height (z, m): near it, and at an unknown height.
     fn may_touch(&self, height: f32) -> bool {
         self.navigation.known() >= Known::Climb || self.over_ground(height) < FINAL_HEIGHT_M
+    }
+
+    /// Whether feet may be on the ground: where it may be touched, unless the vehicle is seen to rise or to fall. So one that
+    /// falls with little thrust below the height of its home is not taken for one that stands.
+    fn may_stand(&self, nav: &NavState) -> bool {
+        let falls = self.navigation.known() < Known::Attitude && math::abs(nav.velocity.z) > FALLS_M_S;
+        self.may_touch(nav.position.z) && !falls
     }
 
     /// The rate of a descent at a height (z, m): no more than `rate_m_s`, and slow near the ground.

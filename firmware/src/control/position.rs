@@ -225,13 +225,18 @@ pub struct ForceLimits {
     force_max: f32,
     /// Tangent of the greatest tilt.
     tan_tilt_max: f32,
+    /// Least vertical component, m/s².
+    floor: f32,
 }
+
+/// Least vertical component as a fraction of the greatest force: the thrust axis must not point down.
+const FLOOR: f32 = 0.02;
 
 impl ForceLimits {
     /// For an airframe and a greatest tilt (rad).
     pub fn new(airframe: &Airframe, tilt_max_rad: f32) -> Self {
         let force_max = airframe.thrust_max_n() / airframe.mass_kg;
-        Self { force_max, tan_tilt_max: 0.0 }.with_tilt(tilt_max_rad)
+        Self { force_max, tan_tilt_max: 0.0, floor: FLOOR * force_max }.with_tilt(tilt_max_rad)
     }
 
     /// The same with another greatest tilt (rad).
@@ -239,6 +244,13 @@ impl ForceLimits {
     pub fn with_tilt(self, tilt_max_rad: f32) -> Self {
         let (sin_tilt, cos_tilt) = math::sin_cos(tilt_max_rad);
         Self { tan_tilt_max: sin_tilt / cos_tilt, ..self }
+    }
+
+    /// The same with a vertical component of at least this, m/s², or as it was made.
+    #[must_use]
+    pub fn with_floor(self, floor: Option<f32>) -> Self {
+        let least = FLOOR * self.force_max;
+        Self { floor: floor.map_or(least, |floor| math::clamp(floor, least, self.force_max)), ..self }
     }
 
     /// Tangent of the greatest tilt.
@@ -256,10 +268,8 @@ impl ForceLimits {
     /// of another force, and are set to zero.
     #[inline]
     pub fn apply(&self, profile: &mut ForceProfile) -> bool {
-        /// Least vertical component as a fraction of the greatest force: the thrust axis must not point down.
-        const FLOOR: f32 = 0.02;
         let (force, force_max) = (profile.force, self.force_max);
-        let vertical = math::clamp(force.z, FLOOR * force_max, force_max);
+        let vertical = math::clamp(force.z, self.floor, force_max);
         let by_size = math::sqrt(math::max(force_max * force_max - vertical * vertical, 0.0));
         let limit = math::min(by_size, vertical * self.tan_tilt_max);
         let horizontal = math::sqrt(force.x * force.x + force.y * force.y);

@@ -28,8 +28,13 @@ const THRUST: f32 = 40.0;
 const TURN: f32 = 10.0;
 /// Of an attitude that is far away no more is turned towards at once, rad: its rate stays below 6 rad/s.
 const TURN_MAX_RAD: f32 = 0.5;
-/// In acro mode the reference is at most this far from the vehicle's attitude: cosine and sine of half of 0.4 rad.
-const REACH: (f32, f32) = (0.980_066_6, 0.198_669_33);
+/// In acro mode the reference is at most this far ahead of the vehicle's attitude: sines of half of 0.2 rad of tilt, and of
+/// half of 0.03 rad about the thrust. Yaw has so little torque that the vehicle falls behind each time a stick moves; what it
+/// is behind it would overtake the stick by.
+const REACH: f32 = 0.099_833_42;
+const REACH_YAW: f32 = 0.014_999_44;
+/// And its yaw rate is at most so far ahead of the vehicle's, rad/s.
+const REACH_YAW_RATE: f32 = 0.35;
 
 /// What flying by hand keeps between jobs.
 #[derive(Clone, Debug)]
@@ -158,6 +163,11 @@ impl ByHand {
         for (smooth, wanted) in self.rates.iter_mut().zip(wanted) {
             smooth.step(*wanted, RATE);
         }
+        let [.., yaw] = &mut self.rates;
+        let behind = yaw.value - nav.rates.z;
+        if math::abs(behind) > REACH_YAW_RATE {
+            *yaw = Smooth::at(nav.rates.z + math::limit(behind, REACH_YAW_RATE));
+        }
         self.attitude = within_reach(&UnitQuaternion::new_normalize(turned.into_inner()), nav);
         self.attitude_target()
     }
@@ -181,12 +191,13 @@ fn within_reach(wanted: &UnitQuaternion<f32>, nav: &NavState) -> UnitQuaternion<
     let here = if ahead.norm_squared() < 0.01 { here.target_after(OUTER_AHEAD_S).attitude } else { nav.attitude };
     let away = here.inverse() * wanted;
     let q = if away.w < 0.0 { -away.into_inner() } else { away.into_inner() };
-    let (cos, sin) = REACH;
-    if q.w >= cos {
+    let tilt = math::sqrt(q.i * q.i + q.j * q.j);
+    if tilt <= REACH && math::abs(q.k) <= REACH_YAW {
         return *wanted;
     }
-    let axis = q.imag() / math::max(math::sqrt(q.imag().norm_squared()), 1e-6);
-    let near = nalgebra::Quaternion::from_parts(cos, axis * sin);
+    let part = math::min(1.0, REACH / math::max(tilt, 1e-6));
+    let near = Vector3::new(q.i * part, q.j * part, math::limit(q.k, REACH_YAW));
+    let near = nalgebra::Quaternion::from_parts(math::sqrt(1.0 - near.norm_squared()), near);
     UnitQuaternion::new_normalize(here.into_inner() * near)
 }
 
@@ -216,7 +227,7 @@ impl<P: PositionLaw> Outer<P> {
     /// Goes on from what has flown before.
     fn begin_by_hand(&mut self, input: &OuterInput) {
         let reference = self.last_reference(input);
-        self.setpoint.start(&reference);
+        self.go_on_from(&reference);
         if self.by_hand.mode.is_none() {
             self.by_hand.begin(&input.nav, input.thrust_n, reference.yaw);
         }
@@ -232,7 +243,7 @@ impl<P: PositionLaw> Outer<P> {
         let ahead = self.by_hand.settings.velocity(sticks);
         let (sin, cos) = math::sin_cos(heading.angle);
         let wanted = Vector3::new(cos * ahead.x - sin * ahead.y, sin * ahead.x + cos * ahead.y, climb);
-        let mut reference = self.setpoint.advance(&velocity(wanted, 0.0));
+        let mut reference = self.advance(&velocity(wanted, 0.0));
         let now = self.predict(input);
         self.by_hand.tilt = [Smooth::at(0.0); 2];
         self.leash(&mut reference, &now, climb < 0.0);
@@ -248,7 +259,7 @@ impl<P: PositionLaw> Outer<P> {
         let heading = self.by_hand.turn(self.by_hand.settings.yaw_rate(sticks));
         let tilt = self.by_hand.tilt(self.by_hand.settings.tilt(sticks), &heading);
         self.setpoint.put_horizontally(now.position.x, now.position.y);
-        let mut reference = self.setpoint.advance(&velocity(Vector3::new(0.0, 0.0, climb), 0.0));
+        let mut reference = self.advance(&velocity(Vector3::new(0.0, 0.0, climb), 0.0));
         self.leash(&mut reference, &now, climb < 0.0);
         self.source = Source::ByHand(as_it_moves(&now, &heading));
         now.forget_horizontal();
@@ -263,7 +274,7 @@ impl<P: PositionLaw> Outer<P> {
             acceleration: tilt.acceleration * f + tilt.rate * (2.0 * f_rate) + tilt.force * f_acceleration,
         };
         self.limited = self.limits.apply(&mut profile);
-        self.output(effective, &now, &profile, &reference, s)
+        self.output(effective, &now, &profile, &reference, s).wanting_what_it_does(&input.nav)
     }
 
     /// Stabilized and acro mode.

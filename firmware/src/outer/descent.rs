@@ -35,14 +35,14 @@ impl<P: PositionLaw> Outer<P> {
             Known::Height => {
                 now.forget_horizontal();
                 forget_horizontal(&mut reference);
-                self.track(effective, &now, &reference)
+                self.track(effective, &now, &reference).wanting_what_it_does(&input.nav)
             }
             Known::Climb => {
                 now.forget_horizontal();
                 forget_horizontal(&mut reference);
                 self.setpoint.put_vertically(now.position.z);
                 reference.position.z = now.position.z;
-                self.track(effective, &now, &reference)
+                self.track(effective, &now, &reference).wanting_what_it_does(&input.nav)
             }
             Known::Attitude => {
                 self.setpoint.put_vertically(now.position.z);

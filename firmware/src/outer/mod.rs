@@ -7,6 +7,7 @@
 //! model predicts the motion to that tick, so that motion and reference are compared at the same time.
 
 mod by_hand;
+mod catch;
 mod descent;
 mod offboard;
 mod orbit;
@@ -84,6 +85,15 @@ pub struct OuterOutput {
     pub law: LawState,
 }
 
+impl OuterOutput {
+    /// The same, where nothing is wanted of the horizontal motion: what the vehicle does there is what is wanted.
+    fn wanting_what_it_does(mut self, nav: &NavState) -> Self {
+        (self.wanted.x, self.wanted.y) = (nav.position.x, nav.position.y);
+        (self.wanted_velocity.x, self.wanted_velocity.y) = (nav.velocity.x, nav.velocity.y);
+        self
+    }
+}
+
 /// Source of the last job's reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Source {
@@ -119,6 +129,8 @@ pub struct Outer<P = SlidingPosition> {
     circling: Circling,
     stream: Stream,
     setpoint: Setpoint,
+    /// Whether the generator brakes a fall.
+    catches: bool,
     guidance: Guidance,
 }
 
@@ -187,6 +199,7 @@ impl<P: PositionLaw> Outer<P> {
             stream: Stream::new(&config.modes, fastest),
             guidance: Guidance::new(config.trajectory.clone(), config.join.as_ref(), config.start_position())?,
             setpoint: Setpoint::new(&config.modes),
+            catches: false,
             source: Source::Ground,
             by_hand: ByHand::new(&config.manual),
             circling: Circling::default(),
@@ -237,6 +250,9 @@ impl<P: PositionLaw> Outer<P> {
         }
         if !matches!(input.directive, Directive::Manual { .. } | Directive::Offboard { .. }) {
             self.by_hand.end();
+        }
+        if !matches!(self.source, Source::Setpoint | Source::ByHand(_)) {
+            self.catch(false);
         }
         match input.directive {
             Directive::Manual { mode, in_air, may_touch, sink_m_s } => {
@@ -327,10 +343,10 @@ impl<P: PositionLaw> Outer<P> {
     fn steer(&mut self, input: &OuterInput, target: &Target) -> FlatReference {
         if self.source != Source::Setpoint {
             let reference = self.last_reference(input);
-            self.setpoint.start(&reference);
+            self.go_on_from(&reference);
             self.source = Source::Setpoint;
         }
-        self.setpoint.advance(target)
+        self.advance(target)
     }
 
     /// The reference of the last job, or where the vehicle stands.

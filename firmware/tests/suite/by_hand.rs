@@ -240,6 +240,35 @@ fn what_stands_stays_level_until_it_is_clear_of_the_ground_and_touches_it_gently
         while vehicle.body.nav.position.z > 0.3 {
             vehicle.run(0.02);
         }
-        assert_eq!(vehicle.reference.authority, Authority::Gentle, "{mode:?}");
+        let falls = vehicle.body.nav.velocity.z < -0.6;
+        assert_eq!(falls, mode == ManualMode::Stabilized);
+        assert_eq!(vehicle.reference.authority, if falls { Authority::Full } else { Authority::Gentle }, "{mode:?}");
+        vehicle.run(0.7);
+        assert_ne!(vehicle.reference.authority, Authority::Full, "{mode:?}: on the ground");
     }
+}
+
+#[test]
+fn what_falls_below_its_home_with_little_thrust_keeps_its_attitude() {
+    let mut vehicle = in_mode(ManualMode::Stabilized);
+    vehicle.ask(Request::SetHome { position_m: Some([0.0, 0.0, 300.0]) });
+    vehicle.body.nav.position.z = 200.0;
+    vehicle.run(0.1);
+    for (roll, pitch) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (0.0, 0.0)] {
+        vehicle.hold(Sticks { roll, pitch, throttle: 0.0, ..CENTRED });
+        for _ in 0..30 {
+            vehicle.run(0.01);
+            assert!(tilt_deg(&vehicle) < 38.0, "{}°", tilt_deg(&vehicle));
+            assert!(vehicle.body.nav.velocity.z > -0.7 || vehicle.reference.authority == Authority::Full);
+        }
+    }
+    assert!(tilt_deg(&vehicle) < 2.0);
+    // It is caught by half of the thrust beyond the weight, g/2: the way is v²/g, and that of the delays.
+    let (from, fell) = (vehicle.body.nav.position.z, vehicle.body.nav.velocity.z);
+    assert!(fell < -8.0, "{fell} m/s");
+    vehicle.ask(Request::Manual(ManualMode::Position));
+    vehicle.hold(CENTRED);
+    vehicle.run(8.0);
+    let lost = from - vehicle.body.nav.position.z;
+    assert!(vehicle.body.nav.velocity.norm() < 0.1 && lost < 2.0 * fell * fell / 9.81, "{lost} m");
 }
