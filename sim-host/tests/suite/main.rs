@@ -27,6 +27,7 @@ mod paper_command;
 mod physics;
 #[cfg(unix)]
 mod pil;
+mod random_flights;
 mod replay;
 mod sensor_flights;
 mod sensor_streams;

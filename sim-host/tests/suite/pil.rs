@@ -11,6 +11,7 @@ use firmware::guidance::Trajectory;
 use firmware::mavlink::port::LinkEvent;
 use firmware::pil::{AllSent, Cause};
 use firmware::signals::{NavState, SensorFrame, TICK_S};
+use glissade_dialect::{SET_ATTITUDE_TARGET_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use sim_host::flight;
 use sim_host::pil::{
@@ -19,8 +20,9 @@ use sim_host::pil::{
 use sim_host::plant::Motion;
 use sim_host::scenario::Scenario;
 use sim_host::sensors::{BatteryTruth, Suite, Truth};
-use sim_host::sil::replay::{Input, OnLink};
+use sim_host::sil::replay::{Entry, Input, OnLink};
 
+use crate::common::by_bytes::{ACRO, ALTITUDE, Bytes, DOWN, OFFBOARD, POSITION, STABILIZED};
 use crate::common::image::image;
 use crate::common::station::flight_by_two;
 
@@ -141,12 +143,18 @@ fn navigation_on_sensors_is_the_same_bit_for_bit() {
     }
 }
 
-/// Flies a scenario by two ground stations on both sides. `disturb` changes what the image hears.
-fn by_stations(name: &str, ready_s: f64, ticks: u32, disturb: fn(&mut Vec<u8>)) -> anyhow::Result<AllSent> {
+/// Flies a scenario by what comes on its links, on both sides: what is sent, and the modes that were flown. `disturb`
+/// changes what the image hears.
+fn by_bytes(
+    name: &str,
+    entries: Vec<Entry>,
+    ticks: u32,
+    disturb: fn(&mut Vec<u8>),
+) -> anyhow::Result<(AllSent, Vec<Mode>)> {
     // Settings that have no place in the configuration, too.
     let set = ["params.BAT1_N_CELLS=5", "params.COM_DL_LOSS_T=7"].map(str::to_owned);
     let mut scenario = Scenario::load(name, &set).expect("valid");
-    scenario.replay = Some(flight_by_two(ready_s).into());
+    scenario.replay = Some(entries.into());
     let config = scenario.flight_config();
     let mut sil = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("flies");
     let settings = scenario.settings();
@@ -175,10 +183,16 @@ fn by_stations(name: &str, ready_s: f64, ticks: u32, disturb: fn(&mut Vec<u8>)) 
         sil.actuate(&output.motors, output.saturated);
     }
     pil.finish()?;
+    Ok((sil.sent(), modes))
+}
+
+/// By two ground stations.
+fn by_stations(name: &str, ready_s: f64, ticks: u32, disturb: fn(&mut Vec<u8>)) -> anyhow::Result<AllSent> {
+    let (sent, modes) = by_bytes(name, flight_by_two(ready_s), ticks, disturb)?;
     for mode in [Mode::TakeOff, Mode::Hold, Mode::Return, Mode::Land, Mode::Idle] {
         assert!(modes.contains(&mode), "{name}: {mode:?}");
     }
-    Ok(sil.sent())
+    Ok(sent)
 }
 
 #[test]
@@ -190,7 +204,48 @@ fn a_flight_by_mavlink_alone_and_all_that_is_sent_are_the_same_bit_for_bit() {
     }
 }
 
-/// Or the test above could not fail.
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_flight_by_sticks_is_the_same_bit_for_bit_in_every_manual_mode() {
+    let mut bytes = Bytes::new(1);
+    bytes.sticks(0.5, DOWN);
+    bytes.mode(STABILIZED, 0.0);
+    bytes.sticks(0.2, DOWN);
+    bytes.arm();
+    bytes.sticks(0.5, DOWN);
+    bytes.sticks(1.2, [0.1, 0.1, 0.5, 0.2]);
+    for number in [ALTITUDE, ACRO, POSITION] {
+        bytes.mode(number, 0.0);
+        bytes.stir(1.5, -0.2..0.5);
+    }
+    let ticks = bytes.now;
+    let (_, modes) = by_bytes("pad", bytes.into_entries(), ticks, |_| {}).expect("the same");
+    for mode in [Mode::Stabilized, Mode::Altitude, Mode::Acro, Mode::Position] {
+        assert!(modes.contains(&mode), "{mode:?}");
+    }
+}
+
+#[test]
+#[ignore = "needs the images and QEMU"]
+fn a_flight_by_set_points_is_the_same_bit_for_bit() {
+    let mut bytes = Bytes::new(2);
+    bytes.wait(3.0);
+    let up = SET_POSITION_TARGET_LOCAL_NED_DATA { z: -3.0, type_mask: 0b111 << 6, ..Default::default() };
+    bytes.stream(0.5, |_, _| up.clone());
+    bytes.mode(OFFBOARD, 0.0);
+    bytes.arm();
+    bytes.stream(3.0, |_, _| up.clone());
+    bytes.scatter(5.0);
+    bytes.attitude(
+        0.5,
+        &SET_ATTITUDE_TARGET_DATA { q: [0.995, 0.0, 0.0998, 0.0], thrust: 0.5, type_mask: 7, ..Default::default() },
+    );
+    let ticks = bytes.now;
+    let (_, modes) = by_bytes("field", bytes.into_entries(), ticks, |_| {}).expect("the same");
+    assert_eq!(modes.last(), Some(&Mode::Offboard));
+}
+
+/// Or the tests above could not fail.
 #[test]
 #[ignore = "needs the images and QEMU"]
 fn a_byte_that_a_station_sends_to_one_side_only_is_found_in_what_is_sent_back() {

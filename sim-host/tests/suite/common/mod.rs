@@ -1,5 +1,6 @@
 //! What several of the tests need.
 
+pub(crate) mod by_bytes;
 pub(crate) mod fault;
 pub(crate) mod fingerprint;
 pub(crate) mod folder;

@@ -1,0 +1,406 @@
+//! Flights by sticks and by set-points that a random generator moves, from end to end of their ranges, judged by the truth:
+//! no limit is exceeded, nothing tips over, nothing falls, and what is let go stands still and lands.
+//!
+//! `GLISSADE_FLIGHTS` is how many of each kind are flown; `tests/run --full` flies 1,000.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+
+use firmware::commander::Mode;
+use firmware::config::FlightConfig;
+use glissade_dialect::{SET_ATTITUDE_TARGET_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA};
+use rand::RngExt as _;
+use sim_host::flight;
+use sim_host::record::{Activity, Recorder, Row};
+use sim_host::scenario::Scenario;
+use sim_host::sil::Lockstep as _;
+
+use crate::common::by_bytes::{ACRO, ALTITUDE, AUTO, Bytes, CENTRED, DOWN, HOLD, OFFBOARD, POSITION, STABILIZED};
+use crate::common::load::load;
+
+/// A field with gusts, its sensors, and a vehicle that stands on it.
+fn standing() -> Scenario {
+    // Yaw with the throttle down would disarm it.
+    load("field", &["params.MAN_ARM_GESTURE=0"])
+}
+
+/// The same vehicle, on ideal state, so high that no tumble ends on the ground.
+fn high() -> Scenario {
+    let wind = "wind={mean_m_s=[-1.6,1.2,0.0],turbulence_20ft_m_s=5.0}";
+    load("x500-hover", &["start_position_m=[0,0,500]", "trajectory.hold.position_m=[0,0,500]", wind, "duration_s=100"])
+}
+
+/// What is true of a flight, in what it was told to do.
+struct Watch {
+    limits: FlightConfig,
+    row: Row,
+    mode: Mode,
+    armed: bool,
+    /// Since when it is in the mode, s, and what has been within its limit since.
+    since_s: f64,
+    caught: [bool; 5],
+    /// The first thing that must not be.
+    wrong: Option<String>,
+    /// Whether it is told attitudes, which have no limits.
+    free: bool,
+}
+
+/// What a mode begins with, like a tilt, acts for this time, s. Then a motion that is within the mode's limits stays within
+/// them; one that is not comes to be so until the later time: a fall at 60 m/s is stopped with 3 m/s².
+const BEGUN_S: f64 = 2.0;
+const SETTLED_S: f64 = 30.0;
+
+/// What has limits.
+#[derive(Clone, Copy)]
+enum Limited {
+    Tilt,
+    Rates,
+    Speed,
+    Climb,
+    Sink,
+}
+
+impl Watch {
+    fn new(scenario: &Scenario) -> Self {
+        Self {
+            limits: scenario.flight_config(),
+            row: Row::default(),
+            mode: Mode::Disarmed,
+            armed: false,
+            since_s: 0.0,
+            caught: [false; 5],
+            wrong: None,
+            free: !scenario.file.ground,
+        }
+    }
+
+    fn tilt_deg(&self) -> f64 {
+        let [_, x, y, _] = self.row.attitude;
+        (1.0 - 2.0 * (x * x + y * y)).clamp(-1.0, 1.0).acos().to_degrees()
+    }
+
+    fn speed(&self) -> f64 {
+        self.row.velocity[0].hypot(self.row.velocity[1])
+    }
+
+    fn stands(&self) -> bool {
+        self.speed() < 0.8 && self.row.velocity[2].abs() < 0.5 && self.tilt_deg() < 12.0
+    }
+
+    fn at_most(&mut self, what: &str, value: f64, most: f64) {
+        if (value > most || value.is_nan()) && self.wrong.is_none() {
+            self.wrong = Some(format!("{:.2} s, {:?}: {what} {value:.2}, at most {most:.2}", self.row.t, self.mode));
+        }
+    }
+
+    fn keeps(&mut self, limited: Limited, value: f64, most: f64) {
+        let caught = &mut self.caught[limited as usize];
+        let since_s = self.row.t - self.since_s;
+        *caught |= (since_s > BEGUN_S && value <= most) || since_s > SETTLED_S;
+        if *caught {
+            let what = ["tilt, °,", "body rates, °/s,", "speed, m/s,", "climb, m/s,", "sink, m/s,"][limited as usize];
+            self.at_most(what, value, most);
+        }
+    }
+
+    /// What the mode promises, with room for gusts (2 m/s) and for the estimate's error.
+    fn judge(&mut self) {
+        let Self { limits: FlightConfig { modes, manual, tilt_max_rad, .. }, row, .. } = *self;
+        let degrees = |rad: f32| f64::from(rad).to_degrees();
+        let [climb, sink] = [modes.climb_m_s, modes.sink_m_s].map(f64::from);
+        let rates = row.rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs())).to_degrees();
+        let (tilt, speed, up) = (self.tilt_deg(), self.speed(), row.velocity[2]);
+        let all = row.position.iter().chain(&row.velocity).chain(&row.attitude).chain(&row.rates);
+        self.at_most("numbers that are none", all.filter(|value| !value.is_finite()).count() as f64, 0.0);
+        match self.mode {
+            Mode::Disarmed | Mode::Idle => self.at_most("tilt on the ground, °,", tilt, 12.0),
+            Mode::Acro => {
+                let most = manual.acro_rates_rad_s.iter().fold(0.0_f32, |most, rate| most.max(*rate));
+                self.keeps(Limited::Rates, rates, 1.2 * degrees(most));
+            }
+            Mode::Stabilized => self.keeps(Limited::Tilt, tilt, degrees(manual.tilt_max_rad) + 6.0),
+            Mode::Altitude => {
+                self.keeps(Limited::Tilt, tilt, degrees(manual.tilt_max_rad) + 6.0);
+                self.keeps(Limited::Climb, up, climb + 0.6);
+                self.keeps(Limited::Sink, -up, sink + 0.6);
+            }
+            Mode::Position => {
+                self.keeps(Limited::Tilt, tilt, degrees(tilt_max_rad) + 6.0);
+                self.keeps(Limited::Speed, speed, f64::from(manual.speed_m_s) + 1.0);
+                self.keeps(Limited::Climb, up, climb + 0.6);
+                self.keeps(Limited::Sink, -up, sink + 0.6);
+            }
+            // What is streamed as an attitude has no limits.
+            Mode::Offboard if !self.free => {
+                self.keeps(Limited::Tilt, tilt, degrees(tilt_max_rad) + 6.0);
+                self.keeps(Limited::Speed, speed, 1.02 * f64::from(modes.fastest_m_s) + 1.0);
+                self.keeps(Limited::Climb, up, 1.02 * climb + 0.6);
+                self.keeps(Limited::Sink, -up, 1.02 * sink + 0.6);
+            }
+            _ => {}
+        }
+    }
+}
+
+impl Recorder for Watch {
+    fn record(&mut self, row: &Row) {
+        self.row = *row;
+    }
+
+    fn observe(&mut self, activity: &Activity) {
+        let mode = activity.commander.mode;
+        if mode != self.mode {
+            (self.since_s, self.caught) = (self.row.t, [false; 5]);
+        }
+        (self.mode, self.armed) = (mode, activity.commander.armed);
+        self.judge();
+    }
+
+    fn stops(&self) -> bool {
+        self.wrong.is_some()
+    }
+}
+
+/// What has to be true at a time, s.
+type Checks = Vec<(f64, &'static str, fn(&Watch) -> bool)>;
+
+/// A plan: what is sent, and what has to be true when.
+struct Plan {
+    bytes: Bytes,
+    checks: Checks,
+}
+
+impl Plan {
+    fn new(seed: u64) -> Self {
+        Self { bytes: Bytes::new(seed), checks: Vec::new() }
+    }
+
+    /// At the end of what is planned so far.
+    fn check(&mut self, what: &'static str, is_so: fn(&Watch) -> bool) {
+        self.checks.push((f64::from(self.bytes.now) * 1e-3, what, is_so));
+    }
+
+    fn fly(self, scenario: &Scenario, seed: u64) -> Result<(), String> {
+        let scenario = Scenario { replay: Some(self.bytes.into_entries().into()), ..scenario.clone() };
+        let mut flight = flight::lockstep(&scenario, seed, flight::rigid_body(&scenario, seed)).expect("flies");
+        let mut watch = Watch::new(&scenario);
+        for (at_s, what, is_so) in self.checks {
+            while f64::from(flight.next_tick()) * 1e-3 < at_s {
+                let goes_on = flight.step(&mut watch);
+                if let Some(wrong) = watch.wrong {
+                    return Err(wrong);
+                }
+                if !goes_on {
+                    return Err(format!("{:.2} s, {:?}: {:?}", watch.row.t, watch.mode, flight.outcome().end));
+                }
+            }
+            if !is_so(&watch) {
+                let Row { position, velocity, .. } = watch.row;
+                let tilt = watch.tilt_deg();
+                return Err(format!(
+                    "{at_s:.2} s, {:?}: not {what}: {position:.2?} {velocity:.2?} {tilt:.1}°",
+                    watch.mode
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Flies a plan for many seeds, on all threads.
+fn fly_all(scenario: &Scenario, plan: impl Fn(u64) -> Plan + Sync) {
+    let count = std::env::var("GLISSADE_FLIGHTS").ok().map_or(12, |count| count.parse().expect("a number"));
+    let next = AtomicU64::new(1);
+    let fly = || {
+        let mut failed = Vec::new();
+        loop {
+            let seed = next.fetch_add(1, Ordering::Relaxed);
+            if seed > count {
+                return failed;
+            }
+            if let Err(wrong) = plan(seed).fly(scenario, seed) {
+                failed.push((seed, wrong));
+            }
+        }
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let mut failed: Vec<_> = thread::scope(|scope| {
+        let flying: Vec<_> = (0..threads).map(|_| scope.spawn(fly)).collect();
+        flying.into_iter().flat_map(|thread| thread.join().expect("a panic")).collect()
+    });
+    failed.sort();
+    let lines: Vec<String> = failed.iter().take(40).map(|(seed, wrong)| format!("seed {seed}: {wrong}")).collect();
+    assert!(failed.is_empty(), "{} of {count}:\n{}", failed.len(), lines.join("\n"));
+}
+
+/// Of main mode `number`: on the ground with the throttle down, tilted and turned by the sticks.
+fn on_the_ground(seed: u64, number: f32) -> Plan {
+    let mut plan = Plan::new(seed);
+    let bytes = &mut plan.bytes;
+    bytes.wait(4.0);
+    bytes.sticks(0.5, DOWN);
+    bytes.mode(number, 0.0);
+    bytes.sticks(0.5, DOWN);
+    bytes.arm();
+    bytes.sticks(1.5, DOWN);
+    plan.check("armed", |watch| watch.armed);
+    // Nearly what lifts it.
+    let most = if number == ACRO || number == STABILIZED { -0.85 } else { -0.05 };
+    plan.bytes.stir(6.0, -1.0..most);
+    plan.check("on the ground", |watch| watch.row.position[2] < 0.3);
+    plan
+}
+
+#[test]
+fn what_stands_does_not_tip_over_whatever_the_sticks_do() {
+    for number in [STABILIZED, ACRO, ALTITUDE, POSITION] {
+        fly_all(&standing(), |seed| on_the_ground(seed, number));
+    }
+}
+
+/// Stops, and lands by stick.
+fn let_go(plan: &mut Plan, stop_s: f64) {
+    plan.bytes.mode(POSITION, 0.0);
+    plan.bytes.sticks(stop_s, CENTRED);
+    plan.check("standing", Watch::stands);
+    plan.bytes.sticks(100.0, DOWN);
+    plan.check("landed", |watch| !watch.armed && watch.stands());
+}
+
+#[test]
+fn position_mode_keeps_its_limits_and_lands() {
+    fly_all(&standing(), |seed| {
+        let mut plan = on_the_ground(seed, POSITION);
+        plan.bytes.sticks(5.0, [0.0, 0.0, 1.0, 0.0]);
+        plan.check("in the air", |watch| watch.row.position[2] > 2.0);
+        plan.bytes.stir(25.0, -1.0..1.0);
+        let_go(&mut plan, 10.0);
+        plan
+    });
+}
+
+#[test]
+fn altitude_mode_keeps_its_limits() {
+    fly_all(&standing(), |seed| {
+        let mut plan = on_the_ground(seed, ALTITUDE);
+        plan.bytes.sticks(12.0, [0.0, 0.0, 1.0, 0.0]);
+        plan.check("in the air", |watch| watch.row.position[2] > 10.0);
+        plan.bytes.stir(20.0, -0.4..1.0);
+        let_go(&mut plan, 15.0);
+        plan
+    });
+}
+
+/// A pilot who has the thrust in hand comes down with drift, and faster than a program would.
+#[test]
+fn landings_in_stabilized_mode_do_not_tip_over() {
+    fly_all(&standing(), |seed| {
+        let mut plan = on_the_ground(seed, STABILIZED);
+        let bytes = &mut plan.bytes;
+        let mut range = |low: f64, high: f64| bytes.random.random_range(low..high);
+        let (rises, drifts) = (range(0.25, 0.4), [range(-0.3, 0.3), range(-0.3, 0.3)]);
+        let (falls, turns) = (range(-0.2, -0.06), range(-1.0, 1.0));
+        bytes.sticks(1.5, [0.0, 0.0, rises, 0.0]);
+        plan.check("in the air", |watch| watch.row.position[2] > 0.5);
+        plan.bytes.sticks(1.0, [drifts[0], drifts[1], -0.5 * rises, 0.0]);
+        plan.bytes.sticks(4.0, [0.0, 0.0, falls, turns]);
+        plan.bytes.sticks(2.0, [0.3 * drifts[1], 0.0, falls, 0.0]);
+        plan.bytes.sticks(12.0, DOWN);
+        plan.check("landed", |watch| !watch.armed && watch.stands());
+        plan
+    });
+}
+
+#[test]
+fn stabilized_and_acro_mode_keep_their_limits_and_are_caught_again() {
+    for number in [STABILIZED, ACRO] {
+        fly_all(&high(), |seed| {
+            let mut plan = Plan::new(seed);
+            plan.bytes.wait(4.0);
+            plan.bytes.sticks(0.5, CENTRED);
+            plan.bytes.mode(number, 0.0);
+            plan.bytes.stir(8.0, -1.0..1.0);
+            plan.bytes.mode(POSITION, 0.0);
+            plan.bytes.sticks(45.0, CENTRED);
+            plan.check("standing", Watch::stands);
+            plan
+        });
+    }
+}
+
+/// Up in the air, in offboard mode.
+fn offboard(seed: u64, height_m: f32) -> Plan {
+    let mut plan = Plan::new(seed);
+    let bytes = &mut plan.bytes;
+    bytes.wait(4.0);
+    bytes.arm();
+    bytes.wait(0.3);
+    bytes.take_off(height_m);
+    bytes.wait(4.0 + f64::from(height_m));
+    let still = SET_POSITION_TARGET_LOCAL_NED_DATA { z: -height_m, type_mask: 0b111 << 6, ..Default::default() };
+    bytes.stream(0.5, |_, _| still.clone());
+    bytes.mode(OFFBOARD, 0.0);
+    bytes.stream(1.0, |_, _| still.clone());
+    plan.check("in offboard mode", |watch| watch.mode == Mode::Offboard);
+    plan
+}
+
+#[test]
+fn set_points_at_random_are_flown_within_the_limits() {
+    fly_all(&standing(), |seed| {
+        let mut plan = offboard(seed, 60.0);
+        plan.bytes.scatter(30.0);
+        plan.bytes.mode(AUTO, HOLD);
+        plan.bytes.wait(12.0);
+        plan.check("standing", Watch::stands);
+        plan
+    });
+}
+
+/// Places below the ground, and speeds that lead there, with some drift.
+#[test]
+fn set_points_below_the_ground_lead_to_it_gently() {
+    fly_all(&standing(), |seed| {
+        let mut plan = offboard(seed, 5.0);
+        let mut range = |low: f32, high: f32| plan.bytes.random.random_range(low..high);
+        let (x, y, z) = (range(-2.0, 2.0), range(-2.0, 2.0), range(0.3, 10.0));
+        let (vx, vy, vz) = (range(-0.5, 0.5), range(-0.5, 0.5), range(0.3, 3.0));
+        let type_mask = [0b1111_1100_0000, 0b1001_1111_1000, 0b1111_1100_0111][range(0.0, 3.0) as usize];
+        let below = SET_POSITION_TARGET_LOCAL_NED_DATA { x, y, z, vx, vy, vz, type_mask, ..Default::default() };
+        plan.bytes.stream(25.0, |_, _| below.clone());
+        plan.check("on the ground", |watch| matches!(watch.mode, Mode::Idle | Mode::Disarmed) && watch.stands());
+        plan
+    });
+}
+
+#[test]
+fn attitudes_and_rates_at_random_are_flown_and_caught_again() {
+    fly_all(&high(), |seed| {
+        let mut plan = Plan::new(seed);
+        let bytes = &mut plan.bytes;
+        bytes.wait(4.0);
+        let level =
+            SET_ATTITUDE_TARGET_DATA { q: [1.0, 0.0, 0.0, 0.0], thrust: 0.5, type_mask: 7, ..Default::default() };
+        bytes.attitude(0.5, &level);
+        bytes.mode(OFFBOARD, 0.0);
+        for _ in 0..8 {
+            let mut range = |most: f32| bytes.random.random_range(-most..most);
+            let q = nalgebra::UnitQuaternion::from_euler_angles(range(1.5), range(1.5), range(3.1));
+            let message = SET_ATTITUDE_TARGET_DATA {
+                q: [q.w, q.i, q.j, q.k],
+                body_roll_rate: range(4.0),
+                body_pitch_rate: range(4.0),
+                body_yaw_rate: range(2.0),
+                thrust: 0.5 + range(0.5),
+                type_mask: [7, 128, 0][bytes.random.random_range(0..3)],
+                ..SET_ATTITUDE_TARGET_DATA::DEFAULT
+            };
+            let lasts = bytes.random.random_range(0.3..1.5);
+            bytes.attitude(lasts, &message);
+        }
+        bytes.mode(AUTO, HOLD);
+        bytes.wait(45.0);
+        plan.check("standing", Watch::stands);
+        plan
+    });
+}
