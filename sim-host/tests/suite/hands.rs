@@ -135,3 +135,78 @@ fn a_refusal_is_told_once_and_as_the_pilots() {
     let said = cockpit.said();
     assert_eq!(said.iter().filter(|said| said.contains("pilot")).collect::<Vec<_>>(), [refused], "{said:?}");
 }
+
+/// A flight that a document shows, and what is printed.
+struct Shown {
+    cockpit: Cockpit,
+    printed: String,
+}
+
+impl Shown {
+    fn new() -> Self {
+        Self { cockpit: Cockpit::new(&load("field", &[])), printed: String::new() }
+    }
+
+    /// Flies until a time, s.
+    fn until(&mut self, until_s: f64, sticks: Option<Sticks>) {
+        self.cockpit.until((until_s * 1e3) as Tick, sticks);
+        self.printed.extend(self.cockpit.session.take_lines().iter().map(|line| format!("{line}\n")));
+    }
+
+    /// Presses something, and flies until a time, s.
+    fn press(&mut self, pressed: &str, order: Option<Order>, sticks: Sticks, until_s: f64) {
+        let now_s = f64::from(self.cockpit.next_tick()) * 1e-3;
+        self.printed += &format!("[{now_s:8.2} s] you: {pressed}\n");
+        order.into_iter().for_each(|order| self.cockpit.ask(order));
+        self.until(until_s, Some(sticks));
+    }
+
+    /// Compares it with the block of a document after `<!-- begin: NAME -->`, or writes that if `GLISSADE_GENERATE` is set.
+    fn is_shown(self, path: &str, name: &str) {
+        let path = format!("{}/../{path}", env!("CARGO_MANIFEST_DIR"));
+        let document = std::fs::read_to_string(&path).expect("a document");
+        let begin = format!("<!-- begin: {name} -->\n```\n");
+        let (before, rest) = document.split_once(&begin).expect("the block begins");
+        let (shown, after) = rest.split_once("```").expect("the block ends");
+        if std::env::var_os("GLISSADE_GENERATE").is_some() {
+            std::fs::write(path, [before, &begin, &self.printed, "```", after].concat()).expect("written");
+            return;
+        }
+        assert_eq!(shown, self.printed, "GLISSADE_GENERATE=1 writes it");
+    }
+}
+
+#[test]
+fn a_pilots_session_in_the_readme_is_what_is_printed() {
+    let mut shown = Shown::new();
+    let middle = Sticks::default();
+    shown.until(2.0, Some(middle));
+    shown.press("3 (position mode)", Some(Order::Select(Selected::Position)), middle, 3.0);
+    shown.press("m (arm)", Some(Order::ArmOrDisarm), middle, 4.0);
+    shown.press("w, held (throttle up)", None, Sticks { throttle: 1.0, ..middle }, 6.0);
+    shown.press("nothing", None, middle, 8.0);
+    shown.press("arrow up, held (forward)", None, Sticks { pitch: 1.0, ..middle }, 11.0);
+    shown.press("nothing", None, middle, 14.0);
+    shown.press("6 (return)", Some(Order::Select(Selected::Return)), middle, 45.0);
+    shown.is_shown("README.md", "pilot");
+}
+
+#[test]
+fn the_first_flight_in_the_docs_is_what_is_printed() {
+    let mut shown = Shown::new();
+    let lines = [
+        (3.0, "arm"),
+        (4.0, "takeoff 5"),
+        (10.0, "goto 5 0 5 90"),
+        (18.0, "status"),
+        (19.0, "fault gnss off"),
+        (32.0, ""),
+    ];
+    for (at_s, line) in lines {
+        shown.until(at_s, None);
+        if !line.is_empty() {
+            shown.cockpit.session.enter(line);
+        }
+    }
+    shown.is_shown("docs/serve.md", "first flight");
+}
