@@ -33,7 +33,7 @@ impl Commander {
     }
 
     /// Arms, and begins the flight that is intended.
-    fn arm(&mut self, force: bool, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
+    pub(super) fn arm(&mut self, force: bool, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
         if let State::Idle { .. } = self.state {
             self.state = State::Idle { disarm_at: self.unused_until(effective) };
             self.rest_intent();
@@ -58,8 +58,9 @@ impl Commander {
         self.battery_answered = super::Charge::Good;
         self.station.rearm();
         self.state = State::Idle { disarm_at: self.unused_until(effective) };
+        self.begin_to_spin(effective);
         if intent.leaves_ground() && launch.is_ok() {
-            self.engage(intent, effective, input);
+            self.launch(intent, effective, input);
         } else {
             self.rest_intent();
         }
@@ -117,7 +118,7 @@ impl Commander {
             }
             Intent::TakeOff { .. } | Intent::Follow => {
                 self.check_take_off(&intent, input)?;
-                self.engage(intent, effective, input);
+                self.launch(intent, effective, input);
             }
             Intent::GoTo(_) | Intent::Orbit(_) | Intent::Velocity { .. } | Intent::Return => {
                 return Err(Refusal::OnGround);
@@ -158,7 +159,7 @@ impl Commander {
     }
 
     /// Notes an intent, to be forgotten at `until`.
-    fn keep(&mut self, intent: Intent, until: Option<Tick>) {
+    pub(super) fn keep(&mut self, intent: Intent, until: Option<Tick>) {
         (self.intent, self.until) = (intent, until);
     }
 

@@ -156,8 +156,14 @@ impl Commander {
             let _ = self.decide(&request, effective, input);
         }
         match self.hand.wants_armed(&sticks) {
-            Some(true) if self.killed_until.is_none() => {
-                let _ = self.decide(&Request::Arm { force: false }, effective, input);
+            Some(true) => {
+                let refused = match self.killed_until {
+                    Some(_) => Err(Refusal::Killed),
+                    None => self.arm(false, effective, input),
+                };
+                if let Err(refusal) = refused {
+                    return Some(Event::ArmingRefused { refusal });
+                }
             }
             Some(false) => {
                 let _ = self.decide(&Request::Disarm, effective, input);
@@ -165,7 +171,7 @@ impl Commander {
             _ => {}
         }
         match (self.state, self.intent) {
-            (State::Idle { .. }, Intent::Manual(mode)) if lifts(mode, &sticks) => {
+            (State::Idle { .. }, Intent::Manual(mode)) if lifts(mode, &sticks) && self.has_spun_up(effective) => {
                 if let Some(mode) = self.possible(mode, input) {
                     self.state = State::Manual(mode);
                 }

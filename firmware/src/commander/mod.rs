@@ -22,6 +22,7 @@ mod motor_test;
 mod offboard;
 mod orbit;
 mod request;
+mod spin_up;
 mod state;
 mod station;
 mod steer;
@@ -182,6 +183,9 @@ pub struct Commander {
     /// How long it idles on the ground, s: after arming, for ever if that is not positive, and after a landing.
     unused_s: f32,
     landed_s: f32,
+    /// How long the rotors spin up after an arming, s, and until when they do.
+    spin_up_s: f32,
+    spins_until: Option<Tick>,
     /// The charge level whose failsafe has already acted. It acts once, so that the pilot can override it.
     battery_answered: Charge,
 }
@@ -243,6 +247,8 @@ impl Commander {
             hover_throttle: config.manual.hover_throttle,
             unused_s: 10.0,
             landed_s: 2.0,
+            spin_up_s: 0.0,
+            spins_until: None,
             battery_answered: Charge::Good,
         }
     }
@@ -262,6 +268,7 @@ impl Commander {
             settings::SYS_AUTOSTART => self.configured = value.int() != 0,
             settings::COM_DISARM_PRFLT => self.unused_s = value.real(),
             settings::COM_DISARM_LAND => self.landed_s = value.real(),
+            settings::COM_SPOOLUP_TIME => self.spin_up_s = value.real(),
             _ => {
                 self.station.set(index, value);
                 self.hand.set(index, value);
@@ -390,6 +397,7 @@ impl Commander {
 
     fn stop(&mut self) {
         self.state = State::Disarmed;
+        self.spins_until = None;
         self.home_is_set = false;
         self.speeds = ChosenSpeeds::default();
         self.rest_intent();
@@ -397,6 +405,7 @@ impl Commander {
 
     /// Transitions on arrival, touchdown and timeout.
     fn progress(&mut self, effective: Tick, input: &CommanderInput) {
+        self.spin_up(effective, input);
         let nav = &input.nav;
         let expires = self.until.is_some_and(|until| has_come(until, effective));
         if expires {

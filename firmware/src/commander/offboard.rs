@@ -84,7 +84,7 @@ impl Commander {
         match (self.state, self.intent, self.setpoint(now, input)) {
             (State::Idle { .. }, Intent::Offboard, Some(setpoint)) => {
                 let lifts = asks_up(setpoint, input.nav.position.z);
-                if lifts && self.check_stream(now, input).is_ok() {
+                if lifts && self.has_spun_up(effective) && self.check_stream(now, input).is_ok() {
                     self.state = State::Offboard;
                 }
                 None

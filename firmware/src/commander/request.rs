@@ -297,6 +297,11 @@ pub enum Event {
         /// Which, from 0.
         rotor: u8,
     },
+    /// Sticks or a switch have asked to arm, and the vehicle does not.
+    ArmingRefused {
+        /// Why.
+        refusal: Refusal,
+    },
     /// The outer partition hangs: the inner one holds level with a thrust below the weight.
     OuterHung,
     /// The commander hangs: the outer partition descends by what is known.

@@ -51,36 +51,48 @@ impl Request {
     }
 }
 
-impl Refusal {
-    /// The reason in a few words.
-    pub const fn reason(self) -> &'static str {
-        match self {
-            Self::NoNavigation => "no sensor data",
-            Self::NotAligned => "no valid attitude estimate",
-            Self::NoHeading => "no valid heading estimate",
-            Self::NoPosition => "no valid position estimate",
-            Self::NoHeight => "no valid height estimate",
-            Self::NotLevel => "vehicle not level",
-            Self::Moving => "vehicle moving",
-            Self::Battery => "battery too low",
-            Self::RotorFailed => "motor failed",
-            Self::NoGuidance => "guidance hung",
-            Self::InAir => "vehicle in the air",
-            Self::OnGround => "vehicle on the ground",
-            Self::Disarmed => "vehicle disarmed",
-            Self::Armed => "vehicle armed",
-            Self::Terminated => "flight terminated",
-            Self::NotAtStart => "not at the start point",
-            Self::NotConfigured => "vehicle not configured",
-            Self::Busy => "too many commands at once",
-            Self::Unsettled => "parameters are being set",
-            Self::Killed => "killed a second ago",
-            Self::KillSwitch => "kill switch on",
-            Self::NoSticks => "no sticks",
-            Self::ThrottleUp => "throttle stick is up",
-            Self::NoSetPoints => "no set-points",
+/// The reason of each refusal: alone, and as what is told when nobody waits for an answer.
+macro_rules! reasons {
+    ($($refusal:ident $reason:literal;)*) => {
+        impl Refusal {
+            /// The reason in a few words.
+            pub const fn reason(self) -> &'static str {
+                match self { $(Self::$refusal => $reason,)* }
+            }
+
+            /// The same, said of an arming.
+            const fn of_arming(self) -> &'static str {
+                match self { $(Self::$refusal => concat!("Arming refused: ", $reason),)* }
+            }
         }
-    }
+    };
+}
+
+reasons! {
+    NoNavigation "no sensor data";
+    NotAligned "no valid attitude estimate";
+    NoHeading "no valid heading estimate";
+    NoPosition "no valid position estimate";
+    NoHeight "no valid height estimate";
+    NotLevel "vehicle not level";
+    Moving "vehicle moving";
+    Battery "battery too low";
+    RotorFailed "motor failed";
+    NoGuidance "guidance hung";
+    InAir "vehicle in the air";
+    OnGround "vehicle on the ground";
+    Disarmed "vehicle disarmed";
+    Armed "vehicle armed";
+    Terminated "flight terminated";
+    NotAtStart "not at the start point";
+    NotConfigured "vehicle not configured";
+    Busy "too many commands at once";
+    Unsettled "parameters are being set";
+    Killed "killed a second ago";
+    KillSwitch "kill switch on";
+    NoSticks "no sticks";
+    ThrottleUp "throttle stick is up";
+    NoSetPoints "no set-points";
 }
 
 impl Event {
@@ -113,6 +125,7 @@ impl Event {
             Self::RotorFailed { rotor: 2 } => "Motor 3 failed: descending without yaw control",
             Self::RotorFailed { rotor: 3 } => "Motor 4 failed: descending without yaw control",
             Self::RotorFailed { .. } => "Motor failed: descending without yaw control",
+            Self::ArmingRefused { refusal } => refusal.of_arming(),
             Self::OuterHung => "Guidance hung: blind descent",
             Self::CommanderHung => "Commander hung: descending",
         }

@@ -16,7 +16,11 @@ pub(super) fn write_refusal(request: &str, reason: &str, out: &mut Writer) -> bo
 
 /// Sends an event; false if it does not fit.
 pub(super) fn write_event(event: Event, out: &mut Writer) -> bool {
-    write(&[event.text()], MavSeverity::MAV_SEVERITY_CRITICAL, out)
+    let severity = match event {
+        Event::ArmingRefused { .. } => MavSeverity::MAV_SEVERITY_WARNING,
+        _ => MavSeverity::MAV_SEVERITY_CRITICAL,
+    };
+    write(&[event.text()], severity, out)
 }
 
 /// Sends the concatenated text, truncated to [`LENGTH`]; false if the message does not fit.

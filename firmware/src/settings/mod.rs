@@ -90,12 +90,14 @@ pub const COM_RC_STICK_OV: usize = rows::index_of("COM_RC_STICK_OV");
 pub const COM_DISARM_PRFLT: usize = rows::index_of("COM_DISARM_PRFLT");
 /// Index of the time for which the rotors idle after a landing.
 pub const COM_DISARM_LAND: usize = rows::index_of("COM_DISARM_LAND");
+/// Index of the time for which the rotors spin up.
+pub const COM_SPOOLUP_TIME: usize = rows::index_of("COM_SPOOLUP_TIME");
 /// Index of the silence after which set-points are lost.
 pub const COM_OF_LOSS_T: usize = rows::index_of("COM_OF_LOSS_T");
 /// Index of what is done when they are.
 pub const COM_OBL_RC_ACT: usize = rows::index_of("COM_OBL_RC_ACT");
 /// Rows that stand in the settings alone, and concern the commander.
-pub(crate) const OF_COMMANDER: [usize; 18] = [
+pub(crate) const OF_COMMANDER: [usize; 19] = [
     COM_OF_LOSS_T,
     COM_OBL_RC_ACT,
     SYS_AUTOSTART,
@@ -114,6 +116,7 @@ pub(crate) const OF_COMMANDER: [usize; 18] = [
     COM_RC_STICK_OV,
     COM_DISARM_PRFLT,
     COM_DISARM_LAND,
+    COM_SPOOLUP_TIME,
 ];
 /// Index of the greatest tilt.
 pub(crate) const TILT_MAX: usize = rows::index_of("MPC_TILTMAX_AIR");

@@ -242,7 +242,7 @@ const ESTIMATOR: [Setting; 22] = reals! { Estimator "estimator":
 const ID: Domain = Domain::Whole(0, 16_777_215);
 
 /// What ground stations look for. They read most of them to show the vehicle's state; it cannot be changed here.
-const STATION: [Setting; 45] = own! {
+const STATION: [Setting; 46] = own! {
     "MAV_SYS_ID", "", Int(1), Domain::Whole(1, 250), Boot, "MAVLink system of this vehicle";
     "GL_AUTOPILOT", "", Int(12), Domain::OneOf(&[0, 12]), Boot, "Autopilot that ground stations are told: 12 PX4, 0 generic";
     "SYS_AUTOSTART", "", Int(0), Domain::Whole(0, 9_999_999), Disarmed, "Airframe; 0 for a vehicle that is not configured, and does not arm";
@@ -285,6 +285,7 @@ const STATION: [Setting; 45] = own! {
     "COM_RC_STICK_OV", "%", Real(30.0), Domain::Real(Range::Within(5.0, 80.0)), InFlight, "How far a stick has to be moved to end an automatic mode";
     "COM_DISARM_PRFLT", "s", Real(10.0), Domain::Real(Range::Within(-1.0, 600.0)), InFlight, "Time on the ground after arming until it disarms; 0 or less for never";
     "COM_DISARM_LAND", "s", Real(2.0), Domain::Real(Range::Within(0.0, 20.0)), InFlight, "Time for which the rotors idle after a landing";
+    "COM_SPOOLUP_TIME", "s", Real(0.0), Domain::Real(Range::Within(0.0, 30.0)), InFlight, "Time for which the rotors idle after arming before anything lifts the vehicle";
     "COM_OF_LOSS_T", "s", Real(1.0), Domain::Real(Range::Within(0.1, 60.0)), InFlight, "Silence after which a stream of set-points is lost";
     "COM_OBL_RC_ACT", "", Int(5), Domain::OneOf(&[0, 1, 2, 3, 4, 5]), InFlight, "What is done when set-points are lost: 0 position, 1 altitude, 2 stabilized mode, if there are sticks, 3 return, 4 land, 5 hold";
     "BAT1_R_INTERNAL", "Ohm", Real(0.005), Domain::Real(Range::Within(0.0, 0.2)), InFlight, "Resistance of a cell, with its share of the wires";

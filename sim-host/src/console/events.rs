@@ -115,7 +115,12 @@ impl Watch {
     pub fn look(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
         self.look_at_faults(flight, tell);
         if let Some(event) = flight.autopilot.inner.commander_output().event {
-            tell(Tone::Alarm, failsafe(event));
+            match event {
+                Event::ArmingRefused { refusal } => {
+                    tell(Tone::Plain, format!("sticks: arm: refused, {}", refusal.reason()));
+                }
+                _ => tell(Tone::Alarm, failsafe(event)),
+            }
             if let Event::RotorFailed { rotor } = event
                 && !has_failed(flight, usize::from(rotor))
             {

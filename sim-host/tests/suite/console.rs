@@ -125,7 +125,8 @@ fn a_whole_flight_is_commanded_by_lines_and_told_as_it_was() {
     assert_eq!(text(&bench.enter("arm")), "arm: accepted");
     bench.until("] armed: the rotors idle", 0.1);
     assert_eq!(text(&bench.enter("takeoff 5")), "take-off to 5 m: accepted");
-    bench.until("mode: idle → take-off", 0.1);
+    // Once the rotors have spun up.
+    bench.until("mode: idle → take-off", 1.1);
     bench.until("] in the air", 3.0);
     bench.until("mode: take-off → hold", 10.0);
     bench.fly(3.0);
@@ -280,7 +281,8 @@ fn a_take_off_that_arming_starts_is_told() {
     assert!(answer.contains("accepted, when armed within"), "{answer}");
     bench.enter("arm");
     bench.until("armed: the rotors idle", 1.0);
-    bench.until("mode: idle → take-off", 0.1);
+    // Once the rotors have spun up.
+    bench.until("mode: idle → take-off", 1.1);
 }
 
 #[test]

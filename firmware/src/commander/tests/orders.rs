@@ -1,6 +1,7 @@
 //! Motor test, termination, and how long an armed vehicle waits on the ground.
 
 use super::*;
+use crate::latest::{Stamped, Sticks, Switches};
 
 fn test(rotor: u8, part: f32, seconds: f32) -> Request {
     Request::TestMotor { test: MotorTest { rotor, part }, seconds }
@@ -67,4 +68,77 @@ fn an_armed_vehicle_that_is_not_used_disarms_after_the_time_that_is_set() {
     bench.ask(TAKE_OFF, &standing());
     bench.run(5.0, &hovering());
     assert!(bench.step(&hovering()).armed);
+}
+
+/// Standing, with a throttle.
+fn with_throttle(throttle: f32) -> CommanderInput {
+    let mut input = standing();
+    input.latest.sticks = Some(Stamped { value: Sticks { throttle, ..Sticks::CENTRED }, at: 0 });
+    input
+}
+
+#[test]
+fn nothing_lifts_the_vehicle_before_the_rotors_have_spun_up() {
+    let spinning = || {
+        let mut bench = Bench::new(State::Disarmed);
+        bench.commander.set(crate::settings::COM_SPOOLUP_TIME, Value::Real(1.0));
+        bench
+    };
+    // A take-off that is asked for meanwhile, or before, waits.
+    for before in [false, true] {
+        let mut bench = spinning();
+        if before {
+            assert_eq!(bench.ask(TAKE_OFF, &standing()), Outcome::Accepted);
+        }
+        bench.ask(ARM, &standing());
+        if !before {
+            assert_eq!(bench.ask(TAKE_OFF, &standing()), Outcome::Accepted);
+        }
+        bench.run(0.9, &standing());
+        assert_eq!(bench.step(&standing()).mode, Mode::Idle);
+        bench.run(0.1, &standing());
+        assert_eq!(bench.step(&standing()).mode, Mode::TakeOff);
+    }
+    // What is asked for in its place ends it.
+    let mut bench = spinning();
+    bench.ask(ARM, &standing());
+    bench.ask(TAKE_OFF, &standing());
+    bench.ask(Request::Hold, &standing());
+    bench.run(3.0, &standing());
+    assert_eq!(bench.step(&standing()).mode, Mode::Idle);
+    // A raised stick lifts it afterwards.
+    let mut bench = spinning();
+    bench.ask(Request::Manual(ManualMode::Position), &with_throttle(0.5));
+    bench.ask(ARM, &with_throttle(0.5));
+    bench.run(0.9, &with_throttle(1.0));
+    assert_eq!(bench.step(&with_throttle(1.0)).mode, Mode::Idle);
+    bench.run(0.1, &with_throttle(1.0));
+    assert_eq!(bench.step(&with_throttle(1.0)).mode, Mode::Position);
+    // A disarming begins anew.
+    let mut bench = spinning();
+    bench.ask(ARM, &standing());
+    bench.run(1.5, &standing());
+    bench.ask(Request::Disarm, &standing());
+    bench.ask(ARM, &standing());
+    bench.ask(TAKE_OFF, &standing());
+    assert_eq!(bench.step(&standing()).mode, Mode::Idle);
+}
+
+#[test]
+fn an_arming_by_switch_that_is_refused_is_told_once_with_its_reason() {
+    let mut bench = Bench::new(State::Disarmed);
+    let switched = |arm, kill| {
+        let mut input = with_throttle(0.0);
+        if let Some(sticks) = &mut input.latest.sticks {
+            sticks.value.switches = Switches { arm: Some(arm), kill, mode: None };
+        }
+        input
+    };
+    bench.run(0.2, &switched(false, true));
+    let events = bench.run(1.0, &switched(true, true));
+    assert_eq!(events, [Event::ArmingRefused { refusal: Refusal::KillSwitch }]);
+    assert_eq!(events[0].text(), "Arming refused: kill switch on");
+    bench.run(0.2, &switched(false, false));
+    assert_eq!(bench.run(1.0, &switched(true, false)), []);
+    assert!(bench.step(&switched(true, false)).armed);
 }
