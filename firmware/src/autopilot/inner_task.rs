@@ -88,6 +88,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             nav: *inner.nav(),
             thrust_n: config.airframe.weight_n(),
             directive: commander.directive,
+            ground: commander.ground,
             latest: Latest::default(),
             changes: Changes::new(),
         };
@@ -293,6 +294,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 nav: *self.inner.nav(),
                 thrust_n: self.inner.thrust_n(),
                 directive: self.directive(tick),
+                ground: self.commander.ground,
                 latest: self.latest,
                 changes: self.changes_for(|waiting| &mut waiting.outer),
             };

@@ -23,6 +23,17 @@ pub enum Known {
     Attitude,
 }
 
+/// How near the ground is to a vehicle that flies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ground {
+    /// It is not touched.
+    Far,
+    /// It may be touched at any time by a vehicle that sinks, or that gives little thrust.
+    Near,
+    /// Feet may be on it at any thrust.
+    Underfoot,
+}
+
 impl Known {
     /// What may be controlled with a health.
     pub fn of(health: &NavHealth) -> Self {
@@ -67,8 +78,6 @@ pub enum Directive {
         mode: ManualMode,
         /// Whether the vehicle is clear of the ground; while it is not, it is kept level.
         in_air: bool,
-        /// Whether the ground may be touched at any time.
-        may_touch: bool,
         /// Greatest speed downwards where the stick's centre holds the height, m/s.
         sink_m_s: f32,
     },
@@ -76,8 +85,6 @@ pub enum Directive {
     Offboard {
         /// Whether the vehicle is clear of the ground; while it is not, it is kept level.
         in_air: bool,
-        /// Whether the ground may be touched at any time.
-        may_touch: bool,
     },
     /// Fly a circle.
     Orbit(Orbit),

@@ -33,7 +33,7 @@ mod watch;
 mod tests;
 
 pub use decide::LAUNCH_HELD_S;
-pub use directive::{Directive, Known, Mode};
+pub use directive::{Directive, Ground, Known, Mode};
 pub use goal::{Goal, SpeedKind};
 pub use intent::{Intent, Override};
 pub use motor_test::MotorTest;
@@ -113,6 +113,8 @@ pub struct CommanderOutput {
     pub directive: Directive,
     /// The motor that turns though the vehicle is disarmed.
     pub motor_test: Option<MotorTest>,
+    /// How near the ground is to what guidance does.
+    pub ground: Ground,
     /// Whether the vehicle is on the ground.
     pub landed: bool,
     /// z of the ground where it was armed, or has landed since, m.
@@ -183,6 +185,8 @@ pub struct Commander {
     /// How long it idles on the ground, s: after arming, for ever if that is not positive, and after a landing.
     unused_s: f32,
     landed_s: f32,
+    /// Whether the ground was touched in a mode that does not lead there.
+    touched: bool,
     /// How long the rotors spin up after an arming, s, and until when they do.
     spin_up_s: f32,
     spins_until: Option<Tick>,
@@ -247,6 +251,7 @@ impl Commander {
             hover_throttle: config.manual.hover_throttle,
             unused_s: 10.0,
             landed_s: 2.0,
+            touched: false,
             spin_up_s: 0.0,
             spins_until: None,
             battery_answered: Charge::Good,
@@ -303,6 +308,7 @@ impl Commander {
             self.apply(change);
         }
         self.watch(released, input);
+        self.rest_if_down(effective, input);
         let mut replies = Replies::new();
         self.terminated = input.terminated;
         if input.kills != self.kills {
@@ -350,6 +356,7 @@ impl Commander {
             intent: self.intent,
             overridden: self.overridden,
             directive: self.directive(nav),
+            ground: self.ground_below(nav),
             motor_test: None,
             landed: !self.ground.is_airborne(),
             ground_m: self.ground_m,
@@ -391,7 +398,14 @@ impl Commander {
                 let descends = self.descends_by_hand(mode, released, input);
                 self.ground.step_flying(input, self.weight_n, descends);
             }
-            _ => self.ground.step_flying(input, self.weight_n, None),
+            State::TakeOff { .. } => self.ground.step_flying(input, self.weight_n, None),
+            _ => {
+                // Nobody is to come down, but near the ground the vehicle may: by a goal below it, a gust, a wrong height.
+                let comes_down = self.ground.is_airborne() && self.may_stand(&input.nav);
+                let known = comes_down.then(|| self.navigation.known());
+                self.ground.step_flying(input, self.weight_n, known);
+                self.touched = known.is_some() && !self.ground.is_airborne();
+            }
         }
     }
 
@@ -428,28 +442,30 @@ impl Commander {
                 let place = course.place_m.map(|[x, y]| Vector3::new(x, y, nav.position.z));
                 if place.is_none_or(is_at) { State::Land } else { self.state }
             }
-            State::Land | State::Descent | State::MotorOut if !self.ground.is_airborne() => {
-                self.ground_m = nav.position.z;
-                self.forget_intent();
-                State::Idle { disarm_at: Some(self.after_landing(effective)) }
-            }
-            State::Offboard
-                if !self.ground.is_airborne()
-                    && self.descends_by_setpoint(effective.wrapping_sub(COMMANDER.offset), input).is_some() =>
-            {
-                self.land(effective, nav.position.z)
-            }
-            State::Manual(mode)
-                if !self.ground.is_airborne()
-                    && self.descends_by_hand(mode, effective.wrapping_sub(COMMANDER.offset), input).is_some() =>
-            {
-                self.land(effective, nav.position.z)
-            }
             state => state,
         };
     }
 
-    /// On the ground at a height (z, m) in a mode that stays.
+    /// What has come down idles. Before the orders: none of them is for a vehicle that flies any more.
+    fn rest_if_down(&mut self, effective: Tick, input: &CommanderInput) {
+        let (now, height) = (effective.wrapping_sub(COMMANDER.offset), input.nav.position.z);
+        let touched = core::mem::take(&mut self.touched);
+        if self.ground.is_airborne() {
+            return;
+        }
+        self.state = match self.state {
+            State::Land | State::Descent | State::MotorOut => {
+                self.forget_intent();
+                self.land(effective, height)
+            }
+            State::Offboard if self.descends_by_setpoint(now, input).is_some() => self.land(effective, height),
+            State::Manual(mode) if self.descends_by_hand(mode, now, input).is_some() => self.land(effective, height),
+            _ if touched => self.land(effective, height),
+            state => state,
+        };
+    }
+
+    /// On the ground at a height (z, m); a mode that stays is kept.
     fn land(&mut self, effective: Tick, height: f32) -> State {
         self.ground_m = height;
         self.rest_intent();

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Commander, Course, Directive, Known, State};
+use super::{Commander, Course, Directive, Ground, Known, State};
 use crate::guidance::setpoint::{self, Speeds};
 use crate::math;
 use crate::signals::NavState;
@@ -11,6 +11,10 @@ use crate::signals::NavState;
 const FALLS_M_S: f32 = 0.6;
 /// Below this height, m, a descent slows down to the touchdown speed at the latest.
 const FINAL_HEIGHT_M: f32 = 2.0;
+/// Below this height, m, feet may stand: the height's error, and what a vehicle tilts.
+const UNDERFOOT_M: f32 = 0.15;
+/// A goal below this height over the ground, m, leads to it.
+const LEADS_DOWN_M: f32 = 0.3;
 /// Part of the vertical acceleration with which a descent slows down: the vehicle is late, and catches up with the rest.
 const BRAKING_PART: f32 = 0.5;
 /// At this height, m, it has slowed down to it. Chosen: more than the height's error and what the vehicle lags behind.
@@ -32,15 +36,18 @@ impl Commander {
             State::TakeOff { to_m, .. } => climb(to_m, settings.take_off_m_s),
             State::Hold => Directive::HOLD,
             State::Orbit(orbit) => Directive::Orbit(orbit),
-            State::Offboard => Directive::Offboard { in_air: self.ground.is_clear(), may_touch: self.may_stand(nav) },
+            State::Offboard => Directive::Offboard { in_air: self.ground.is_clear() },
             State::Manual(mode) => Directive::Manual {
                 mode,
                 in_air: self.ground.is_clear(),
-                may_touch: self.may_stand(nav),
                 sink_m_s: self.rate_of_descent(settings.sink_m_s, height),
             },
             State::GoTo(course) | State::Approach(course) => self.steer(&course, height),
-            State::Velocity { velocity, yaw_rate } => Directive::Velocity { velocity, yaw_rate },
+            State::Velocity { mut velocity, yaw_rate } => {
+                let sinks = math::max(-velocity.z, 0.0);
+                velocity.z = math::max(velocity.z, -self.rate_of_descent(sinks, height));
+                Directive::Velocity { velocity, yaw_rate }
+            }
             State::Join => go_to(self.entry, Some(self.entry_yaw)),
             State::Follow { since } => Directive::Follow { since },
             State::Return { at_m, climbs: true } => climb(at_m, settings.climb_m_s),
@@ -54,7 +61,10 @@ impl Commander {
     /// The directive to go on a course, at a height (z, m).
     fn steer(&self, course: &Course, height: f32) -> Directive {
         let (height_m, yaw) = (course.height_m, course.yaw);
-        let speeds = self.speeds.within(&self.settings);
+        let mut speeds = self.speeds.within(&self.settings);
+        if self.over_ground(height_m) < LEADS_DOWN_M {
+            speeds.down_m_s = self.rate_of_descent(speeds.down_m_s, height);
+        }
         let Some([x, y]) = course.place_m else {
             let speed_m_s = if height_m > height { speeds.up_m_s } else { speeds.down_m_s };
             return Directive::Climb { height_m, speed_m_s, yaw };
@@ -80,9 +90,27 @@ impl Commander {
 
     /// Whether feet may be on the ground: where it may be touched, unless the vehicle is seen to rise or to fall. So one that
     /// falls with little thrust below the height of its home is not taken for one that stands.
-    fn may_stand(&self, nav: &NavState) -> bool {
+    pub(super) fn may_stand(&self, nav: &NavState) -> bool {
         let falls = self.navigation.known() < Known::Attitude && math::abs(nav.velocity.z) > FALLS_M_S;
         self.may_touch(nav.position.z) && !falls
+    }
+
+    /// How near the ground is. A take-off leaves it, and a landing comes down gently anyway.
+    pub(super) fn ground_below(&self, nav: &NavState) -> Ground {
+        let flies = match self.state {
+            State::Disarmed | State::Idle { .. } | State::TakeOff { .. } => false,
+            State::Land | State::Descent | State::MotorOut => false,
+            // Some begin on the ground.
+            State::Follow { .. } => self.ground.is_airborne(),
+            _ => true,
+        };
+        if !flies || !self.may_stand(nav) {
+            Ground::Far
+        } else if self.over_ground(nav.position.z) < UNDERFOOT_M {
+            Ground::Underfoot
+        } else {
+            Ground::Near
+        }
     }
 
     /// The rate of a descent at a height (z, m): no more than `rate_m_s`, and slow near the ground.

@@ -17,7 +17,7 @@ use nalgebra::{Vector3, Vector4};
 use self::by_hand::ByHand;
 use self::orbit::Circling;
 
-use crate::commander::Directive;
+use crate::commander::{Directive, Ground};
 use crate::config::{FlightConfig, ModeSettings};
 use crate::control::flatness::{self, ForceProfile, Heading};
 use crate::control::law::{LawState, PositionDemand, PositionInput, PositionLaw};
@@ -41,6 +41,8 @@ pub struct OuterInput {
     pub thrust_n: f32,
     /// The directive of the commander.
     pub directive: Directive,
+    /// How near it takes the ground to be.
+    pub ground: Ground,
     /// Sticks, and what else counts by its latest value.
     pub latest: Latest,
     /// Settings to take over before the job.
@@ -255,23 +257,23 @@ impl<P: PositionLaw> Outer<P> {
             self.catch(false);
         }
         match input.directive {
-            Directive::Manual { mode, in_air, may_touch, sink_m_s } => {
+            Directive::Manual { mode, in_air, sink_m_s } => {
                 let output = self.fly_by_hand(effective, input, (mode, in_air, sink_m_s));
-                OuterOutput {
-                    authority: self.authority(&output, mode.has_direct_thrust(), in_air, may_touch),
-                    ..output
-                }
+                self.near_ground(output, input.ground, mode.has_direct_thrust(), in_air)
             }
-            Directive::Offboard { in_air, may_touch } => {
+            Directive::Offboard { in_air } => {
                 let output = self.follow_setpoint(effective, input, in_air);
                 let has_direct_thrust = matches!(self.source, Source::ByHand(_));
-                OuterOutput { authority: self.authority(&output, has_direct_thrust, in_air, may_touch), ..output }
+                self.near_ground(output, input.ground, has_direct_thrust, in_air)
             }
-            Directive::Orbit(orbit) => self.fly_orbit(effective, input, &orbit),
+            Directive::Orbit(orbit) => {
+                let output = self.fly_orbit(effective, input, &orbit);
+                self.near_ground(output, input.ground, false, true)
+            }
             Directive::Stop | Directive::Idle => self.rest(&input.nav),
             Directive::Follow { since } => {
                 let reference = self.trajectory(effective.wrapping_sub(since));
-                self.follow(effective, input, &reference)
+                self.lead(effective, input, &reference)
             }
             Directive::Descend { rate_m_s, known, heading_free } => {
                 let target = velocity(Vector3::new(0.0, 0.0, -rate_m_s), 0.0);
@@ -283,26 +285,37 @@ impl<P: PositionLaw> Outer<P> {
             }
             Directive::GoTo { position, yaw, speeds } => {
                 let reference = self.steer(input, &Target::Place { position, yaw, speeds });
-                self.follow(effective, input, &reference)
+                self.lead(effective, input, &reference)
             }
             Directive::Velocity { velocity: wanted, yaw_rate } => {
                 let reference = self.steer(input, &velocity(wanted, yaw_rate));
-                self.follow(effective, input, &reference)
+                self.lead(effective, input, &reference)
             }
             Directive::Climb { height_m, speed_m_s, yaw } => {
                 let reference = self.steer(input, &Target::Height { height_m, speed_m_s, yaw });
-                self.follow(effective, input, &reference)
+                self.lead(effective, input, &reference)
             }
         }
     }
 
-    /// The authority where the ground may be touched by whom the vehicle obeys. Feet on the ground bear a part of the weight
-    /// and turn the vehicle otherwise than its model says: with full authority it would rock until it tips over.
-    fn authority(&self, output: &OuterOutput, has_direct_thrust: bool, in_air: bool, may_touch: bool) -> Authority {
+    /// Follows a reference that guidance has made.
+    fn lead(&mut self, effective: Tick, input: &OuterInput, reference: &FlatReference) -> OuterOutput {
+        let output = self.follow(effective, input, reference);
+        self.near_ground(output, input.ground, false, true)
+    }
+
+    /// An output with the authority that the ground leaves. Feet on the ground bear a part of the weight and turn the vehicle
+    /// otherwise than its model says: with full authority it would rock until it tips over.
+    fn near_ground(&self, output: OuterOutput, ground: Ground, has_direct_thrust: bool, in_air: bool) -> OuterOutput {
         let lands_below = if has_direct_thrust { LANDS_BY_HAND } else { LANDS } * self.mass_kg * self.model.gravity;
         let is_light = output.attitude.thrust_n < lands_below;
         let sinks = !has_direct_thrust && output.wanted_velocity.z < SINKS_M_S;
-        if !in_air || (may_touch && (is_light || sinks)) { Authority::Gentle } else { Authority::Full }
+        let may_stand = match ground {
+            Ground::Far => false,
+            Ground::Near => is_light || sinks,
+            Ground::Underfoot => is_light || sinks || !has_direct_thrust,
+        };
+        OuterOutput { authority: if !in_air || may_stand { Authority::Gentle } else { Authority::Full }, ..output }
     }
 
     /// Output on the ground, where nothing is controlled.

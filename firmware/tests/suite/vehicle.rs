@@ -2,7 +2,7 @@
 
 use firmware::airframe::Airframe;
 use firmware::commander::{
-    Command, Commander, CommanderInput, CommanderOutput, Commands, Event, Mode, Origin, Request,
+    Command, Commander, CommanderInput, CommanderOutput, Commands, Event, Ground, Mode, Origin, Request,
 };
 use firmware::config::FlightConfig;
 use firmware::control::attitude::{self, SlidingAttitude};
@@ -82,7 +82,14 @@ impl Vehicle {
         let told = commander.initial_output();
         let mut outer = Outer::new(config, SlidingPosition::new(&airframe, &config.position)).expect("valid");
         let (directive, changes) = (told.directive, Changes::new());
-        let input = OuterInput { nav, thrust_n: airframe.weight_n(), directive, latest: Latest::default(), changes };
+        let input = OuterInput {
+            nav,
+            thrust_n: airframe.weight_n(),
+            directive,
+            ground: Ground::Far,
+            latest: Latest::default(),
+            changes,
+        };
         Self {
             body: Body { airframe, nav },
             inner: Inner::new(config, SlidingAttitude::new(&airframe, &config.attitude)).expect("valid"),
@@ -126,7 +133,14 @@ impl Vehicle {
         }
         if self.tick.is_multiple_of(OUTER.period) {
             let (directive, changes) = (self.told.directive, Changes::new());
-            let input = OuterInput { nav, thrust_n: self.inner.thrust_n(), directive, latest: self.latest, changes };
+            let input = OuterInput {
+                nav,
+                thrust_n: self.inner.thrust_n(),
+                directive,
+                ground: self.told.ground,
+                latest: self.latest,
+                changes,
+            };
             self.reference = self.outer.step(self.tick, &input);
         }
         let output = match self.reference.authority {

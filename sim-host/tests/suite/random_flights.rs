@@ -8,14 +8,14 @@ use std::thread;
 
 use firmware::commander::Mode;
 use firmware::config::FlightConfig;
-use glissade_dialect::{SET_ATTITUDE_TARGET_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA};
+use glissade_dialect::{COMMAND_INT_DATA, MavCmd, SET_ATTITUDE_TARGET_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA};
 use rand::RngExt as _;
 use sim_host::flight;
 use sim_host::record::{Activity, Recorder, Row};
 use sim_host::scenario::Scenario;
 use sim_host::sil::Lockstep as _;
 
-use crate::common::by_bytes::{ACRO, ALTITUDE, AUTO, Bytes, CENTRED, DOWN, HOLD, OFFBOARD, POSITION, STABILIZED};
+use crate::common::by_bytes::{ACRO, ALTITUDE, AUTO, Bytes, CENTRED, DOWN, HOLD, LAND, OFFBOARD, POSITION, STABILIZED};
 use crate::common::load::load;
 
 /// A field with gusts, its sensors, and a vehicle that stands on it.
@@ -112,6 +112,8 @@ impl Watch {
         let (tilt, speed, up) = (self.tilt_deg(), self.speed(), row.velocity[2]);
         let all = row.position.iter().chain(&row.velocity).chain(&row.attitude).chain(&row.rates);
         self.at_most("numbers that are none", all.filter(|value| !value.is_finite()).count() as f64, 0.0);
+        let is_low = row.position[2] < 0.1 && !matches!(self.mode, Mode::Stabilized | Mode::Acro) && !self.free;
+        self.at_most("tilt near the ground, °,", if is_low { tilt } else { 0.0 }, 35.0);
         match self.mode {
             Mode::Disarmed | Mode::Idle => self.at_most("tilt on the ground, °,", tilt, 12.0),
             Mode::Acro => {
@@ -369,6 +371,105 @@ fn set_points_below_the_ground_lead_to_it_gently() {
         let below = SET_POSITION_TARGET_LOCAL_NED_DATA { x, y, z, vx, vy, vz, type_mask, ..Default::default() };
         plan.bytes.stream(25.0, |_, _| below.clone());
         plan.check("on the ground", |watch| matches!(watch.mode, Mode::Idle | Mode::Disarmed) && watch.stands());
+        plan
+    });
+}
+
+/// What may be asked for anywhere, and leads nowhere near the ground by itself.
+const ANYWHERE: [MavCmd; 4] = [
+    MavCmd::MAV_CMD_DO_SET_MODE,
+    MavCmd::MAV_CMD_DO_REPOSITION,
+    MavCmd::MAV_CMD_DO_ORBIT,
+    MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH,
+];
+
+/// A landing that is broken off at the last moment, at any height, once or several times.
+#[test]
+fn a_landing_that_is_broken_off_ends_in_the_air_or_standing() {
+    fly_all(&standing(), |seed| {
+        let mut plan = Plan::new(seed);
+        let bytes = &mut plan.bytes;
+        bytes.wait(4.0);
+        bytes.arm();
+        bytes.wait(0.3);
+        bytes.take_off(2.0);
+        bytes.wait(7.0);
+        for _ in 0..bytes.random.random_range(1..4) {
+            bytes.mode(AUTO, LAND);
+            let lasts = bytes.random.random_range(2.0..6.5);
+            bytes.wait(lasts);
+            let order = ANYWHERE[bytes.random.random_range(0..ANYWHERE.len())];
+            let hold = [1.0, AUTO, HOLD, 0.0];
+            let open = [f32::NAN; 4];
+            bytes.command(order, if order == MavCmd::MAV_CMD_DO_SET_MODE { hold } else { open });
+            let lasts = bytes.random.random_range(1.0..5.0);
+            bytes.wait(lasts);
+        }
+        bytes.mode(AUTO, LAND);
+        bytes.wait(40.0);
+        plan.check("standing", |watch| watch.stands() && !watch.armed);
+        plan
+    });
+}
+
+/// A place below the ground, by a height over home or above the sea, as many a script has it.
+#[test]
+fn a_place_or_a_circle_below_the_ground_leads_to_it_gently() {
+    fly_all(&standing(), |seed| {
+        let mut plan = Plan::new(seed);
+        let bytes = &mut plan.bytes;
+        bytes.wait(4.0);
+        bytes.arm();
+        bytes.wait(0.3);
+        bytes.take_off(5.0);
+        bytes.wait(10.0);
+        let mut range = |low: f32, high: f32| bytes.random.random_range(low..high);
+        // MAV_FRAME_GLOBAL_RELATIVE_ALT, MAV_FRAME_GLOBAL.
+        let (relative, above_sea) = (3, 0);
+        let (frame, height) = [(relative, range(-50.0, 0.1)), (above_sea, range(0.0, 480.0))][range(0.0, 2.0) as usize];
+        let circles = range(0.0, 3.0) > 2.0;
+        let command = if circles { MavCmd::MAV_CMD_DO_ORBIT } else { MavCmd::MAV_CMD_DO_REPOSITION } as u16;
+        let [param1, param2] = if circles { [5.0, 2.0] } else { [-1.0, 1.0] };
+        let (x, y) = (i32::MAX, i32::MAX);
+        let [param3, param4] = if circles { [0.0, 0.0] } else { [0.0, f32::NAN] };
+        let (target_system, frame) = (1, frame);
+        let order = COMMAND_INT_DATA {
+            command,
+            frame,
+            param1,
+            param2,
+            param3,
+            param4,
+            x,
+            y,
+            z: height,
+            target_system,
+            ..Default::default()
+        };
+        bytes.send(&order);
+        bytes.wait(35.0);
+        plan.check("standing", |watch| watch.stands() && !watch.armed);
+        plan
+    });
+}
+
+/// A stream that ends while the vehicle sinks near the ground.
+#[test]
+fn a_stream_that_is_lost_near_the_ground_ends_in_the_air_or_standing() {
+    fly_all(&standing(), |seed| {
+        let mut plan = offboard(seed, 4.0);
+        let sinking = |sink: f32| SET_POSITION_TARGET_LOCAL_NED_DATA {
+            vz: sink,
+            type_mask: 0b1001_1100_0111,
+            ..Default::default()
+        };
+        let (sink, lasts) = (plan.bytes.random.random_range(0.5..1.5_f32), plan.bytes.random.random_range(0.5..1.0));
+        plan.bytes.stream(lasts * 4.0 / f64::from(sink), |_, _| sinking(sink));
+        plan.bytes.wait(6.0);
+        plan.check("standing", Watch::stands);
+        plan.bytes.mode(AUTO, LAND);
+        plan.bytes.wait(25.0);
+        plan.check("landed", |watch| watch.stands() && !watch.armed);
         plan
     });
 }

@@ -4,7 +4,7 @@ use core::hint::black_box;
 
 use firmware::airframe::ROTORS;
 use firmware::board::mps2::counter::{self, Counter, Mark};
-use firmware::commander::Directive;
+use firmware::commander::{Directive, Ground};
 use firmware::config::FlightConfig;
 use firmware::control::attitude::SlidingAttitude;
 use firmware::control::mixer::Mixer;
@@ -141,6 +141,7 @@ impl Flight {
             nav: self.plant.nav,
             thrust_n: self.inner.thrust_n(),
             directive: Directive::Follow { since: 0 },
+            ground: Ground::Far,
             latest: Latest::default(),
             changes: Changes::new(),
         };

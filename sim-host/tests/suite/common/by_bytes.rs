@@ -21,6 +21,7 @@ pub(crate) const ACRO: f32 = 5.0;
 pub(crate) const OFFBOARD: f32 = 6.0;
 pub(crate) const STABILIZED: f32 = 7.0;
 pub(crate) const HOLD: f32 = 3.0;
+pub(crate) const LAND: f32 = 6.0;
 
 /// Ticks between two messages of sticks, and of set-points.
 const STICKS: usize = 40;
