@@ -101,19 +101,20 @@ def test_an_orbit_without_a_speed_has_the_usual_one(station):
 
 
 def test_it_orbits_by_the_sdk(pilot):
-    """As the example of do_orbit: two metres at a metre a second round where it hovers, at the height that it has."""
+    """As the example of do_orbit: two metres at a metre a second round where it hovers, at a height above the sea."""
     from mavsdk_grpc.action import OrbitYawBehavior
 
     pilot.take_off()
     begun = pilot.true.now()
     behaviour = OrbitYawBehavior.HOLD_FRONT_TO_CIRCLE_CENTER
-    pilot.act("do_orbit", 2.0, 1.0, behaviour, *place(begun.north, begun.east), math.nan)
-    pilot.true.pause(8)
+    height = pilot.do(pilot.first("position", bool)).absolute_altitude_m + 3
+    pilot.act("do_orbit", 2.0, 1.0, behaviour, *place(begun.north, begun.east), height)
+    pilot.true.pause(10)
     # A whole turn: its middle is where the vehicle takes the centre to be, off by the error of its satellites.
     truths = pilot.true.during(4 * math.pi)
     middle = [sum(truth[axis] for truth in truths) / len(truths) for axis in (1, 2)]
     assert begun.distance(*middle) < NEAR_M
-    assert all(abs(truth.distance(*middle) - 2) < 0.5 for truth in truths)
+    assert all(abs(truth.distance(*middle) - 2) < 0.5 and abs(truth.up - begun.up - 3) < HEIGHT_M for truth in truths)
     pilot.act("hold")
     pilot.land()
 

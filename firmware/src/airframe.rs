@@ -157,6 +157,15 @@ impl Airframe {
         lift * self.omega_max_rad_s * self.omega_max_rad_s
     }
 
+    /// Angular acceleration about the slower of roll and pitch with all the torque that the rotors can give, rad/s².
+    pub fn tilting_rad_s2(&self) -> f32 {
+        let [_, roll, pitch, _] = self.geometry.rows();
+        let [about_x, about_y, _] = self.inertia_kg_m2;
+        let torque = |row: [f32; ROTORS]| row.iter().map(|arm| math::max(*arm, 0.0)).sum::<f32>();
+        let square = self.omega_max_rad_s * self.omega_max_rad_s;
+        square * math::min(torque(roll) / about_x, torque(pitch) / about_y)
+    }
+
     /// Ωr, the sum of the rotors' spins about +z (Eq. 2): −ω1 + ω2 − ω3 + ω4 on the plus layout.
     #[inline]
     pub fn rotor_spin_rad_s(&self, omega_rad_s: &[f32; ROTORS]) -> f32 {

@@ -21,7 +21,7 @@ impl Commander {
         let done = match (request, Intent::of(request)) {
             (_, Some(intent)) => self.intend(intent, effective, input),
             (Request::Arm { force }, None) => self.arm(*force, effective, input),
-            (Request::TestMotor { test, seconds }, None) => self.test_motor(*test, *seconds, effective),
+            (Request::TestMotor { test, seconds }, None) => self.test_motor(*test, *seconds, effective, input),
             (Request::SetHome { position_m }, None) => self.set_home(*position_m, input),
             (Request::Speed { kind, speed_m_s }, None) => {
                 self.speeds.choose(*kind, *speed_m_s);
@@ -142,6 +142,10 @@ impl Commander {
                 return Ok(());
             }
             (State::MotorOut, _) => return Err(Refusal::RotorFailed),
+            // A turn is no reason to end a landing, a circle, or what a failure has begun.
+            (state, Intent::GoTo(goal)) if goal.is_turn() && !matches!(state, State::Hold | State::GoTo(_)) => {
+                return Err(Refusal::NotHolding);
+            }
             // A take-off takes another height.
             (State::TakeOff { .. }, Intent::TakeOff { .. }) | (_, Intent::Land) => {}
             (_, Intent::TakeOff { .. }) => return Err(Refusal::InAir),

@@ -27,6 +27,11 @@ impl Goal {
         Self { place_m: Some([x, y]), height_m: Some(z), yaw_rad: Some(yaw_rad), speed_m_s: None }
     }
 
+    /// Whether it asks for a heading alone.
+    pub(super) fn is_turn(&self) -> bool {
+        self.yaw_rad.is_some() && self.place_m.is_none() && self.height_m.is_none()
+    }
+
     /// x, y, z, ψ and the speed; NaN for what is left open.
     pub fn numbers(&self) -> [f32; 5] {
         let [x, y] = self.place_m.unwrap_or([f32::NAN; 2]);

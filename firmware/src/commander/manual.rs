@@ -25,6 +25,8 @@ const LIFTS_FROM_CENTRE: f32 = 0.65;
 const LANDS_BELOW: f32 = 0.4;
 /// Yaw stick at its end, for a gesture, and how long it lasts, s.
 const AT_END: f32 = 0.9;
+/// And the other one is in the middle within this.
+const CENTRE: f32 = 0.2;
 const GESTURE_S: f32 = 1.0;
 /// Bits of `COM_RC_OVERRIDE`.
 const ENDS_AUTOMATIC: i32 = 1;
@@ -88,11 +90,11 @@ impl Hand {
         input.latest.sticks_within(now, self.loss_s)
     }
 
-    /// What a switch asks for that was moved.
-    fn switched(&mut self, sticks: &Sticks) -> Option<Request> {
+    /// What a switch asks for that was moved, or that is seen for the first time while `disarmed`.
+    fn switched(&mut self, sticks: &Sticks, disarmed: bool) -> Option<Request> {
         let position = sticks.switches.mode;
         let before = core::mem::replace(&mut self.mode_before, position);
-        if position == before || before.is_none() {
+        if position == before || (before.is_none() && !disarmed) {
             return None;
         }
         let number = self.switch_modes.get(usize::from(position?))?;
@@ -117,7 +119,8 @@ impl Hand {
         if switch != before && before.is_some() {
             return switch;
         }
-        if !self.gestures || sticks.throttle > DOWN || math::abs(sticks.yaw) < AT_END {
+        let leans = math::max(math::abs(sticks.roll), math::abs(sticks.pitch)) > CENTRE;
+        if !self.gestures || sticks.throttle > DOWN || math::abs(sticks.yaw) < AT_END || leans {
             self.gesture = 0;
             return None;
         }
@@ -151,7 +154,7 @@ impl Commander {
             (self.hand.gesture, self.hand.rest) = (0, None);
             return self.answer_lost_sticks(effective, input);
         };
-        if let Some(request) = self.hand.switched(&sticks) {
+        if let Some(request) = self.hand.switched(&sticks, self.state == State::Disarmed) {
             // A mode that is not possible now is not taken; what the vehicle does is told all the time.
             let _ = self.decide(&request, effective, input);
         }
@@ -240,12 +243,16 @@ impl Commander {
         }
     }
 
+    /// Whether no kill switch is on.
+    pub(super) fn check_kill_switch(&self, now: Tick, input: &CommanderInput) -> Result<(), Refusal> {
+        let killed = self.hand.sticks(now, input).is_some_and(|sticks| sticks.switches.kill);
+        if killed { Err(Refusal::KillSwitch) } else { Ok(()) }
+    }
+
     /// Whether sticks and set-points let the vehicle be armed: a mode that needs them has them, and sticks would not lift it.
     pub(super) fn check_sticks(&self, now: Tick, input: &CommanderInput) -> Result<(), Refusal> {
+        self.check_kill_switch(now, input)?;
         let sticks = self.hand.sticks(now, input);
-        if sticks.is_some_and(|sticks| sticks.switches.kill) {
-            return Err(Refusal::KillSwitch);
-        }
         let mode = match self.intent {
             Intent::Manual(mode) => mode,
             Intent::Offboard => return self.check_stream(now, input),

@@ -185,8 +185,6 @@ pub struct Commander {
     /// How long it idles on the ground, s: after arming, for ever if that is not positive, and after a landing.
     unused_s: f32,
     landed_s: f32,
-    /// Whether the ground was touched in a mode that does not lead there.
-    touched: bool,
     /// How long the rotors spin up after an arming, s, and until when they do.
     spin_up_s: f32,
     spins_until: Option<Tick>,
@@ -251,7 +249,6 @@ impl Commander {
             hover_throttle: config.manual.hover_throttle,
             unused_s: 10.0,
             landed_s: 2.0,
-            touched: false,
             spin_up_s: 0.0,
             spins_until: None,
             battery_answered: Charge::Good,
@@ -404,7 +401,7 @@ impl Commander {
                 let comes_down = self.ground.is_airborne() && self.may_stand(&input.nav);
                 let known = comes_down.then(|| self.navigation.known());
                 self.ground.step_flying(input, self.weight_n, known);
-                self.touched = known.is_some() && !self.ground.is_airborne();
+                self.ground.touched = known.is_some() && !self.ground.is_airborne();
             }
         }
     }
@@ -449,7 +446,7 @@ impl Commander {
     /// What has come down idles. Before the orders: none of them is for a vehicle that flies any more.
     fn rest_if_down(&mut self, effective: Tick, input: &CommanderInput) {
         let (now, height) = (effective.wrapping_sub(COMMANDER.offset), input.nav.position.z);
-        let touched = core::mem::take(&mut self.touched);
+        let touched = core::mem::take(&mut self.ground.touched);
         if self.ground.is_airborne() {
             return;
         }

@@ -2,8 +2,9 @@
 
 use core::ops::RangeInclusive;
 
-use super::{Commander, Refusal, State, has_come, ticks};
+use super::{Commander, CommanderInput, Refusal, State, has_come, ticks};
 use crate::airframe::ROTORS;
+use crate::schedule::COMMANDER;
 use crate::signals::Tick;
 
 /// Accepted speeds, as a fraction of the greatest: with the last the rotor has a tenth of its thrust.
@@ -28,10 +29,18 @@ impl MotorTest {
 }
 
 impl Commander {
-    pub(super) fn test_motor(&mut self, test: MotorTest, seconds: f32, effective: Tick) -> Result<(), Refusal> {
+    pub(super) fn test_motor(
+        &mut self,
+        test: MotorTest,
+        seconds: f32,
+        effective: Tick,
+        input: &CommanderInput,
+    ) -> Result<(), Refusal> {
         if self.state != State::Disarmed {
             return Err(Refusal::Armed);
         }
+        self.check_terminated()?;
+        self.check_kill_switch(effective.wrapping_sub(COMMANDER.offset), input)?;
         self.motor_test = Some((test, effective.wrapping_add(ticks(seconds))));
         Ok(())
     }

@@ -167,6 +167,8 @@ pub enum Outcome {
 /// Why a command was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
+    /// The vehicle does something that this would end.
+    NotHolding,
     /// No valid motion from the sensors.
     NoNavigation,
     /// No valid estimate of roll and pitch.

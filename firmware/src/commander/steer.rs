@@ -98,8 +98,12 @@ impl Commander {
     /// How near the ground is. A take-off leaves it, and a landing comes down gently anyway.
     pub(super) fn ground_below(&self, nav: &NavState) -> Ground {
         let flies = match self.state {
-            State::Disarmed | State::Idle { .. } | State::TakeOff { .. } => false,
-            State::Land | State::Descent | State::MotorOut => false,
+            State::Disarmed
+            | State::Idle { .. }
+            | State::TakeOff { .. }
+            | State::Land
+            | State::Descent
+            | State::MotorOut => false,
             // Some begin on the ground.
             State::Follow { .. } => self.ground.is_airborne(),
             _ => true,

@@ -69,6 +69,7 @@ macro_rules! reasons {
 }
 
 reasons! {
+    NotHolding "possible in hold only";
     NoNavigation "no sensor data";
     NotAligned "no valid attitude estimate";
     NoHeading "no valid heading estimate";
@@ -184,6 +185,7 @@ mod tests {
             Refusal::NoSticks,
             Refusal::ThrottleUp,
             Refusal::NoSetPoints,
+            Refusal::NotHolding,
         ];
         for (request, refusal) in requests.iter().flat_map(|request| refusals.map(|refusal| (request, refusal))) {
             let text = format!("{} refused: {}", request.name(), refusal.reason());

@@ -163,6 +163,8 @@ pub(super) struct GroundWatch {
     airborne: bool,
     /// Whether it is high enough to lean.
     clear: bool,
+    /// Whether the ground was just found in a mode that does not lead there.
+    pub(super) touched: bool,
     /// z of the ground, as last stood on, m.
     ground_m: f32,
     lifting: Persistence,
@@ -176,7 +178,7 @@ impl GroundWatch {
     pub(super) fn new(airborne: bool, ground_m: f32) -> Self {
         let none = Persistence::default();
         let (lifting, leaving, standing, resting, at_rest) = (none, none, none, none, none);
-        Self { airborne, clear: airborne, ground_m, lifting, leaving, standing, resting, at_rest }
+        Self { airborne, clear: airborne, touched: false, ground_m, lifting, leaving, standing, resting, at_rest }
     }
 
     /// With rotors stopped or idling: landed once the vehicle has come to rest.

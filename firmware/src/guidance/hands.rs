@@ -137,7 +137,27 @@ impl Smooth {
         self.rate = (slope - omega * growth * STEP_S) * decay;
         self.acceleration = omega * (omega * (input - self.value) - 2.0 * self.rate);
     }
+
+    /// The same with an acceleration of at most `most`: what remains is braked along one curve, linear near its end, and
+    /// nothing is overshot, however great the step.
+    pub(crate) fn step_within(&mut self, input: f32, omega: f32, most: f32) {
+        let (off, braking) = (input - self.value, BRAKING * most);
+        let (size, linear) = (math::abs(off), braking / (omega * omega));
+        let (wanted, slope) = if size <= linear {
+            (omega * off, omega)
+        } else {
+            let speed = math::sqrt(braking * (2.0 * size - linear));
+            (if off < 0.0 { -speed } else { speed }, braking / speed)
+        };
+        let acceleration = math::limit(omega * (wanted - self.rate) - slope * self.rate, most);
+        self.value += (self.rate + 0.5 * acceleration * STEP_S) * STEP_S;
+        self.rate += acceleration * STEP_S;
+        self.acceleration = acceleration;
+    }
 }
+
+/// Part of the greatest acceleration that is braked with; the rest corrects.
+const BRAKING: f32 = 0.85;
 
 #[cfg(test)]
 mod tests {
@@ -218,6 +238,21 @@ mod tests {
             for (value, exact) in [smooth.value, smooth.rate, smooth.acceleration].iter().zip(exact) {
                 assert!((f64::from(*value) - exact).abs() < 2e-5 * w * w, "{i}: {value} {exact}");
             }
+        }
+    }
+
+    #[test]
+    fn a_limited_step_arrives_without_overshoot_and_keeps_its_limit() {
+        let mut smooth = Smooth::default();
+        // From one end to the other, too.
+        for input in [0.7, -0.7] {
+            for _ in 0..250 {
+                let before = smooth;
+                smooth.step_within(input, 35.0, 90.0);
+                let accelerates = math::abs(smooth.rate - before.rate);
+                assert!(accelerates <= 90.001 * STEP_S && math::abs(smooth.value) < 0.7001);
+            }
+            assert!(math::abs(smooth.value - input) < 1e-4 && math::abs(smooth.rate) < 1e-3);
         }
     }
 }

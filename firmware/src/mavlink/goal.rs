@@ -16,6 +16,8 @@ use crate::math;
 
 /// `MAV_FRAME_LOCAL_NED`, in which a `COMMAND_INT` carries metres times 10⁴.
 const LOCAL_NED: u8 = 1;
+/// `MAV_FRAME_GLOBAL`.
+const GLOBAL: u8 = 0;
 const PER_METRE: f32 = 1e4;
 /// Bit of `MAV_DO_REPOSITION_FLAGS`: the vehicle is to change to the mode in which it goes to places.
 const CHANGE_MODE: f32 = 1.0;
@@ -70,7 +72,15 @@ pub(super) fn orbit(message: &CommandMessage, view: &View) -> Result<Request, Ef
         nan if nan.is_nan() => OrbitHeading::Center,
         _ => return Err(DENIED),
     };
-    let (center_m, height_m) = place(message, view, "Orbit")?;
+    // The command's height is above the sea, whatever the frame: MAVSDK sends it so in a frame of heights above home.
+    let above_sea = match message.form {
+        Form::Int { frame, xy } if frame != LOCAL_NED => {
+            datum(frame)?;
+            CommandMessage { form: Form::Int { frame: GLOBAL, xy }, ..*message }
+        }
+        _ => *message,
+    };
+    let (center_m, height_m) = place(&above_sea, view, "Orbit")?;
     let radius = given(radius);
     // Clockwise is negative here. Of a speed that is not given the direction is that of the radius.
     let clockwise = radius.is_none_or(|radius| radius > 0.0) != given(speed).is_some_and(|speed| speed < 0.0);

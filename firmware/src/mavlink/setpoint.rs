@@ -184,7 +184,16 @@ fn motion(m: &MotionMessage, view: &View) -> Result<SetPoint, Refused> {
         }
         PlaceMessage::Global(place, height) => (Turn::NONE, on_earth(m, place, height, view)?),
     };
-    let velocity = turn.apply(&masked(m.velocity, m.mask, VELOCITY)?);
+    let mut velocity = turn.apply(&masked(m.velocity, m.mask, VELOCITY)?);
+    if turn.origin != Vector3::zeros() || turn.heading != 0.0 {
+        // A place from the vehicle stands still when it is sent. That the next one has moved, with the vehicle, is no motion
+        // to be followed: the vehicle would run after itself.
+        velocity.zip_apply(&position, |speed, place| {
+            if speed.is_nan() && !place.is_nan() {
+                *speed = 0.0;
+            }
+        });
+    }
     let acceleration = turn.apply(&masked(m.acceleration, m.mask, ACCELERATION)?);
     let vectors = [(position, FARTHEST_M), (velocity, FASTEST_M_S), (acceleration, ACCELERATION_MAX)];
     let gives_force = m.mask & FORCE != 0 && !acceleration.iter().all(|value| value.is_nan());

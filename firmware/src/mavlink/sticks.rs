@@ -135,6 +135,9 @@ pub(super) struct Taking {
     pub(super) radio: RadioMap,
 }
 
+/// Part of the time to the loss of sticks after which another source may take their place.
+const HANDED_OVER: f32 = 0.5;
+
 impl Taking {
     /// As the settings say.
     pub(super) fn by(settings: &Settings) -> Self {
@@ -151,8 +154,9 @@ impl Taking {
 }
 
 impl Hands {
-    /// Takes over a message that was read at a tick, and returns whether a kill switch was turned on by it. While nothing of a source is older than `loss_s`, no other one of its
-    /// kind counts: the vehicle would be moved by both in turn.
+    /// Takes over a message that was read at a tick, and returns whether a kill switch was turned on by it. While a source has
+    /// said something within half of `loss_s`, no other one counts: the vehicle would be moved by both in turn. After that
+    /// another takes its place before the sticks are lost.
     pub(super) fn take(
         &mut self,
         message: &StickMessage,
@@ -161,7 +165,7 @@ impl Hands {
         taking: &Taking,
         latest: &mut Latest,
     ) -> bool {
-        let is_free = latest.sticks_within(now, taking.loss_s).is_none();
+        let is_free = latest.sticks_within(now, HANDED_OVER * taking.loss_s).is_none();
         let (kind, sticks) = match message {
             StickMessage::Joystick(sticks) => {
                 if !is_free && self.held_by == Some(Kind::Joystick) && self.joystick != Some(from) {
@@ -172,8 +176,9 @@ impl Hands {
             }
             StickMessage::Channels(message) => {
                 let held = within(self.channels.as_ref(), now, taking.loss_s).copied();
+                let is_heard = within(self.channels.as_ref(), now, HANDED_OVER * taking.loss_s).is_some();
                 let says_something = message.iter().any(|said| *said != Channel::Ignored);
-                if !says_something || (held.is_some() && self.radio != Some(from)) {
+                if !says_something || (is_heard && self.radio != Some(from)) {
                     return false;
                 }
                 self.radio = Some(from);

@@ -8,6 +8,7 @@
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 
 use super::{Outer, OuterInput, OuterOutput, Source, as_it_moves, forget_horizontal, velocity};
+use crate::airframe::Airframe;
 use crate::config::ManualSettings;
 use crate::control::flatness::{self, ForceProfile, Heading};
 use crate::control::law::PositionLaw;
@@ -19,10 +20,14 @@ use crate::signals::{AttitudeReference, AttitudeTarget, NavState, TICK_S, Tick};
 
 /// Time between two jobs, s.
 const STEP_S: f32 = OUTER.period as f32 * TICK_S;
-/// Angular frequencies of the filters, rad/s. A step is followed to 90 % in 3.9 of their inverses: a tilt in 0.16 s, to
-/// which the attitude loop adds 0.05 s; a body rate in 0.1 s; the thrust in 0.1 s; the rate of the heading in 0.4 s, for
+/// Angular frequencies of the filters, rad/s. A step is followed to 90 % in 3.9 of their inverses: a tilt in 0.11 s, or later
+/// where the torque does not suffice; a body rate in 0.1 s; the thrust in 0.1 s; the rate of the heading in 0.4 s, for
 /// yaw has little torque.
-const TILT: f32 = 25.0;
+const TILT: f32 = 30.0;
+/// The same for the way to an attitude that is streamed.
+const APPROACH: f32 = 25.0;
+/// Part of the angular acceleration with full torque that a stick may ask for: what saturates falls behind, and comes late.
+const AGILITY: f32 = 0.6;
 const RATE: f32 = 40.0;
 const THRUST: f32 = 40.0;
 const TURN: f32 = 10.0;
@@ -42,6 +47,8 @@ pub(super) struct ByHand {
     pub(super) settings: ManualSettings,
     /// The mode of the last job, if that was flown by hand.
     mode: Option<ManualMode>,
+    /// Greatest second derivative of the tilt's tangent that is asked for, 1/s².
+    agility: f32,
     /// Tangent of the tilt, forward and to the left.
     tilt: [Smooth; 2],
     /// Thrust, N.
@@ -55,9 +62,10 @@ pub(super) struct ByHand {
 }
 
 impl ByHand {
-    pub(super) fn new(settings: &ManualSettings) -> Self {
+    pub(super) fn new(settings: &ManualSettings, airframe: &Airframe) -> Self {
         Self {
             settings: *settings,
+            agility: AGILITY * airframe.tilting_rad_s2(),
             mode: None,
             tilt: Default::default(),
             thrust: Smooth::default(),
@@ -96,7 +104,7 @@ impl ByHand {
         let turn = turn * math::min(1.0, TURN_MAX_RAD / math::max(size, 1e-6));
         let wanted_rates = away * wanted_rates;
         for ((smooth, turn), rate) in self.rates.iter_mut().zip(&turn).zip(&wanted_rates) {
-            smooth.rate = TILT * TILT * turn + 2.0 * TILT * (rate - smooth.value);
+            smooth.rate = APPROACH * APPROACH * turn + 2.0 * APPROACH * (rate - smooth.value);
         }
         let before = self.attitude_target();
         let reference = AttitudeReference { valid_at: 0, target: before, thrust_n: 0.0, thrust_rate_n_s: 0.0 };
@@ -138,7 +146,7 @@ impl ByHand {
     /// A step of the tilt, whose force is one along z, in the world.
     fn tilt(&mut self, wanted: Vector2<f32>, heading: &Heading) -> ForceProfile {
         for (smooth, wanted) in self.tilt.iter_mut().zip(&wanted) {
-            smooth.step(*wanted, TILT);
+            smooth.step_within(*wanted, TILT, self.agility);
         }
         let [forward, left] = &self.tilt;
         let (sin, cos) = math::sin_cos(heading.angle);

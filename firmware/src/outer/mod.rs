@@ -203,7 +203,7 @@ impl<P: PositionLaw> Outer<P> {
             setpoint: Setpoint::new(&config.modes),
             catches: false,
             source: Source::Ground,
-            by_hand: ByHand::new(&config.manual),
+            by_hand: ByHand::new(&config.manual, &config.airframe),
             circling: Circling::default(),
             law,
             limited: false,

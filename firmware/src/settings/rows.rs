@@ -257,12 +257,12 @@ const STATION: [Setting; 46] = own! {
     "RC_MAP_PITCH", "", Int(2), CHANNEL, InFlight, "Channel of the pitch stick; 0 for none";
     "RC_MAP_YAW", "", Int(4), CHANNEL, InFlight, "Channel of the yaw stick; 0 for none";
     "RC_MAP_THROTTLE", "", Int(3), CHANNEL, InFlight, "Channel of the throttle stick; 0 for none";
-    "COM_FLTMODE1", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 1: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
-    "COM_FLTMODE2", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 2: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
-    "COM_FLTMODE3", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 3: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
-    "COM_FLTMODE4", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 4: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
-    "COM_FLTMODE5", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 5: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
-    "COM_FLTMODE6", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 6: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 10 take-off, 11 land";
+    "COM_FLTMODE1", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 1: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 11 land";
+    "COM_FLTMODE2", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 2: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 11 land";
+    "COM_FLTMODE3", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 3: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 11 land";
+    "COM_FLTMODE4", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 4: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 11 land";
+    "COM_FLTMODE5", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 5: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 11 land";
+    "COM_FLTMODE6", "", Int(-1), SWITCH_MODE, InFlight, "Mode of the mode switch's position 6: -1 none, 1 altitude, 2 position, 3 trajectory, 4 hold, 5 return, 6 acro, 7 offboard, 8 stabilized, 11 land";
     "BAT1_SOURCE", "", Int(0), Domain::Whole(-1, 2), ReadOnly, "Source of battery data: 0, the power module";
     "BAT1_N_CELLS", "", Int(0), Domain::Whole(0, 16), InFlight, "Cells of the battery, by which its charge is told: 0, unknown";
     "RTL_LAND_DELAY", "s", Real(0.0), Domain::Real(Range::Within(-1.0, 300.0)), ReadOnly, "Wait over home before landing: none";
@@ -282,7 +282,7 @@ const STATION: [Setting; 46] = own! {
     "RC_CHAN_CNT", "", Int(0), Domain::Whole(0, 18), InFlight, "Channels of the radio that was calibrated last; for ground stations";
     "MAN_ARM_GESTURE", "", Int(1), Domain::Whole(0, 1), InFlight, "Whether the throttle down and the yaw stick to the right for a second arm, and to the left disarm";
     "COM_RC_OVERRIDE", "", Int(1), Domain::Whole(0, 3), InFlight, "Which modes moved sticks end: 1 automatic ones, 2 offboard, 3 both, 0 none";
-    "COM_RC_STICK_OV", "%", Real(30.0), Domain::Real(Range::Within(5.0, 80.0)), InFlight, "How far a stick has to be moved to end an automatic mode";
+    "COM_RC_STICK_OV", "%", Real(30.0), Domain::Real(Range::Within(5.0, 80.0)), InFlight, "How far a roll, pitch or yaw stick has to be moved to end an automatic mode";
     "COM_DISARM_PRFLT", "s", Real(10.0), Domain::Real(Range::Within(-1.0, 600.0)), InFlight, "Time on the ground after arming until it disarms; 0 or less for never";
     "COM_DISARM_LAND", "s", Real(2.0), Domain::Real(Range::Within(0.0, 20.0)), InFlight, "Time for which the rotors idle after a landing";
     "COM_SPOOLUP_TIME", "s", Real(0.0), Domain::Real(Range::Within(0.0, 30.0)), InFlight, "Time for which the rotors idle after arming before anything lifts the vehicle";
@@ -292,7 +292,7 @@ const STATION: [Setting; 46] = own! {
 };
 const CHANNEL: Domain = Domain::Whole(0, 18);
 /// PX4's numbers of the modes that there are.
-const SWITCH_MODE: Domain = Domain::OneOf(&[-1, 1, 2, 3, 4, 5, 6, 7, 8, 10, 11]);
+const SWITCH_MODE: Domain = Domain::OneOf(&[-1, 1, 2, 3, 4, 5, 6, 7, 8, 11]);
 const CELL: Range = Range::Within(2.0, 5.0);
 const TAKE_OFF: Range =
     Range::Within(*crate::commander::TAKE_OFF_HEIGHTS_M.start(), *crate::commander::TAKE_OFF_HEIGHTS_M.end());

@@ -41,7 +41,7 @@ impl HandsArgs {
     /// How to go on, for who starts.
     pub(super) fn hint(&self) -> Option<&'static str> {
         self.keys.then_some(
-            "Keys fly: WASD and the arrows are the sticks, `m` arms. `?` lists them, `:` begins a line, `Q` ends it.",
+            "Keys fly: `3` chooses position mode, `m` arms, WASD and the arrows are the sticks. `?` lists them, `:` begins a line, `Q` ends it.",
         )
     }
 }

@@ -174,7 +174,7 @@ impl Watch {
         if let Some((contact, place)) = self.contact
             && now_s - contact.t_s >= UNAWARE_AFTER_S
         {
-            if commander.armed {
+            if commander.armed && stands(flight) {
                 let how = self.describe(&contact, &place);
                 tell(Tone::Alarm, format!("on the ground without knowing it: {how}; `kill` stops the rotors"));
             }

@@ -5,7 +5,7 @@ use core::fmt;
 use core::ops::RangeInclusive;
 
 use anyhow::{Error, Result, anyhow, bail, ensure};
-use firmware::commander::{FARTHEST_M, FASTEST_M_S, Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M};
+use firmware::commander::{FARTHEST_M, FASTEST_M_S, ManualMode, Request, TAKE_OFF_HEIGHT_M, TAKE_OFF_HEIGHTS_M};
 use firmware::signals::Tick;
 
 use crate::failures::{self, Equipment};
@@ -168,6 +168,10 @@ pub const COMMANDS: &[Entry] = &[
     .with_details(
         "At most 100 m/s along each axis and 360°/s, flown within the scenario's `modes`, as the answer says. By name, what is left out is 0: `velocity up=1`. `hold` ends it",
     ),
+    Entry::new(&["position", "posctl"], "", "fly by sticks: a velocity, held where they are centred", Reads::Nothing(Command::Request(Request::Manual(ManualMode::Position)))),
+    Entry::new(&["altitude", "altctl"], "", "fly by sticks: a tilt and a rate of climb", Reads::Nothing(Command::Request(Request::Manual(ManualMode::Altitude)))),
+    Entry::new(&["stabilized"], "", "fly by sticks: a tilt and the thrust", Reads::Nothing(Command::Request(Request::Manual(ManualMode::Stabilized)))),
+    Entry::new(&["acro"], "", "fly by sticks: rates of turn and the thrust", Reads::Nothing(Command::Request(Request::Manual(ManualMode::Acro)))),
     Entry::new(&["hold", "loiter", "brake"], "", "brake and stay", Reads::Nothing(Command::Request(Request::Hold))),
     Entry::new(
         &["trajectory", "follow", "mission", "start"],
@@ -234,7 +238,10 @@ fn clear(words: &[&str], _: Tick) -> Result<Command> {
 
 /// Words of other shells, as that of PX4, for which there is no command, and what there is instead.
 const ELSEWHERE: &[(&str, &str)] = &[
-    ("mode", "a mode is a command: takeoff, hold, goto, velocity, trajectory, return, land"),
+    (
+        "mode",
+        "a mode is a command: takeoff, hold, goto, velocity, trajectory, return, land; by sticks: position, altitude, stabilized, acro",
+    ),
     ("param", "ground stations show and set parameters; at the start: sim-host serve --set params.NAME=VALUE"),
     ("vehicle", "it is the only one; several fly with sim-host serve --vehicles N"),
     ("log", "a flight without a pilot at the console is recorded: sim-host run SCENARIO --out DIR"),

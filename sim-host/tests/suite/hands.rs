@@ -156,13 +156,15 @@ impl Shown {
     /// Presses something, and flies until a time, s.
     fn press(&mut self, pressed: &str, order: Option<Order>, sticks: Sticks, until_s: f64) {
         let now_s = f64::from(self.cockpit.next_tick()) * 1e-3;
-        self.printed += &format!("[{now_s:8.2} s] you: {pressed}\n");
-        order.into_iter().for_each(|order| self.cockpit.ask(order));
+        self.printed.extend([format!("[{now_s:8.2} s] you: {pressed}\n")]);
+        if let Some(order) = order {
+            self.cockpit.ask(order);
+        }
         self.until(until_s, Some(sticks));
     }
 
     /// Compares it with the block of a document after `<!-- begin: NAME -->`, or writes that if `GLISSADE_GENERATE` is set.
-    fn is_shown(self, path: &str, name: &str) {
+    fn assert_shown(self, path: &str, name: &str) {
         let path = format!("{}/../{path}", env!("CARGO_MANIFEST_DIR"));
         let document = std::fs::read_to_string(&path).expect("a document");
         let begin = format!("<!-- begin: {name} -->\n```\n");
@@ -188,7 +190,7 @@ fn a_pilots_session_in_the_readme_is_what_is_printed() {
     shown.press("arrow up, held (forward)", None, Sticks { pitch: 1.0, ..middle }, 11.0);
     shown.press("nothing", None, middle, 14.0);
     shown.press("6 (return)", Some(Order::Select(Selected::Return)), middle, 45.0);
-    shown.is_shown("README.md", "pilot");
+    shown.assert_shown("README.md", "pilot");
 }
 
 #[test]
@@ -208,5 +210,5 @@ fn the_first_flight_in_the_docs_is_what_is_printed() {
             shown.cockpit.session.enter(line);
         }
     }
-    shown.is_shown("docs/serve.md", "first flight");
+    shown.assert_shown("docs/serve.md", "first flight");
 }

@@ -31,6 +31,8 @@ mod random_flights;
 mod replay;
 mod sensor_flights;
 mod sensor_streams;
+mod set_points;
+mod stick_steps;
 mod telemetry;
 mod trajectories;
 #[cfg(feature = "search")]

@@ -13,10 +13,15 @@ use crate::signals::{TICK_S, Tick};
 
 /// Longest wait of a byte for the ground partition, ticks.
 const READ: f32 = GROUND.period as f32;
-/// Plausible advances after which the sender's clock is trusted.
-const TRUSTED: u8 = 4;
+/// Plausible advances after which the sender's clock is trusted, if it has run as fast as the vehicle's until then: the
+/// differences are spread by no more than this, ms. A clock of another rate, as of a script beside a simulation that does not
+/// run in real time, leads farther away than no clock.
+const TRUSTED: u8 = 25;
+const EVEN_MS: i32 = 60;
 /// As many count at most, and a sample that is late takes away so many.
-const MOST_TRUSTED: u8 = 40;
+const MOST_TRUSTED: u8 = 60;
+/// A clock that was found to run at another rate is not looked at for so many samples.
+const SHUNNED: u16 = 2_000;
 const DISTRUST: u8 = 4;
 /// Differences spread farther only if one of the clocks is wrong, ms.
 const WIDEST_MS: i32 = 250;
@@ -47,6 +52,8 @@ const EARLY: f32 = 0.75;
 /// period that is learnt too short takes late ones for lost ones, and stays.
 const LOST: f32 = 1.5;
 const LOST_JITTERS: f32 = 2.0;
+/// So many in turn are neither lost nor early: the stream has another rate.
+const OTHER: u8 = 4;
 
 /// Smallest and largest difference of arrival and sender's time, relative to the first, ms.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +76,8 @@ struct Sent {
     latest: Option<u32>,
     /// Plausible advances so far, less what is late.
     trust: u8,
+    /// Samples for which it is not looked at.
+    shunned: u16,
     regular: Regular,
     /// Difference to which the spans are relative, ms.
     base: u32,
@@ -89,6 +98,8 @@ struct Regular {
     late: f32,
     /// By which the latest arrival moved the regular times, ticks.
     shift: f32,
+    /// Arrivals in turn that seemed to follow lost ones, or to be early.
+    skips: u8,
     /// Mean distance of arrivals from the regular times, ticks.
     jitter: f32,
 }
@@ -113,6 +124,7 @@ impl Sent {
     const NONE: Self = Self {
         latest: None,
         trust: 0,
+        shunned: 0,
         regular: Regular::NONE,
         base: 0,
         begun: 0,
@@ -136,6 +148,10 @@ impl Sent {
         let advance = self.latest.zip(sent).map(|(before, now)| now.wrapping_sub(before).cast_signed());
         self.latest = sent;
         let sent = sent?;
+        if self.shunned > 0 {
+            self.shunned -= 1;
+            return None;
+        }
         let is_plausible = advance.zip(since).is_some_and(|(advance, since)| {
             advance > 0 && advance <= LONGEST_MS && (advance - since).abs() <= 50 + since / 2
         });
@@ -148,13 +164,14 @@ impl Sent {
         let fraction = math::clamp(0.5 - self.regular.late(advance), 0.0, 1.0);
         let difference = at.wrapping_sub(sent).wrapping_sub(self.base).cast_signed();
         self.widen(at, difference);
-        if self.trust < TRUSTED {
-            return None;
-        }
         // Arrivals within less than the wait's range have all waited: by how much, is known within the rest of it.
         let span = self.now.with(self.before);
-        if span.high - span.low > WIDEST_MS {
-            *self = Self { latest: Some(sent), base: at.wrapping_sub(sent), begun: at, ..Self::NONE };
+        let widest = if self.trust <= TRUSTED { EVEN_MS } else { WIDEST_MS };
+        if span.high - span.low > widest {
+            *self = Self { latest: Some(sent), base: at.wrapping_sub(sent), begun: at, shunned: SHUNNED, ..Self::NONE };
+            return None;
+        }
+        if self.trust < TRUSTED {
             return None;
         }
         let waited = 0.5 * math::max(READ - (span.high - span.low) as f32, 0.0);
@@ -176,7 +193,7 @@ impl Sent {
 }
 
 impl Regular {
-    const NONE: Self = Self { count: 0, period: 20.0, late: 0.0, shift: 0.0, jitter: JITTER };
+    const NONE: Self = Self { count: 0, period: 20.0, late: 0.0, shift: 0.0, skips: 0, jitter: JITTER };
 
     /// Time from the regular time to one that is `since` after the one before.
     fn late(&mut self, since: Option<i32>) -> f32 {
@@ -195,6 +212,13 @@ impl Regular {
         }
         let elapsed = since + self.late;
         let is_next = elapsed < LOST * self.period + math::max(LOST_JITTERS * self.jitter, 0.6 * READ);
+        let is_regular = is_next && since > 0.5 * self.period;
+        self.skips = if is_regular { 0 } else { self.skips + 1 };
+        if self.skips >= OTHER {
+            // None is lost: they come at another rate.
+            *self = Self { count: 2, period: since, ..Self::NONE };
+            return;
+        }
         let periods = if is_next { 1.0 } else { (elapsed / self.period + 0.5) as i32 as f32 };
         let residual = elapsed - periods * self.period;
         self.count = self.count.saturating_add(1);

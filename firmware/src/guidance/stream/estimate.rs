@@ -279,11 +279,14 @@ impl<const N: usize> Group<N> {
         let acceleration = vector(|axis| axis.acceleration + axis.drift[1]);
         let jerk = shorten(vector(|axis| axis.jerk + axis.drift[2]), jerk);
         let speed_kept = if N == 1 { speed.map(|speed| math::clamp(speed, -down, up)) } else { shorten(speed, up) };
-        // Where one is cut off, what would lead farther beyond is not passed on.
-        let beyond = math::max((speed - speed_kept).dot(&acceleration), 0.0);
-        let slower = if beyond > 0.0 { SVector::zeros() } else { acceleration };
+        // Where one is cut off, what would lead farther beyond is not passed on; what turns the speed is.
+        let excess = speed - speed_kept;
+        let beyond = math::sqrt(excess.norm_squared());
+        let direction = if beyond > 0.0 { excess / beyond } else { SVector::zeros() };
+        let kept = |v: SVector<f32, N>| v - direction * math::max(v.dot(&direction), 0.0);
+        let slower = kept(acceleration);
         let acceleration = shorten(slower, strongest);
-        let jerk = if acceleration == slower && beyond == 0.0 { jerk } else { SVector::zeros() };
+        let jerk = if acceleration == slower { kept(jerk) } else { SVector::zeros() };
         Target { place, speed: speed_kept, acceleration, jerk, placed }
     }
 

@@ -150,8 +150,8 @@ fn of_two_joysticks_and_of_two_radios_the_first_counts_until_it_is_lost() {
         let latest = bench.output_of(&bytes).0.latest;
         let (sticks, channels) = (latest.sticks.expect("sticks").value, held(&bench).expect("channels"));
         let moved = ((sticks.roll * 1000.0) as i16, channels[0].map_or(0, PulseUs::get));
-        // COM_RC_LOSS_T is 0.5 s.
-        assert_eq!(moved, if job <= 49 + 50 { (100, 1100) } else { (200, 1200) }, "job {job}");
+        // Half of COM_RC_LOSS_T, 0.5 s.
+        assert_eq!(moved, if job <= 49 + 25 { (100, 1100) } else { (200, 1200) }, "job {job}");
     }
 }
 

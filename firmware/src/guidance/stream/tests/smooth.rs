@@ -147,3 +147,40 @@ fn a_turning_heading_is_followed_without_a_lag_and_a_far_one_the_shorter_way() {
         assert!(math::abs(r.yaw) > 2.9, "{}", r.yaw);
     }
 }
+
+#[test]
+fn a_target_at_the_greatest_speed_keeps_its_turn() {
+    for (radius, seed) in [(30.0, 1), (30.0, 2), (20.0, 3)] {
+        let path = |t| circle(radius, 12.0, t);
+        let flown = Link { seed, ..LINK }.fly(&mut start_on(path), 30.0, path);
+        let (rms, _, _) = accuracy(&flown, path, 5.0);
+        assert!(rms < 0.1, "{radius}: {rms} m");
+    }
+}
+
+#[test]
+fn a_clock_of_another_rate_is_found_out() {
+    for rate in [0.33, 0.5, 0.9, 1.1, 2.0] {
+        let path = |t| circle(10.0, 4.0, t);
+        let mut samples = LINK.samples(40.0, path);
+        for (_, sample) in &mut samples {
+            sample.sent_ms = Some((f64::from(sample.at) * rate) as u32 + 5_000);
+        }
+        let flown = fly(&samples, &mut start_on(path), 40.0);
+        let (rms, _, _) = accuracy(&flown, path, 10.0);
+        assert!(rms < 0.1, "{rate}: {rms} m");
+    }
+}
+
+#[test]
+fn a_stream_without_a_clock_that_becomes_slower_or_faster_is_followed_on() {
+    for (before_s, after_s) in [(0.02, 0.05), (0.02, 0.1), (0.02, 0.01), (0.05, 0.02), (0.1, 0.02)] {
+        let path = |t| circle(10.0, 3.0, t);
+        let mut samples = Link { period_s: before_s, ..LINK }.samples(10.0, path);
+        let later = Link { period_s: after_s, phase_s: 0.0051, ..LINK }.samples(30.0, path);
+        samples.extend(later.into_iter().filter(|(seen, _)| *seen > 10_030));
+        let flown = fly(&samples, &mut start_on(path), 30.0);
+        let (rms, _, _) = accuracy(&flown, path, 15.0);
+        assert!(rms < 0.1, "{before_s} {after_s}: {rms} m");
+    }
+}
