@@ -22,12 +22,12 @@ fn assert_integrates(before: &FlatReference, after: &FlatReference) {
     assert!(math::abs(after.yaw_acceleration - before.yaw_acceleration) < 0.2, "{before:?} {after:?}");
 }
 
-/// What a reference may be faster than the fastest, m/s, beside 5 %.
-const SLACK: f32 = 0.6;
+/// What a reference may be faster than the fastest, m/s, beside a tenth of the speed over the ground and 5 % of the vertical one.
+const SLACK: f32 = 0.8;
 
 /// Checks that a reference is one of a vehicle that can be flown, whatever was asked for.
 fn assert_sane(r: &FlatReference) {
-    assert!(r.velocity.xy().norm() < 1.05 * FASTEST.speed_m_s + SLACK, "{r:?}");
+    assert!(r.velocity.xy().norm() < 1.1 * FASTEST.speed_m_s + SLACK, "{r:?}");
     assert!(r.velocity.z < 1.05 * LIMITS.climb_m_s + SLACK && r.velocity.z > -1.05 * LIMITS.sink_m_s - SLACK, "{r:?}");
     assert!(r.acceleration.xy().norm() < 1.5 * FASTEST.acceleration_m_s2, "{r:?}");
     assert!(r.jerk.amax() <= 2.0 * 50.5, "{r:?}");
