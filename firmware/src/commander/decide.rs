@@ -58,6 +58,7 @@ impl Commander {
         self.battery_answered = super::Charge::Good;
         self.station.rearm();
         self.state = State::Idle { disarm_at: self.unused_until(effective) };
+        self.stood_m = Some(input.nav.position.z);
         self.begin_to_spin(effective);
         if intent.leaves_ground() && launch.is_ok() {
             self.launch(intent, effective, input);

@@ -185,6 +185,8 @@ pub struct Commander {
     /// How long it idles on the ground, s: after arming, for ever if that is not positive, and after a landing.
     unused_s: f32,
     landed_s: f32,
+    /// z of where it has stood last, m; `None` if it began in flight and nothing is known of the ground.
+    stood_m: Option<f32>,
     /// How long the rotors spin up after an arming, s, and until when they do.
     spin_up_s: f32,
     spins_until: Option<Tick>,
@@ -249,6 +251,7 @@ impl Commander {
             hover_throttle: config.manual.hover_throttle,
             unused_s: 10.0,
             landed_s: 2.0,
+            stood_m: None,
             spin_up_s: 0.0,
             spins_until: None,
             battery_answered: Charge::Good,
@@ -385,23 +388,23 @@ impl Commander {
         match self.state {
             State::Disarmed | State::Idle { .. } => self.ground.step_idle(input),
             State::Land | State::Descent | State::MotorOut => {
-                self.ground.step_flying(input, self.weight_n, Some(self.navigation.known()));
+                self.ground.step_flying(input, self.weight_n, Some(self.navigation.known()), false);
             }
             State::Offboard => {
                 let descends = self.descends_by_setpoint(released, input);
-                self.ground.step_flying(input, self.weight_n, descends);
+                self.ground.step_flying(input, self.weight_n, descends, false);
             }
             State::Manual(mode) => {
                 let descends = self.descends_by_hand(mode, released, input);
-                self.ground.step_flying(input, self.weight_n, descends);
+                self.ground.step_flying(input, self.weight_n, descends, false);
             }
-            State::TakeOff { .. } => self.ground.step_flying(input, self.weight_n, None),
+            State::TakeOff { .. } => self.ground.step_flying(input, self.weight_n, None, false),
             _ => {
-                // Nobody is to come down, but near the ground the vehicle may: by a goal below it, a gust, a wrong height.
-                let comes_down = self.ground.is_airborne() && self.may_stand(&input.nav);
-                let known = comes_down.then(|| self.navigation.known());
-                self.ground.step_flying(input, self.weight_n, known);
-                self.ground.touched = known.is_some() && !self.ground.is_airborne();
+                let was_airborne = self.ground.is_airborne();
+                let may_stand = was_airborne && self.ground_below(&input.nav) != Ground::Far;
+                let known = (may_stand && self.leads_down(input.nav.position.z)).then(|| self.navigation.known());
+                self.ground.step_flying(input, self.weight_n, known, may_stand);
+                self.ground.touched = was_airborne && !self.ground.is_airborne();
             }
         }
     }
@@ -464,6 +467,7 @@ impl Commander {
 
     /// On the ground at a height (z, m); a mode that stays is kept.
     fn land(&mut self, effective: Tick, height: f32) -> State {
+        self.stood_m = Some(height);
         self.ground_m = height;
         self.rest_intent();
         State::Idle { disarm_at: Some(self.after_landing(effective)) }

@@ -13,6 +13,8 @@ const FALLS_M_S: f32 = 0.6;
 const FINAL_HEIGHT_M: f32 = 2.0;
 /// Below this height, m, feet may stand: the height's error, and what a vehicle tilts.
 const UNDERFOOT_M: f32 = 0.15;
+/// A goal so much lower, m, leads down.
+const LOWER_M: f32 = 0.1;
 /// A goal below this height over the ground, m, leads to it.
 const LEADS_DOWN_M: f32 = 0.3;
 /// Part of the vertical acceleration with which a descent slows down: the vehicle is late, and catches up with the rest.
@@ -104,16 +106,26 @@ impl Commander {
             | State::Land
             | State::Descent
             | State::MotorOut => false,
-            // Some begin on the ground.
-            State::Follow { .. } => self.ground.is_airborne(),
-            _ => true,
+            State::Manual(_) | State::Offboard => true,
+            // Some begin on the ground, and some in flight.
+            _ => self.ground.is_airborne() && self.stood_m.is_some(),
         };
         if !flies || !self.may_stand(nav) {
             Ground::Far
-        } else if self.over_ground(nav.position.z) < UNDERFOOT_M {
+        } else if self.stood_m.is_some_and(|stood_m| math::abs(nav.position.z - stood_m) < UNDERFOOT_M) {
             Ground::Underfoot
         } else {
             Ground::Near
+        }
+    }
+
+    /// Whether the vehicle is told to go lower than a height (z, m).
+    pub(super) fn leads_down(&self, height: f32) -> bool {
+        match self.state {
+            State::GoTo(course) | State::Approach(course) => course.height_m < height - LOWER_M,
+            State::Orbit(orbit) => orbit.center.z < height - LOWER_M,
+            State::Velocity { velocity, .. } => velocity.z < 0.0,
+            _ => false,
         }
     }
 

@@ -188,9 +188,16 @@ impl GroundWatch {
         }
     }
 
-    /// With rotors carrying the vehicle; `descends` is what is known of the motion if it is commanded to descend.
-    /// Without a known vertical velocity no touchdown is detected.
-    pub(super) fn step_flying(&mut self, input: &CommanderInput, weight_n: f32, descends: Option<Known>) {
+    /// With rotors carrying the vehicle; `descends` is what is known of the motion if it is commanded to descend. Without a
+    /// known vertical velocity no touchdown is detected. One that is not to descend, and `may_stand`, has touched down only if
+    /// it gives so little thrust that no wrong mass explains it.
+    pub(super) fn step_flying(
+        &mut self,
+        input: &CommanderInput,
+        weight_n: f32,
+        descends: Option<Known>,
+        may_stand: bool,
+    ) {
         let descend = descends.is_some_and(|known| known <= Known::Climb);
         let thrust = input.thrust_n / weight_n;
         let lifting = self.lifting.step(thrust > LIFT_OFF_THRUST, jobs(LIFT_OFF_S));
@@ -199,7 +206,7 @@ impl GroundWatch {
         let has_left = self.leaving.step(thrust > CLEAR_THRUST, jobs(CLEAR_S));
         self.clear |= is_high || has_left || (self.airborne && !input.health.height);
         let vertical = math::abs(input.nav.velocity.z);
-        let standing = descend && thrust < STANDING_THRUST && vertical < STANDING_M_S;
+        let standing = (descend || may_stand) && thrust < STANDING_THRUST && vertical < STANDING_M_S;
         let resting = descend && thrust < RESTING_THRUST && vertical < RESTING_M_S;
         let stands = self.standing.step(standing, jobs(STANDING_S)) | self.resting.step(resting, jobs(RESTING_S));
         if stands || (descends.is_some() && !self.airborne) {

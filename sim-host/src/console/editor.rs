@@ -152,7 +152,7 @@ mod tests {
         };
         assert_eq!(offered("fau\t\t").as_deref(), Some("fault  faults"));
         assert_eq!(offered("fau\t"), None, "it has been completed");
-        assert_eq!(offered("s\t").as_deref(), Some("status  speed"));
+        assert_eq!(offered("s\t").as_deref(), Some("status  stabilized  speed"));
         assert!(offered("\t").is_some_and(|names| names.starts_with("help  status  arm  ")));
         assert_eq!(offered("x\t"), None);
     }
