@@ -120,9 +120,9 @@ impl Watch {
                 let most = manual.acro_rates_rad_s.iter().fold(0.0_f32, |most, rate| most.max(*rate));
                 self.keeps(Limited::Rates, rates, 1.25 * degrees(most));
             }
-            Mode::Stabilized => self.keeps(Limited::Tilt, tilt, degrees(manual.tilt_max_rad) + 8.0),
+            Mode::Stabilized => self.keeps(Limited::Tilt, tilt, degrees(manual.tilt_max_rad) + 9.0),
             Mode::Altitude => {
-                self.keeps(Limited::Tilt, tilt, degrees(manual.tilt_max_rad) + 8.0);
+                self.keeps(Limited::Tilt, tilt, degrees(manual.tilt_max_rad) + 9.0);
                 self.keeps(Limited::Climb, up, climb + 0.6);
                 self.keeps(Limited::Sink, -up, sink + 0.6);
             }
