@@ -12,6 +12,8 @@ const FALLS_M_S: f32 = 0.6;
 /// What stands turns no faster than this, rad/s, and leans no more than 25°, of which this is the cosine.
 const TURNS_RAD_S: f32 = 2.0;
 const LEANS: f32 = 0.906;
+/// So much below where it has stood last, m, is no place where it has stood: more than the height's error.
+const BELOW_M: f32 = 2.0;
 /// Below this height, m, a descent slows down to the touchdown speed at the latest.
 const FINAL_HEIGHT_M: f32 = 2.0;
 /// Below this height, m, feet may stand: the height's error, and what a vehicle tilts.
@@ -98,7 +100,7 @@ impl Commander {
     pub(super) fn may_stand(&self, nav: &NavState) -> bool {
         let falls = self.navigation.known() < Known::Attitude && math::abs(nav.velocity.z) > FALLS_M_S;
         // Where it has never stood nothing is known of the ground: what turns or leans there flies.
-        let is_below = self.stood_m.is_none_or(|stood_m| nav.position.z < stood_m - FINAL_HEIGHT_M);
+        let is_below = self.stood_m.is_none_or(|stood_m| nav.position.z < stood_m - BELOW_M);
         let turns = nav.rates.norm_squared() > TURNS_RAD_S * TURNS_RAD_S;
         let leans = (nav.attitude * Vector3::z()).z < LEANS;
         self.may_touch(nav.position.z) && !falls && !(is_below && (turns || leans))
