@@ -92,6 +92,19 @@ pub fn limit_positive(x: f32, most: f32) -> f32 {
     if x.to_bits() <= most.to_bits() { x } else { clamp(x, 0.0, most) }
 }
 
+/// The rate by which an error is to go: `gain` times it while it is small, and beyond that the rate from which it can be braked
+/// with `most` of the next derivative, so that it ends on one curve however large it is.
+#[inline]
+pub fn braked(error: f32, gain: f32, most: f32) -> f32 {
+    let linear = most / (gain * gain);
+    let size = abs(error);
+    if size <= linear {
+        return gain * error;
+    }
+    let rate = sqrt(most * (2.0 * size - linear));
+    if error < 0.0 { -rate } else { rate }
+}
+
 /// Magnitude.
 #[inline]
 pub fn abs(x: f32) -> f32 {

@@ -54,7 +54,6 @@ impl Commander {
         if !self.home_is_set {
             self.home = input.nav.position;
         }
-        self.ground_m = input.nav.position.z;
         self.battery_answered = super::Charge::Good;
         self.station.rearm();
         self.state = State::Idle { disarm_at: self.unused_until(effective) };

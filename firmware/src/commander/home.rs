@@ -13,7 +13,7 @@ impl Commander {
         let before = self.home;
         let mut here = input.nav.position;
         if self.ground.is_airborne() {
-            here.z = self.ground_m;
+            here.z = self.ground_m();
         }
         self.home = place.map_or(here, Vector3::from);
         self.home_is_set = true;

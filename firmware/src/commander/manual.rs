@@ -25,9 +25,9 @@ const LIFTS_FROM_CENTRE: f32 = 0.65;
 const LANDS_BELOW: f32 = 0.4;
 /// Yaw stick at its end, for a gesture, and how long it lasts, s.
 const AT_END: f32 = 0.9;
+const GESTURE_S: f32 = 1.0;
 /// And the other one is in the middle within this.
 const CENTRE: f32 = 0.2;
-const GESTURE_S: f32 = 1.0;
 /// Bits of `COM_RC_OVERRIDE`.
 const ENDS_AUTOMATIC: i32 = 1;
 const ENDS_OFFBOARD: i32 = 2;

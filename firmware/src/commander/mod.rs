@@ -166,8 +166,6 @@ pub struct Commander {
     home_is_set: bool,
     /// The speeds that a pilot has set since then.
     speeds: ChosenSpeeds,
-    /// z of the ground where it was armed, or has landed since, m.
-    ground_m: f32,
     navigation: NavWatch,
     battery: BatteryWatch,
     ground: GroundWatch,
@@ -239,7 +237,6 @@ impl Commander {
             home: start,
             home_is_set: false,
             speeds: ChosenSpeeds::default(),
-            ground_m: start.z,
             navigation: NavWatch::default(),
             battery: BatteryWatch::default(),
             ground: GroundWatch::new(flies, start.z),
@@ -359,12 +356,17 @@ impl Commander {
             ground: self.ground_below(nav),
             motor_test: None,
             landed: !self.ground.is_airborne(),
-            ground_m: self.ground_m,
+            ground_m: self.ground_m(),
             home: None,
             armable,
             replies,
             event,
         }
+    }
+
+    /// z of the ground, m: where it has stood last, or where it began.
+    fn ground_m(&self) -> f32 {
+        self.stood_m.unwrap_or(self.start.z)
     }
 
     /// When a vehicle that has landed is disarmed.
@@ -468,7 +470,6 @@ impl Commander {
     /// On the ground at a height (z, m); a mode that stays is kept.
     fn land(&mut self, effective: Tick, height: f32) -> State {
         self.stood_m = Some(height);
-        self.ground_m = height;
         self.rest_intent();
         State::Idle { disarm_at: Some(self.after_landing(effective)) }
     }

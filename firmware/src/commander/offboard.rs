@@ -115,7 +115,7 @@ impl Commander {
         let lands = match self.setpoint(now, input)? {
             SetPoint::Motion { motion, .. } => {
                 let ([.., z], [.., vz]) = (motion.position(), motion.velocity());
-                z.map_or_else(|| vz.is_some_and(|vz| vz < 0.0), |z| z < self.ground_m + GROUND_M)
+                z.map_or_else(|| vz.is_some_and(|vz| vz < 0.0), |z| z < self.ground_m() + GROUND_M)
             }
             SetPoint::Attitude(wanted) => wanted.thrust < LANDS * self.hover_throttle,
         };

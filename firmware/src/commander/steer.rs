@@ -87,7 +87,7 @@ impl Commander {
     /// A height (z, m) over the ground, m. Home may have been set to below the ground, and the ground there may be higher
     /// than where the vehicle last stood.
     fn over_ground(&self, height: f32) -> f32 {
-        height - math::max(self.home.z, self.ground_m)
+        height - math::max(self.home.z, self.ground_m())
     }
 
     /// Whether the ground may be touched at any time, at a height (z, m): near it, and at an unknown height.

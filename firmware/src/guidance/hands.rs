@@ -141,14 +141,10 @@ impl Smooth {
     /// The same with an acceleration of at most `most`: what remains is braked along one curve, linear near its end, and
     /// nothing is overshot, however great the step.
     pub(crate) fn step_within(&mut self, input: f32, omega: f32, most: f32) {
-        let (off, braking) = (input - self.value, BRAKING * most);
-        let (size, linear) = (math::abs(off), braking / (omega * omega));
-        let (wanted, slope) = if size <= linear {
-            (omega * off, omega)
-        } else {
-            let speed = math::sqrt(braking * (2.0 * size - linear));
-            (if off < 0.0 { -speed } else { speed }, braking / speed)
-        };
+        let braking = BRAKING * most;
+        let wanted = math::braked(input - self.value, omega, braking);
+        // Of the rate with respect to the way: a constant near the end, and what brakes with `braking` before.
+        let slope = math::min(omega, braking / math::max(math::abs(wanted), 1e-6));
         let acceleration = math::limit(omega * (wanted - self.rate) - slope * self.rate, most);
         self.value += (self.rate + 0.5 * acceleration * STEP_S) * STEP_S;
         self.rate += acceleration * STEP_S;

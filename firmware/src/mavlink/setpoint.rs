@@ -134,10 +134,12 @@ struct Turn {
     /// ψ of the frame, and of what the yaw is counted from, rad.
     heading: f32,
     yaw_from: f32,
+    /// Whether it moves with the vehicle.
+    moves: bool,
 }
 
 impl Turn {
-    const NONE: Self = Self { origin: Vector3::new(0.0, 0.0, 0.0), heading: 0.0, yaw_from: 0.0 };
+    const NONE: Self = Self { origin: Vector3::new(0.0, 0.0, 0.0), heading: 0.0, yaw_from: 0.0, moves: false };
 
     /// Of a frame of local positions.
     fn of_local(frame: u8, view: &View) -> Result<Self, Refused> {
@@ -146,11 +148,11 @@ impl Turn {
             // MAV_FRAME_LOCAL_NED.
             1 => Self::NONE,
             // _LOCAL_OFFSET_NED: from the vehicle.
-            7 => Self { origin: position, ..Self::NONE },
+            7 => Self { origin: position, moves: true, ..Self::NONE },
             // _BODY_NED: along its heading.
-            8 => Self { origin: position, heading: yaw, yaw_from: 0.0 },
+            8 => Self { origin: position, heading: yaw, yaw_from: 0.0, moves: true },
             // _BODY_OFFSET_NED and _BODY_FRD: the yaw from its heading too.
-            9 | 12 => Self { origin: position, heading: yaw, yaw_from: yaw },
+            9 | 12 => Self { origin: position, heading: yaw, yaw_from: yaw, moves: true },
             _ => return Err(FRAME),
         })
     }
@@ -185,7 +187,7 @@ fn motion(m: &MotionMessage, view: &View) -> Result<SetPoint, Refused> {
         PlaceMessage::Global(place, height) => (Turn::NONE, on_earth(m, place, height, view)?),
     };
     let mut velocity = turn.apply(&masked(m.velocity, m.mask, VELOCITY)?);
-    if turn.origin != Vector3::zeros() || turn.heading != 0.0 {
+    if turn.moves {
         // A place from the vehicle stands still when it is sent. That the next one has moved, with the vehicle, is no motion
         // to be followed: the vehicle would run after itself.
         velocity.zip_apply(&position, |speed, place| {

@@ -313,7 +313,7 @@ impl<P: PositionLaw> Outer<P> {
         let may_stand = match ground {
             Ground::Far => false,
             Ground::Near => is_light || sinks,
-            Ground::Underfoot => is_light || sinks || !has_direct_thrust,
+            Ground::Underfoot => is_light || !has_direct_thrust,
         };
         OuterOutput { authority: if !in_air || may_stand { Authority::Gentle } else { Authority::Full }, ..output }
     }

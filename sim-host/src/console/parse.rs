@@ -72,6 +72,11 @@ enum Reads {
     With(fn(&[&str], Tick) -> Result<Command>),
 }
 
+/// A manual mode, which takes no arguments.
+const fn by_sticks(mode: ManualMode) -> Reads {
+    Reads::Nothing(Command::Request(Request::Manual(mode)))
+}
+
 impl PartialEq for Entry {
     fn eq(&self, other: &Self) -> bool {
         self.names == other.names
@@ -168,10 +173,10 @@ pub const COMMANDS: &[Entry] = &[
     .with_details(
         "At most 100 m/s along each axis and 360°/s, flown within the scenario's `modes`, as the answer says. By name, what is left out is 0: `velocity up=1`. `hold` ends it",
     ),
-    Entry::new(&["position"], "", "fly by sticks: a velocity, held where they are centred", Reads::Nothing(Command::Request(Request::Manual(ManualMode::Position)))),
-    Entry::new(&["altitude"], "", "fly by sticks: a tilt and a rate of climb", Reads::Nothing(Command::Request(Request::Manual(ManualMode::Altitude)))),
-    Entry::new(&["stabilized"], "", "fly by sticks: a tilt and the thrust", Reads::Nothing(Command::Request(Request::Manual(ManualMode::Stabilized)))),
-    Entry::new(&["acro"], "", "fly by sticks: rates of turn and the thrust", Reads::Nothing(Command::Request(Request::Manual(ManualMode::Acro)))),
+    Entry::new(&["position"], "", "fly by sticks: a velocity, held where they are centred", by_sticks(ManualMode::Position)),
+    Entry::new(&["altitude"], "", "fly by sticks: a tilt and a rate of climb", by_sticks(ManualMode::Altitude)),
+    Entry::new(&["stabilized"], "", "fly by sticks: a tilt and the thrust", by_sticks(ManualMode::Stabilized)),
+    Entry::new(&["acro"], "", "fly by sticks: rates of turn and the thrust", by_sticks(ManualMode::Acro)),
     Entry::new(&["hold", "loiter", "brake"], "", "brake and stay", Reads::Nothing(Command::Request(Request::Hold))),
     Entry::new(
         &["trajectory", "follow", "mission", "start"],

@@ -231,10 +231,10 @@ fn a_flight_by_set_points_is_the_same_bit_for_bit() {
     let mut bytes = Bytes::new(2);
     bytes.wait(3.0);
     let up = SET_POSITION_TARGET_LOCAL_NED_DATA { z: -3.0, type_mask: 0b111 << 6, ..Default::default() };
-    bytes.stream(0.5, |_, _| up.clone());
+    bytes.stream(0.5, |_| up.clone());
     bytes.mode(OFFBOARD, 0.0);
     bytes.arm();
-    bytes.stream(3.0, |_, _| up.clone());
+    bytes.stream(3.0, |_| up.clone());
     bytes.scatter(5.0);
     bytes.attitude(
         0.5,

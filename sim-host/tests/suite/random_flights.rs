@@ -330,19 +330,25 @@ fn stabilized_and_acro_mode_keep_their_limits_and_are_caught_again() {
     }
 }
 
+/// Armed, and told to take off, a time ago.
+fn taken_off(seed: u64, height_m: f32, ago_s: f64) -> Plan {
+    let mut plan = Plan::new(seed);
+    plan.bytes.wait(4.0);
+    plan.bytes.arm();
+    plan.bytes.wait(0.3);
+    plan.bytes.take_off(height_m);
+    plan.bytes.wait(ago_s);
+    plan
+}
+
 /// Up in the air, in offboard mode.
 fn offboard(seed: u64, height_m: f32) -> Plan {
-    let mut plan = Plan::new(seed);
+    let mut plan = taken_off(seed, height_m, 4.0 + f64::from(height_m));
     let bytes = &mut plan.bytes;
-    bytes.wait(4.0);
-    bytes.arm();
-    bytes.wait(0.3);
-    bytes.take_off(height_m);
-    bytes.wait(4.0 + f64::from(height_m));
     let still = SET_POSITION_TARGET_LOCAL_NED_DATA { z: -height_m, type_mask: 0b111 << 6, ..Default::default() };
-    bytes.stream(0.5, |_, _| still.clone());
+    bytes.stream(0.5, |_| still.clone());
     bytes.mode(OFFBOARD, 0.0);
-    bytes.stream(1.0, |_, _| still.clone());
+    bytes.stream(1.0, |_| still.clone());
     plan.check("in offboard mode", |watch| watch.mode == Mode::Offboard);
     plan
 }
@@ -369,7 +375,7 @@ fn set_points_below_the_ground_lead_to_it_gently() {
         let (vx, vy, vz) = (range(-0.5, 0.5), range(-0.5, 0.5), range(0.3, 3.0));
         let type_mask = [0b1111_1100_0000, 0b1001_1111_1000, 0b1111_1100_0111][range(0.0, 3.0) as usize];
         let below = SET_POSITION_TARGET_LOCAL_NED_DATA { x, y, z, vx, vy, vz, type_mask, ..Default::default() };
-        plan.bytes.stream(25.0, |_, _| below.clone());
+        plan.bytes.stream(25.0, |_| below.clone());
         plan.check("on the ground", |watch| matches!(watch.mode, Mode::Idle | Mode::Disarmed) && watch.stands());
         plan
     });
@@ -387,13 +393,8 @@ const ANYWHERE: [MavCmd; 4] = [
 #[test]
 fn a_landing_that_is_broken_off_ends_in_the_air_or_standing() {
     fly_all(&standing(), |seed| {
-        let mut plan = Plan::new(seed);
+        let mut plan = taken_off(seed, 2.0, 7.0);
         let bytes = &mut plan.bytes;
-        bytes.wait(4.0);
-        bytes.arm();
-        bytes.wait(0.3);
-        bytes.take_off(2.0);
-        bytes.wait(7.0);
         for _ in 0..bytes.random.random_range(1..4) {
             bytes.mode(AUTO, LAND);
             let lasts = bytes.random.random_range(2.0..6.5);
@@ -416,37 +417,18 @@ fn a_landing_that_is_broken_off_ends_in_the_air_or_standing() {
 #[test]
 fn a_place_or_a_circle_below_the_ground_leads_to_it_gently() {
     fly_all(&standing(), |seed| {
-        let mut plan = Plan::new(seed);
+        let mut plan = taken_off(seed, 5.0, 10.0);
         let bytes = &mut plan.bytes;
-        bytes.wait(4.0);
-        bytes.arm();
-        bytes.wait(0.3);
-        bytes.take_off(5.0);
-        bytes.wait(10.0);
         let mut range = |low: f32, high: f32| bytes.random.random_range(low..high);
         // MAV_FRAME_GLOBAL_RELATIVE_ALT, MAV_FRAME_GLOBAL.
         let (relative, above_sea) = (3, 0);
         let (frame, height) = [(relative, range(-50.0, 0.1)), (above_sea, range(0.0, 480.0))][range(0.0, 2.0) as usize];
         let circles = range(0.0, 3.0) > 2.0;
         let command = if circles { MavCmd::MAV_CMD_DO_ORBIT } else { MavCmd::MAV_CMD_DO_REPOSITION } as u16;
-        let [param1, param2] = if circles { [5.0, 2.0] } else { [-1.0, 1.0] };
-        let (x, y) = (i32::MAX, i32::MAX);
-        let [param3, param4] = if circles { [0.0, 0.0] } else { [0.0, f32::NAN] };
-        let (target_system, frame) = (1, frame);
-        let order = COMMAND_INT_DATA {
-            command,
-            frame,
-            param1,
-            param2,
-            param3,
-            param4,
-            x,
-            y,
-            z: height,
-            target_system,
-            ..Default::default()
-        };
-        bytes.send(&order);
+        let [param1, param2, param4] = if circles { [5.0, 2.0, 0.0] } else { [-1.0, 1.0, f32::NAN] };
+        let (x, y, z, target_system) = (i32::MAX, i32::MAX, height, 1);
+        let open = COMMAND_INT_DATA { x, y, z, target_system, ..Default::default() };
+        bytes.send(&COMMAND_INT_DATA { command, frame, param1, param2, param4, ..open });
         bytes.wait(35.0);
         plan.check("standing", |watch| watch.stands() && !watch.armed);
         plan
@@ -464,7 +446,7 @@ fn a_stream_that_is_lost_near_the_ground_ends_in_the_air_or_standing() {
             ..Default::default()
         };
         let (sink, lasts) = (plan.bytes.random.random_range(0.5..1.5_f32), plan.bytes.random.random_range(0.5..1.0));
-        plan.bytes.stream(lasts * 4.0 / f64::from(sink), |_, _| sinking(sink));
+        plan.bytes.stream(lasts * 4.0 / f64::from(sink), |_| sinking(sink));
         plan.bytes.wait(6.0);
         plan.check("standing", Watch::stands);
         plan.bytes.mode(AUTO, LAND);

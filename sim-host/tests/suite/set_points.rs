@@ -31,10 +31,10 @@ fn a_circle_at_eight_metres_a_second_is_flown_within_5_cm() {
         let type_mask = 0b1101_1111_1000;
         SET_POSITION_TARGET_LOCAL_NED_DATA { x, y, z: -HEIGHT_M as f32, type_mask, ..Default::default() }
     };
-    bytes.stream(0.5, |_, _| place(0.0));
+    bytes.stream(0.5, |_| place(0.0));
     bytes.mode(OFFBOARD, 0.0);
     let begun = bytes.now;
-    bytes.stream(30.0, |t, _| place(t));
+    bytes.stream(30.0, place);
     let end = bytes.now;
     let mut scenario = load("field", &["sensors=\"mocap\""]);
     scenario.replay = Some(bytes.into_entries().into());

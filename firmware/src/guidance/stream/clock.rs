@@ -20,9 +20,9 @@ const TRUSTED: u8 = 25;
 const EVEN_MS: i32 = 60;
 /// As many count at most, and a sample that is late takes away so many.
 const MOST_TRUSTED: u8 = 60;
+const DISTRUST: u8 = 4;
 /// A clock that was found to run at another rate is not looked at for so many samples.
 const SHUNNED: u16 = 2_000;
-const DISTRUST: u8 = 4;
 /// Differences spread farther only if one of the clocks is wrong, ms.
 const WIDEST_MS: i32 = 250;
 /// A sample that is late by more is from another clock, ms.

@@ -278,14 +278,7 @@ impl<const N: usize> Tracker<N> {
 
     /// Acceleration that reduces an error of the speed: linear, then the square root by which it ends with limited jerk.
     fn correction(&self, error: f32) -> f32 {
-        let jerk = CHANGING * self.limits.jerk;
-        let linear = jerk / (SPEED_RAD_S * SPEED_RAD_S);
-        let size = math::abs(error);
-        if size <= linear {
-            return SPEED_RAD_S * error;
-        }
-        let acceleration = math::sqrt(jerk * (2.0 * size - linear));
-        if error < 0.0 { -acceleration } else { acceleration }
+        math::braked(error, SPEED_RAD_S, CHANGING * self.limits.jerk)
     }
 
     fn correct(&self, error: &Axes<N>) -> Axes<N> {

@@ -5,13 +5,12 @@ use firmware::mavlink::port::Profile;
 use firmware::signals::Tick;
 use glissade_dialect::mavlink_core::MessageData;
 use glissade_dialect::{
-    COMMAND_LONG_DATA, HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavCmd, SET_ATTITUDE_TARGET_DATA,
-    SET_POSITION_TARGET_LOCAL_NED_DATA,
+    HEARTBEAT_DATA, MANUAL_CONTROL_DATA, MavCmd, SET_ATTITUDE_TARGET_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA,
 };
 use rand::{RngExt as _, SeedableRng as _};
 use sim_host::sil::replay::{Entry, Input, OnLink};
 
-use super::station::frame;
+use super::station::{self, frame};
 
 /// PX4's main modes, as `DO_SET_MODE` takes them, and its automatic ones.
 pub(crate) const ALTITUDE: f32 = 2.0;
@@ -54,11 +53,8 @@ impl Bytes {
     }
 
     /// A command with the first three and the last of its numbers.
-    pub(crate) fn command(&mut self, command: MavCmd, [param1, param2, param3, param7]: [f32; 4]) {
-        let command = command as u16;
-        let message =
-            COMMAND_LONG_DATA { command, param1, param2, param3, param7, target_system: 1, ..Default::default() };
-        self.send(&message);
+    pub(crate) fn command(&mut self, command: MavCmd, numbers: [f32; 4]) {
+        self.send(&station::command(command, numbers));
     }
 
     pub(crate) fn mode(&mut self, main: f32, sub: f32) {
@@ -122,14 +118,10 @@ impl Bytes {
     }
 
     /// Streams a set-point at 50 Hz, made anew each time from the time since the stream's beginning, s.
-    pub(crate) fn stream(
-        &mut self,
-        seconds: f64,
-        mut make: impl FnMut(f64, &mut ChaCha8Rng) -> SET_POSITION_TARGET_LOCAL_NED_DATA,
-    ) {
+    pub(crate) fn stream(&mut self, seconds: f64, make: impl Fn(f64) -> SET_POSITION_TARGET_LOCAL_NED_DATA) {
         let begun = self.now;
         self.repeat(seconds, STREAM, |bytes| {
-            let made = make(f64::from(bytes.now - begun) * 1e-3, &mut bytes.random);
+            let made = make(f64::from(bytes.now - begun) * 1e-3);
             bytes.send(&SET_POSITION_TARGET_LOCAL_NED_DATA {
                 time_boot_ms: bytes.now,
                 target_system: 1,
@@ -146,7 +138,7 @@ impl Bytes {
             let drawn = draw(&mut self.random);
             let moves = self.random.random_range(0..2) == 0;
             let lasts = self.random.random_range(0.3..4.0);
-            self.stream(lasts, |t, _| {
+            self.stream(lasts, |t| {
                 let t = if moves { t as f32 } else { 0.0 };
                 let place = |place: f32, speed: f32, acceleration: f32| place + (speed + 0.5 * acceleration * t) * t;
                 SET_POSITION_TARGET_LOCAL_NED_DATA {

@@ -14,7 +14,7 @@ pub(crate) fn frame(sequence: u8, message: &impl MessageData) -> Vec<u8> {
 }
 
 /// `COMMAND_LONG`, with its first three parameters and its last.
-fn command(command: MavCmd, [param1, param2, param3, param7]: [f32; 4]) -> COMMAND_LONG_DATA {
+pub(crate) fn command(command: MavCmd, [param1, param2, param3, param7]: [f32; 4]) -> COMMAND_LONG_DATA {
     let command = command as u16;
     COMMAND_LONG_DATA { command, param1, param2, param3, param7, target_system: 1, ..COMMAND_LONG_DATA::DEFAULT }
 }
