@@ -72,9 +72,7 @@ fn an_armed_vehicle_that_is_not_used_disarms_after_the_time_that_is_set() {
 
 /// Standing, with a throttle.
 fn with_throttle(throttle: f32) -> CommanderInput {
-    let mut input = standing();
-    input.latest.sticks = Some(Stamped { value: Sticks { throttle, ..Sticks::CENTRED }, at: 0 });
-    input
+    with_sticks(Sticks { throttle, ..Sticks::CENTRED })
 }
 
 #[test]
@@ -141,4 +139,61 @@ fn an_arming_by_switch_that_is_refused_is_told_once_with_its_reason() {
     bench.run(0.2, &switched(false, false));
     assert_eq!(bench.run(1.0, &switched(true, false)), []);
     assert!(bench.step(&switched(true, false)).armed);
+}
+
+/// Standing, with sticks.
+fn with_sticks(sticks: Sticks) -> CommanderInput {
+    let mut input = standing();
+    input.latest.sticks = Some(Stamped { value: sticks, at: 0 });
+    input
+}
+
+#[test]
+fn no_motor_is_tested_with_a_kill_switch_on_or_after_a_termination() {
+    let killed = with_sticks(Sticks { switches: Switches { kill: true, ..Switches::NONE }, ..Sticks::CENTRED });
+    let ended = CommanderInput { terminated: true, ..standing() };
+    for (input, refusal) in [(killed, Refusal::KillSwitch), (ended, Refusal::Terminated)] {
+        let mut bench = Bench::new(State::Disarmed);
+        assert_eq!(bench.ask(test(0, 0.1, 1.0), &input), Outcome::TemporarilyRejected(refusal));
+    }
+}
+
+#[test]
+fn a_heading_alone_ends_neither_a_landing_nor_a_circle_nor_what_a_failure_has_begun() {
+    let turn = Request::GoTo(Goal { yaw_rad: Some(1.0), ..Goal::default() });
+    let refused = Outcome::TemporarilyRejected(Refusal::NotHolding);
+    let orbit = Orbit { center: Vector3::zeros(), radius_m: 5.0, speed_m_s: 1.0, heading: OrbitHeading::Kept };
+    let course = Course { place_m: Some([5.0, 0.0]), height_m: 2.0, yaw: None };
+    for (state, outcome) in [
+        (State::Land, refused),
+        (State::Return { at_m: 5.0, climbs: false }, refused),
+        (State::Orbit(orbit), refused),
+        (State::Hold, Outcome::Accepted),
+        (State::GoTo(course), Outcome::Accepted),
+    ] {
+        assert_eq!(Bench::new(state).ask(turn, &hovering()), outcome, "{state:?}");
+    }
+}
+
+#[test]
+fn the_arming_gesture_needs_the_other_stick_in_the_middle() {
+    for (pitch, arms) in [(0.0, true), (0.1, true), (0.5, false), (-1.0, false)] {
+        let mut bench = Bench::new(State::Disarmed);
+        let gesture = with_sticks(Sticks { yaw: -1.0, throttle: 0.0, pitch, ..Sticks::CENTRED });
+        bench.run(1.2, &gesture);
+        assert_eq!(bench.step(&gesture).armed, arms, "{pitch}");
+    }
+}
+
+#[test]
+fn a_mode_switch_counts_when_it_is_first_seen_while_disarmed_and_in_the_air_when_it_is_moved() {
+    for (state, seen) in [(State::Disarmed, Mode::Position), (State::Hold, Mode::Hold)] {
+        let mut bench = Bench::new(state);
+        bench.commander.set(crate::settings::COM_FLTMODE1, Value::Int(2));
+        let mut input = if state == State::Hold { hovering() } else { standing() };
+        let switches = Switches { mode: Some(0), ..Switches::NONE };
+        input.latest.sticks = Some(Stamped { value: Sticks { switches, ..Sticks::CENTRED }, at: 0 });
+        bench.run(0.2, &input);
+        assert_eq!(bench.step(&input).shown, seen);
+    }
 }

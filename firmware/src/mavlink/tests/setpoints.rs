@@ -244,3 +244,13 @@ fn a_stream_that_is_refused_is_told_of_every_two_seconds() {
     let texts: usize = (0..500).map(|_| count(&bench.job(&bytes), 253)).sum();
     assert_eq!(texts, 3, "in 5 s");
 }
+
+/// A place from the vehicle stands still when it is sent; one of the map moves as its successors tell.
+#[test]
+fn a_place_in_a_frame_that_moves_with_the_vehicle_has_no_speed() {
+    let mut bench = vehicle();
+    for (coordinate_frame, speed) in [(1, None), (7, Some(0.0)), (8, Some(0.0)), (9, Some(0.0)), (12, Some(0.0))] {
+        let alone = SET_POSITION_TARGET_LOCAL_NED_DATA { coordinate_frame, type_mask: 0b1101_1111_1000, ..LOCAL };
+        assert_eq!(motion(&mut bench, &alone).velocity(), [speed; 3], "{coordinate_frame}");
+    }
+}
