@@ -168,6 +168,13 @@ impl<A: AttitudeLaw, P: PositionLaw, L: Borrow<Ports>> Autopilot<A, P, L> {
         self.inner.inner_output()
     }
 
+    /// The filter's output, if one has come into effect in the last tick.
+    pub fn filtered(&self) -> Option<&FilterOutput> {
+        let last_tick = self.inner.next_tick().wrapping_sub(1);
+        // The filter's next job is released later than in the tick that publishes this one's output.
+        if self.inner.filtered_at() == Some(last_tick) { self.mail.filter.last_output() } else { None }
+    }
+
     /// The jobs that a tick has released, each to its end.
     #[inline]
     pub fn run(&mut self, released: Released) {

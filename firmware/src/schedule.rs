@@ -18,11 +18,13 @@
 //! mailbox.finish(input + 1);
 //!
 //! // The output takes effect at tick 2, and not before.
-//! assert_eq!((released, mailbox.publish(1), mailbox.publish(2)), (0, None, Some(21)));
+//! assert_eq!((released, mailbox.publish(1)), (0, None));
+//! assert_eq!(mailbox.publish(2), Some(&21));
 //!
 //! // A job that has not finished in time is an overrun.
 //! mailbox.release(4, 30);
-//! assert_eq!((mailbox.publish(6), mailbox.overruns()), (None, 1));
+//! assert_eq!(mailbox.publish(6), None);
+//! assert_eq!(mailbox.overruns(), 1);
 //! ```
 
 use crate::signals::{TICK_S, Tick};
@@ -51,17 +53,17 @@ pub const GROUND: Timing = Timing { period: 10, offset: 6 };
 
 /// State of a partition's current job.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Job<O> {
+enum Job {
     /// No job.
     Idle,
     /// Released at this tick, not finished.
     Running(Tick),
     /// Released at this tick and finished; to be published.
-    Done(Tick, O),
+    Done(Tick),
     /// Overrun: still running.
     Late,
     /// Overrun and finished; to be published at once.
-    Overdue(O),
+    Overdue,
 }
 
 /// The mailbox between the inner loop and one partition: one input snapshot in, one output out. Its timing is in its
@@ -72,44 +74,34 @@ enum Job<O> {
 #[derive(Clone, Debug)]
 pub struct Mailbox<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool = false> {
     input: Option<(Tick, I)>,
-    job: Job<O>,
+    job: Job,
+    /// The last job's, also when it was published: the tick reads it where it stands, as it may hold hundreds of bytes.
+    output: Option<O>,
     overruns: u32,
 }
 
 impl<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool> Mailbox<I, O, PERIOD, OFFSET, KEEPS_LATE> {
     /// An empty mailbox.
     pub const fn new() -> Self {
-        Self { input: None, job: Job::Idle, overruns: 0 }
+        Self { input: None, job: Job::Idle, output: None, overruns: 0 }
     }
 
-    /// Step 1 of a tick: returns the output that is due now, or counts an overrun if its job has not finished.
+    /// Step 1 of a tick: the output that takes effect now, if any. Counts an overrun if its job has not finished.
     #[inline]
-    pub fn publish(&mut self, tick: Tick) -> Option<O> {
-        let (Job::Running(released) | Job::Done(released, _)) = &self.job else { return self.publish_overdue() };
-        if tick.wrapping_sub(*released) < OFFSET {
-            return None;
+    pub fn publish(&mut self, tick: Tick) -> Option<&O> {
+        let is_due = |released: Tick| tick.wrapping_sub(released) >= OFFSET;
+        match self.job {
+            Job::Done(released) if is_due(released) => {}
+            Job::Overdue => {}
+            Job::Running(released) if is_due(released) => {
+                self.job = Job::Late;
+                self.overruns = self.overruns.saturating_add(1);
+                return None;
+            }
+            _ => return None,
         }
-        // Moved, not copied: an output may hold hundreds of bytes.
-        if let Job::Done(_, output) = core::mem::replace(&mut self.job, Job::Late) {
-            self.job = Job::Idle;
-            return Some(output);
-        }
-        self.overruns = self.overruns.saturating_add(1);
-        None
-    }
-
-    #[inline]
-    fn publish_overdue(&mut self) -> Option<O> {
-        if KEEPS_LATE && matches!(self.job, Job::Overdue(_)) { self.take_overdue() } else { None }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn take_overdue(&mut self) -> Option<O> {
-        match core::mem::replace(&mut self.job, Job::Idle) {
-            Job::Overdue(output) => Some(output),
-            _ => None,
-        }
+        self.job = Job::Idle;
+        self.output.as_ref()
     }
 
     /// True if the partition is due for release at `tick`: a multiple of its period, and its last job has ended.
@@ -136,10 +128,11 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool> Mailb
     #[inline]
     pub fn finish(&mut self, output: O) {
         self.job = match self.job {
-            Job::Running(released) => Job::Done(released, output),
-            Job::Late if KEEPS_LATE => Job::Overdue(output),
+            Job::Running(released) => Job::Done(released),
+            Job::Late if KEEPS_LATE => Job::Overdue,
             _ => Job::Idle,
         };
+        self.output = Some(output);
     }
 
     /// Step 4 on the desktop: the released job, if any, to its end.
@@ -148,6 +141,11 @@ impl<I, O, const PERIOD: Tick, const OFFSET: Tick, const KEEPS_LATE: bool> Mailb
         if let Some((tick, input)) = self.take() {
             self.finish(step(tick, &input));
         }
+    }
+
+    /// The output of the last job that has finished, which may not be in effect yet.
+    pub fn last_output(&self) -> Option<&O> {
+        self.output.as_ref()
     }
 
     /// Number of jobs that had not finished when their output was due.
@@ -176,7 +174,7 @@ mod tests {
         let (tick, input) = mailbox.take().expect("released");
         mailbox.finish(input + tick);
         assert_eq!(mailbox.publish(9), None);
-        assert_eq!(mailbox.publish(10), Some(88));
+        assert_eq!(mailbox.publish(10), Some(&88));
         assert_eq!(mailbox.publish(11), None);
         assert_eq!(mailbox.overruns(), 0);
     }
@@ -185,10 +183,12 @@ mod tests {
     fn what_must_not_be_lost_is_published_late() {
         let mut mailbox: Mailbox<u32, u32, 4, 2, true> = Mailbox::new();
         mailbox.release(0, 1);
-        assert_eq!((mailbox.publish(2), mailbox.publish(3)), (None, None));
+        assert_eq!(mailbox.publish(2), None);
+        assert_eq!(mailbox.publish(3), None);
         mailbox.finish(7);
         assert!(!mailbox.is_due(4), "the next job waits until this one's output is in effect");
-        assert_eq!((mailbox.publish(4), mailbox.publish(5)), (Some(7), None));
+        assert_eq!(mailbox.publish(4), Some(&7));
+        assert_eq!(mailbox.publish(5), None);
         assert!(mailbox.is_due(8));
         assert_eq!(mailbox.overruns(), 1);
     }
@@ -207,6 +207,6 @@ mod tests {
         mailbox.release(8, 3);
         mailbox.take();
         mailbox.finish(9);
-        assert_eq!(mailbox.publish(10), Some(9));
+        assert_eq!(mailbox.publish(10), Some(&9));
     }
 }

@@ -10,7 +10,7 @@ use crate::commander::{
 use crate::config::FlightConfig;
 use crate::control::attitude::SlidingAttitude;
 use crate::control::law::{AttitudeLaw, PositionLaw};
-use crate::estimator::FilterOutput;
+use crate::estimator::FilterReport;
 use crate::estimator::status::Fusion;
 use crate::failure::{Failures, Injectable};
 use crate::inner::{Inner, InnerOutput};
@@ -42,7 +42,7 @@ pub struct InnerTask<A = SlidingAttitude> {
     tick: Tick,
     inner: Inner<A>,
     outer: OuterOutput,
-    filter: FilterOutput,
+    filter: FilterReport,
     /// When that output took effect.
     filtered_at: Option<Tick>,
     /// Record of each kind of measurement, for telemetry.
@@ -99,7 +99,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             tick: 0,
             inner,
             outer: first,
-            filter: FilterOutput::initial(),
+            filter: FilterReport::NONE,
             filtered_at: None,
             fusion: Fusion::default(),
             commander,
@@ -196,7 +196,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
     #[inline]
     fn publish(&mut self, tick: Tick, mail: &mut Mailboxes, ports: &Ports) {
         if let Some(output) = mail.outer.publish(tick) {
-            self.outer = output;
+            self.outer = *output;
             self.watchdog.outer_published(tick);
         }
         if let Some(navigator) = self.inner.navigator_mut()
@@ -204,7 +204,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         {
             navigator.inject(&output.injection);
             self.fusion.note(tick, &output.consistency);
-            self.filter = output;
+            self.filter = output.report;
             self.filtered_at = Some(tick);
         }
         if let Some(output) = mail.commander.publish(tick) {
@@ -214,7 +214,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
             if let Some(event) = output.event {
                 self.report(event);
             }
-            self.commander = output;
+            self.commander = output.clone();
             self.watchdog.commander_published(tick);
         }
         if let Some(output) = mail.ground.publish(tick) {
@@ -233,10 +233,10 @@ impl<A: AttitudeLaw> InnerTask<A> {
             self.latest = output.latest;
             ports.publish();
             if !output.failures.is_empty() {
-                self.failures = output.failures;
+                self.failures = output.failures.clone();
             }
             if !output.changes.is_empty() {
-                self.hand_on(output.changes);
+                self.hand_on(&output.changes);
             }
         }
     }
@@ -244,12 +244,12 @@ impl<A: AttitudeLaw> InnerTask<A> {
     /// Settings for the other partitions: inner takes them over now, each of the others with its next job.
     #[cold]
     #[inline(never)]
-    fn hand_on(&mut self, changes: Changes) {
-        for change in &changes {
+    fn hand_on(&mut self, changes: &Changes) {
+        for change in changes {
             self.inner.apply(change);
             self.fallback.apply(change);
         }
-        self.changes = changes;
+        self.changes = changes.clone();
         let filter = self.inner.navigator().is_some();
         self.waiting = Waiting { filter, outer: true, commander: true };
     }
@@ -408,14 +408,14 @@ impl<A: AttitudeLaw> InnerTask<A> {
         self.inner.navigator()
     }
 
-    /// When the filter's last output took effect.
-    pub fn filtered_at(&self) -> Option<Tick> {
-        self.filtered_at
+    /// What the filter knows, by its output now in effect.
+    pub fn filter_report(&self) -> &FilterReport {
+        &self.filter
     }
 
-    /// The filter's last output.
-    pub fn filter_output(&self) -> &FilterOutput {
-        &self.filter
+    /// When that output took effect.
+    pub fn filtered_at(&self) -> Option<Tick> {
+        self.filtered_at
     }
 
     /// Which components of the motion may be trusted.

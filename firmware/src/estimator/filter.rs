@@ -130,6 +130,15 @@ pub enum Injection {
 pub struct FilterOutput {
     /// For the predictor.
     pub injection: Injection,
+    /// One entry per measurement of this job.
+    pub consistency: heapless::Vec<Consistency, 8>,
+    /// What is known of the motion.
+    pub report: FilterReport,
+}
+
+/// What the filter knows after a job.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilterReport {
     /// Which components of the motion may be trusted.
     pub health: NavHealth,
     /// Estimated wind, x and y, m/s.
@@ -140,23 +149,19 @@ pub struct FilterOutput {
     pub origin: Option<Origin>,
     /// Standard deviations of attitude (rad), velocity (m/s) and position (m), three components each.
     pub sigma: [f32; 9],
-    /// One entry per measurement of this job.
-    pub consistency: heapless::Vec<Consistency, 8>,
 }
 
 impl FilterOutput {
-    /// Output before the first job: nothing is known.
-    pub fn initial() -> Self {
-        Self {
-            injection: Injection::None,
-            health: NavHealth::NONE,
-            wind: [0.0; 2],
-            wind_sigma: [f32::INFINITY; 2],
-            origin: None,
-            sigma: [0.0; 9],
-            consistency: heapless::Vec::new(),
-        }
+    /// Output of a job that has found nothing.
+    fn none() -> Self {
+        Self { injection: Injection::None, consistency: heapless::Vec::new(), report: FilterReport::NONE }
     }
+}
+
+impl FilterReport {
+    /// Before the first job: nothing is known.
+    pub const NONE: Self =
+        Self { health: NavHealth::NONE, wind: [0.0; 2], wind_sigma: [f32::INFINITY; 2], origin: None, sigma: [0.0; 9] };
 }
 
 /// A source whose readings have failed the gate for this long has jumped, ticks.
@@ -363,9 +368,9 @@ impl Filter {
     fn align(&mut self, now: Tick, input: &FilterInput) -> FilterOutput {
         let mag = input.readings.mag.filter(|mag| math::all_finite(mag.field_ut.as_slice()));
         let pose = self.last_pose.filter(|pose| now.wrapping_sub(pose.at) < POSE_FRESH);
-        let Some(aligner) = &mut self.aligner else { return FilterOutput::initial() };
+        let Some(aligner) = &mut self.aligner else { return FilterOutput::none() };
         let found = aligner.update(&input.span, mag.as_ref(), pose.as_ref(), self.north.as_ref(), self.gravity);
-        let Some(alignment) = found else { return FilterOutput::initial() };
+        let Some(alignment) = found else { return FilterOutput::none() };
         let state = self.begin(&alignment, pose.as_ref());
         self.aligner = None;
         self.started = Some(state);
@@ -374,10 +379,13 @@ impl Filter {
         self.history.push(Snapshot { at: now, attitude, velocity, position });
         FilterOutput {
             injection: Injection::Start(state),
-            health: self.health(now),
-            origin: self.origin,
-            sigma: self.sigma(),
-            ..FilterOutput::initial()
+            report: FilterReport {
+                health: self.health(now),
+                origin: self.origin,
+                sigma: self.sigma(),
+                ..FilterReport::NONE
+            },
+            ..FilterOutput::none()
         }
     }
 
@@ -454,12 +462,14 @@ impl Filter {
         let injection = self.started.map_or(Injection::Correct(correction), Injection::Start);
         FilterOutput {
             injection,
-            health: self.health(job.now.at),
-            wind: self.offsets.wind,
-            wind_sigma: [0, 1].map(|axis| self.deviation(index::WIND + axis)),
-            origin: self.origin,
-            sigma: self.sigma(),
             consistency: job.consistency,
+            report: FilterReport {
+                health: self.health(job.now.at),
+                wind: self.offsets.wind,
+                wind_sigma: [0, 1].map(|axis| self.deviation(index::WIND + axis)),
+                origin: self.origin,
+                sigma: self.sigma(),
+            },
         }
     }
 
@@ -472,7 +482,7 @@ impl Filter {
         let origin = |frame: LocalFrame| frame.to_geodetic(&Vector3::zeros());
         self.origin = self.origin.zip(self.frame).map(|(was, frame)| Origin { place: origin(frame), ..was });
         self.history.clear();
-        FilterOutput::initial()
+        FilterOutput::none()
     }
 
     // ------------------------------------------------------------------------------------------------- health

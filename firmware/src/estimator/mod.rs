@@ -40,7 +40,7 @@ pub mod update;
 pub mod vibration;
 pub mod watch;
 
-pub use filter::{Filter, FilterInput, FilterOutput, Injection, Readings, Source};
+pub use filter::{Filter, FilterInput, FilterOutput, FilterReport, Injection, Readings, Source};
 pub use predictor::{Correction, Nominal, Predictor};
 pub use settings::EstimatorSettings;
 pub use vibration::Vibration;

@@ -1,6 +1,6 @@
 //! The estimator's report to pilots: which sensors are present and healthy, and how consistent their readings are.
 
-use super::filter::{Consistency, FilterOutput, Source};
+use super::filter::{Consistency, FilterReport, Source};
 use super::update::gate;
 use crate::frames::Origin;
 use crate::sensors::BatterySample;
@@ -96,12 +96,12 @@ impl Fusion {
         if age(&other) < age(&one) { other.ratio } else { one.ratio }
     }
 
-    /// The report at `now`, from the filter's last output, the health, and the last battery sample with its age in
+    /// The report at `now`, from the filter's last report, the health, and the last battery sample with its age in
     /// ticks.
     pub fn status(
         &self,
         now: Tick,
-        filter: &FilterOutput,
+        filter: &FilterReport,
         health: NavHealth,
         battery: Option<(BatterySample, u32)>,
     ) -> Status {
@@ -151,7 +151,7 @@ mod tests {
     }
 
     fn status(fusion: &Fusion, now: Tick) -> Status {
-        fusion.status(now, &FilterOutput::initial(), NavHealth::ALL, None)
+        fusion.status(now, &FilterReport::NONE, NavHealth::ALL, None)
     }
 
     #[test]
@@ -177,8 +177,7 @@ mod tests {
     #[test]
     fn a_battery_that_is_not_measured_any_more_is_not_well() {
         let sample = BatterySample { voltage_v: 15.0, current_a: 12.0 };
-        let at =
-            |age| Fusion::default().status(0, &FilterOutput::initial(), NavHealth::ALL, Some((sample, age))).battery;
+        let at = |age| Fusion::default().status(0, &FilterReport::NONE, NavHealth::ALL, Some((sample, age))).battery;
         assert_eq!(at(1_500), Sensor { present: true, healthy: true });
         assert_eq!(at(1_501), Sensor { present: true, healthy: false });
     }

@@ -439,8 +439,8 @@ impl<P: Plant, A: AttitudeLaw, L: PositionLaw> Flight<P, A, L> {
             gyro_bias: state.map_or_else(Vector3::zeros, |state| state.gyro_bias),
             accel_bias: state.map_or_else(Vector3::zeros, |state| state.accel_bias),
             health: vehicle.nav_health(),
-            filtered_at: vehicle.filtered_at(),
-            filter: vehicle.filter_output(),
+            filter: vehicle.filter_report(),
+            filtered: self.autopilot.filtered(),
             covariance: self.autopilot.filter.covariance(),
             commander: vehicle.commander_output(),
         }

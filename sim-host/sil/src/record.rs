@@ -1,9 +1,9 @@
 //! What a flight leaves behind: one row a tick, and who takes it.
 
 use firmware::commander::CommanderOutput;
-use firmware::estimator::FilterOutput;
 use firmware::estimator::covariance::Covariance;
-use firmware::signals::{NavHealth, NavState, Tick};
+use firmware::estimator::{FilterOutput, FilterReport};
+use firmware::signals::{NavHealth, NavState};
 use nalgebra::Vector3;
 
 use crate::outcome::End;
@@ -86,10 +86,10 @@ pub struct Navigation<'a> {
     pub accel_bias: Vector3<f32>,
     /// What of the motion it trusts.
     pub health: NavHealth,
-    /// When the filter's last output came into effect.
-    pub filtered_at: Option<Tick>,
-    /// That output.
-    pub filter: &'a FilterOutput,
+    /// What the filter knows.
+    pub filter: &'a FilterReport,
+    /// Its output, if one has come into effect at this tick.
+    pub filtered: Option<&'a FilterOutput>,
     /// The filter's covariance.
     pub covariance: &'a Covariance,
     /// What the vehicle is doing.

@@ -42,7 +42,6 @@ pub struct Consistency {
     pub nees: Vec<[f64; 4]>,
     next_look_s: f64,
     looks: usize,
-    last_tick: Option<u32>,
 }
 
 /// Every kind of reading, in the order of its number.
@@ -86,30 +85,26 @@ impl Consistency {
     /// Adds a tick's readings, and every two seconds the error; `attitude` is the attitude error in the world, rad.
     pub fn take(&mut self, navigation: &Navigation, attitude: &Vector3<f64>) {
         // The covariance is that of the filter's last job; what it has found is in the motion when it comes into effect.
-        let in_effect = navigation.filtered_at == Some((navigation.t * 1e3).round() as u32);
-        if navigation.t >= self.next_look_s && in_effect {
+        if navigation.t >= self.next_look_s && navigation.filtered.is_some() {
             self.next_look_s = navigation.t + LOOK_EVERY_S;
             self.looks += 1;
             // A singular covariance counts as inconsistent.
             self.nees.push(nees(navigation, attitude).unwrap_or([f64::INFINITY; 4]));
         }
-        if self.last_tick != navigation.filtered_at {
-            self.last_tick = navigation.filtered_at;
-            for reading in &navigation.filter.consistency {
-                let (name, degrees) = kind(reading.source);
-                let all = self.innovations.entry(name).or_default();
-                let nis = f64::from(reading.verdict.nis);
-                all.degrees = degrees;
-                all.count += 1;
-                all.refused += u64::from(!reading.verdict.accepted);
-                all.within += u64::from(nis <= quantile(degrees));
-                if reading.verdict.accepted {
-                    all.sum += nis;
-                }
-                if all.seen < self.looks {
-                    all.seen = self.looks;
-                    all.looks.push(nis);
-                }
+        for reading in navigation.filtered.into_iter().flat_map(|output| &output.consistency) {
+            let (name, degrees) = kind(reading.source);
+            let all = self.innovations.entry(name).or_default();
+            let nis = f64::from(reading.verdict.nis);
+            all.degrees = degrees;
+            all.count += 1;
+            all.refused += u64::from(!reading.verdict.accepted);
+            all.within += u64::from(nis <= quantile(degrees));
+            if reading.verdict.accepted {
+                all.sum += nis;
+            }
+            if all.seen < self.looks {
+                all.seen = self.looks;
+                all.looks.push(nis);
             }
         }
     }

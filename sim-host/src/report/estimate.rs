@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use firmware::commander::Mode;
 use firmware::estimator::update::Verdict;
-use firmware::signals::{NavHealth, NavState, Tick};
+use firmware::signals::{NavHealth, NavState};
 use nalgebra::Vector3;
 
 use super::out::{cannot_write, create_file};
@@ -58,18 +58,14 @@ pub struct Belief {
 #[derive(Clone, Debug, Default)]
 pub struct Sampler {
     ticks: u32,
-    filtered_at: Option<Tick>,
     readings: [Option<Verdict>; SOURCES.len()],
 }
 
 impl Sampler {
     /// Takes a tick; the first gives a belief, and each [`EVERY`]th after it.
     pub fn take(&mut self, navigation: &Navigation) -> Option<Belief> {
-        if self.filtered_at != navigation.filtered_at {
-            self.filtered_at = navigation.filtered_at;
-            for reading in &navigation.filter.consistency {
-                self.readings[reading.source as usize] = Some(reading.verdict);
-            }
+        for reading in navigation.filtered.into_iter().flat_map(|output| &output.consistency) {
+            self.readings[reading.source as usize] = Some(reading.verdict);
         }
         let is_due = self.ticks.is_multiple_of(EVERY);
         self.ticks += 1;

@@ -64,7 +64,6 @@ struct Seen {
     climb_m_s: f64,
     /// By kind of reading, the whole flight: how many, and how many refused.
     readings: BTreeMap<&'static str, (u32, u32)>,
-    filtered_at: Option<u32>,
     /// What it did in the air, and last of all.
     modes: BTreeSet<&'static str>,
     last_mode: Mode,
@@ -85,7 +84,6 @@ impl Seen {
             speed_m_s: 0.0,
             climb_m_s: 0.0,
             readings: BTreeMap::new(),
-            filtered_at: None,
             modes: BTreeSet::new(),
             last_mode: Mode::Disarmed,
             touchdown_m_s: None,
@@ -133,13 +131,10 @@ impl Recorder for Seen {
             self.speed_m_s = self.speed_m_s.max(velocity.xy().norm());
             self.climb_m_s = self.climb_m_s.max(velocity.z.abs());
         }
-        if self.filtered_at != navigation.filtered_at {
-            self.filtered_at = navigation.filtered_at;
-            for reading in &navigation.filter.consistency {
-                let (read, refused) = self.readings.entry(kind(reading.source).0).or_default();
-                *read += 1;
-                *refused += u32::from(!reading.verdict.accepted);
-            }
+        for reading in navigation.filtered.into_iter().flat_map(|output| &output.consistency) {
+            let (read, refused) = self.readings.entry(kind(reading.source).0).or_default();
+            *read += 1;
+            *refused += u32::from(!reading.verdict.accepted);
         }
     }
 }

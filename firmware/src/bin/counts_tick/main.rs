@@ -29,8 +29,8 @@ mod image {
 
     /// Budget of a tick in instructions, for the mean and for the maximum, which is of a tick that releases every
     /// partition.
-    const MEAN: f32 = 2_650.0;
-    const MAX: u32 = 6_100;
+    const MEAN: f32 = 2_450.0;
+    const MAX: u32 = 5_100;
 
     /// Greatest distance from where it should hold at the end, m, for the flight to be valid.
     const HELD_WITHIN_M: f32 = 1.0;

@@ -32,7 +32,7 @@ impl Recorder for Fingerprint {
         for value in motion.chain(nav.rates.iter()).chain(&navigation.filter.sigma).chain(&navigation.filter.wind) {
             self.believed.write_u32(value.to_bits());
         }
-        for reading in &navigation.filter.consistency {
+        for reading in navigation.filtered.into_iter().flat_map(|output| &output.consistency) {
             self.believed.write_u32(reading.verdict.nis.to_bits());
         }
     }
