@@ -103,8 +103,8 @@ pub struct Setpoint {
     limits: ModeSettings,
     /// Fraction of the distance to its input that a lag covers per step, 1 − e^(−h/τ).
     step_fraction: f32,
-    /// Whether that is more than the jerk limit wants: slower lags wait until the reference stands.
-    slows: bool,
+    /// Whether that is not what the limits want: other lags wait until the reference stands.
+    waits: bool,
     /// Origin of the course's x, y and z, m: whole multiples of [`ANCHORS_M`], which an f32 holds and subtracts exactly.
     anchor: Vector3<f32>,
     /// x, y, z of the course from the anchor, and ψ; and their rates.
@@ -147,9 +147,9 @@ fn moved(speed: f32, change: f32) -> (f32, f32) {
 
 /// Below this the reference stands, m/s, m/s² and rad/s.
 const STANDS: f32 = 1e-3;
-/// The least fraction with which a moving reference is taken over, that of 0.2 s: with slower lags the course would be far
+/// Greatest time constant of a lag with which a moving reference is taken over, s: with slower lags the course would be far
 /// ahead of it, and much faster.
-const FASTER_FRACTION: f32 = STEP_S / 0.2;
+const TAKES_OVER_S: f32 = 0.3;
 
 /// Greatest time constant of a lag, s: the reference is three of them late. An acceleration that would need more, far beyond
 /// what the jerk suits, exceeds the jerk limit.
@@ -161,14 +161,21 @@ fn time_constant_s(limits: &ModeSettings) -> f32 {
     math::min(KERNEL * fastest / limits.jerk_m_s3, SLOWEST_S)
 }
 
+/// The same for going on from an acceleration that may be beyond the limit, m/s²: the course's may be against it.
+fn takes_over_s(limits: &ModeSettings, acceleration: &Vector3<f32>) -> f32 {
+    let across = math::sqrt(acceleration.xy().norm_squared()) + limits.acceleration_m_s2;
+    let along = math::abs(acceleration.z) + limits.vertical_acceleration_m_s2;
+    math::min(0.5 * KERNEL * math::max(across, along) / limits.jerk_m_s3, TAKES_OVER_S)
+}
+
 /// Delay of the reference behind the course, s.
 pub(crate) fn delay_s(limits: &ModeSettings) -> f32 {
     3.0 * time_constant_s(limits)
 }
 
-/// Fraction of the distance to its input that a lag covers per step.
-fn step_fraction(limits: &ModeSettings) -> f32 {
-    1.0 - math::exp(-STEP_S / time_constant_s(limits))
+/// Fraction of the distance to its input that a lag with a time constant covers per step.
+fn step_fraction(time_constant_s: f32) -> f32 {
+    1.0 - math::exp(-STEP_S / time_constant_s)
 }
 
 /// Fraction of the acceleration that braking is planned with; the rest keeps the course on its line.
@@ -183,8 +190,8 @@ impl Setpoint {
         let zero = Vector4::zeros();
         Self {
             limits: *limits,
-            step_fraction: step_fraction(limits),
-            slows: false,
+            step_fraction: step_fraction(time_constant_s(limits)),
+            waits: false,
             anchor: Vector3::zeros(),
             place: zero,
             speed: zero,
@@ -197,19 +204,20 @@ impl Setpoint {
         let reference = self.reference();
         self.limits = *limits;
         // Slower lags wait until the reference stands: while it moves, the course would have to be far ahead and too fast.
-        if step_fraction(limits) > self.step_fraction {
+        let wanted = step_fraction(time_constant_s(limits));
+        if wanted > self.step_fraction {
             self.start(&reference);
         } else {
-            self.slows = step_fraction(limits) < self.step_fraction;
-            if self.slows {
-                self.slow_down();
+            self.waits = wanted < self.step_fraction;
+            if self.waits {
+                self.wait();
             }
         }
     }
 
-    /// Slower lags, once the reference stands.
+    /// Other lags, once the reference stands.
     #[cold]
-    fn slow_down(&mut self) {
+    fn wait(&mut self) {
         let moves = |rates: &Vector4<f32>| rates.amax() > STANDS;
         if !moves(&self.speed) && !self.lags.iter().any(|lag| moves(&lag.velocity) || moves(&lag.acceleration)) {
             self.start(&FlatReference { snap: Vector3::zeros(), jerk: Vector3::zeros(), ..self.reference() });
@@ -220,9 +228,9 @@ impl Setpoint {
     /// that the lags are behind.
     pub fn start(&mut self, from: &FlatReference) {
         let stands = from.velocity.amax() + from.acceleration.amax() + from.jerk.amax() <= 3.0 * STANDS;
-        let fraction = step_fraction(&self.limits);
-        self.step_fraction = if stands { fraction } else { math::max(fraction, FASTER_FRACTION) };
-        self.slows = fraction < self.step_fraction;
+        let (usual_s, moving_s) = (time_constant_s(&self.limits), takes_over_s(&self.limits, &from.acceleration));
+        self.step_fraction = step_fraction(if stands { usual_s } else { moving_s });
+        self.waits = !stands && moving_s != usual_s;
         let ahead_s = STEP_S / self.step_fraction;
         let mut velocity = four(&from.velocity, from.yaw_rate);
         let mut acceleration = four(&from.acceleration, from.yaw_acceleration);
@@ -244,8 +252,8 @@ impl Setpoint {
 
     /// Advances by a step towards a target, and returns the new reference.
     pub fn advance(&mut self, target: &Target) -> FlatReference {
-        if self.slows {
-            self.slow_down();
+        if self.waits {
+            self.wait();
         }
         let (way, change) = self.translate(target);
         let (angle, rate_change) = self.turn(target);

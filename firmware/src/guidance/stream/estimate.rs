@@ -43,6 +43,9 @@ const AGREEING: f32 = 0.5;
 /// one that is not.
 const CALMING: f32 = 0.12;
 const DOUBTING: f32 = 0.6;
+/// So long after a target has begun to move in another way, its jerk is not well known: the filters have settled, and a
+/// reference that may be 10 m/s² off with 10 m/s³ has met it, s.
+const SETTLING_S: f32 = 1.0;
 /// Fraction of a given place's residual that is followed if the speed is given too: the rest is noise of the times.
 const PLACE_FRACTION: f32 = 0.5;
 
@@ -117,6 +120,8 @@ enum Response {
 pub(super) struct Group<const N: usize> {
     axes: [Axis; N],
     motion: Motion,
+    /// Until the target has moved in one way for so long that its jerk is well known, s.
+    settling_s: f32,
     /// Confidence in the acceleration that places tell, 0 to 1: what of it is passed on.
     calm: f32,
     /// From the latest sample to the state, s: 0 unless the target is silent.
@@ -131,7 +136,14 @@ fn length(values: impl Iterator<Item = f32>) -> f32 {
 impl<const N: usize> Group<N> {
     /// A group of which nothing is given.
     pub(super) fn new(gate: Gate) -> Self {
-        Self { axes: [Axis::default(); N], motion: Motion::Placed, calm: 0.0, ahead_s: 0.0, gate }
+        Self {
+            axes: [Axis::default(); N],
+            motion: Motion::Placed,
+            settling_s: SETTLING_S,
+            calm: 0.0,
+            ahead_s: 0.0,
+            gate,
+        }
     }
 
     /// Takes a sample. `speed` is the reference's, with which an axis goes on of which the acceleration alone is given.
@@ -139,12 +151,14 @@ impl<const N: usize> Group<N> {
         let known = self.axes.iter().zip(given).all(|(axis, given)| axis.given.has_same_fields(given));
         if !known || timing.since_s > GAP_S {
             self.motion = Motion::Placed;
+            self.settling_s = SETTLING_S;
             self.ahead_s = 0.0;
             for ((axis, given), speed) in self.axes.iter_mut().zip(given).zip(speed.iter()) {
                 axis.restart(given, *speed);
             }
         } else {
             let was_silent = self.ahead_s > 0.0;
+            self.settling_s = math::max(self.settling_s - timing.since_s, 0.0);
             self.predict(given, timing.since_s);
             self.correct_by_places(timing);
             self.correct_by_rates(timing, was_silent);
@@ -191,6 +205,9 @@ impl<const N: usize> Group<N> {
             Response::Coast | Response::Shift => DOUBTING * self.calm,
             Response::Stand | Response::Begin(_) | Response::Turn => 0.0,
         };
+        if matches!(response, Response::Stand | Response::Begin(_) | Response::Turn) {
+            self.settling_s = SETTLING_S;
+        }
         for axis in self.axes.iter_mut().filter(|axis| axis.given.is_place_alone()) {
             match response {
                 Response::Stand => axis.stand(),
@@ -287,7 +304,7 @@ impl<const N: usize> Group<N> {
         let slower = kept(acceleration);
         let acceleration = shorten(slower, strongest);
         let jerk = if acceleration == slower { kept(jerk) } else { SVector::zeros() };
-        Target { place, speed: speed_kept, acceleration, jerk, placed }
+        Target { place, speed: speed_kept, acceleration, jerk, placed, settled: self.settling_s <= 0.0 }
     }
 
     /// Goes on to `age_s` without a sample: what has a place brakes, and what has none keeps its speed.

@@ -49,6 +49,8 @@ pub(super) struct Target<const N: usize> {
     pub(super) jerk: Axes<N>,
     /// 1 for each axis whose place is given, 0 for the others.
     pub(super) placed: Axes<N>,
+    /// Whether it has moved in one way for a while, so that its jerk is well known.
+    pub(super) settled: bool,
 }
 
 /// Limits of a chain. `up` holds in the direction of the positive axis, `down` in the other; equal if N = 2.
@@ -63,7 +65,8 @@ pub(super) struct Limits {
     /// Acceleration relative to the target, and of the target and the reference.
     pub(super) acceleration: f32,
     pub(super) strongest: f32,
-    /// Jerk relative to the target, and the same while a target's acceleration is caught up with.
+    /// Jerk relative to the target, and of the reference until the target has settled; and the former while the speed of
+    /// target and reference is at its limit.
     pub(super) jerk: f32,
     pub(super) sharpest: f32,
     /// Whether the axis is an angle.
@@ -207,12 +210,15 @@ impl<const N: usize> Tracker<N> {
         away += (moving + changing * (0.5 * AHEAD_S)) * AHEAD_S;
         let relative =
             self.wanted_acceleration(&away.component_mul(&target.placed), &(moving + changing * AHEAD_S), target);
-        let wanted = shorten(target.acceleration + relative, self.limits.strongest);
-        let (wanted, passed_on) = self.slow_down(wanted, target.jerk);
-        // A target's acceleration beyond the limit is caught up with in the time in which the limit would be reached.
-        let excess = math::sqrt(changing.norm_squared()) / self.limits.acceleration;
-        let most = math::min(self.limits.jerk * math::max(excess, 1.0), self.limits.sharpest);
+        let free = shorten(target.acceleration + relative, self.limits.strongest);
+        let (wanted, passed_on) = self.slow_down(free, target.jerk);
         let correction = (wanted - acceleration) * ACCELERATION_RAD_S;
+        let Limits { jerk, sharpest, .. } = self.limits;
+        if !target.settled {
+            return shorten(passed_on + correction, jerk);
+        }
+        // A target that turns at its limits would carry the reference beyond the speed while that turns more slowly.
+        let most = if wanted == free { jerk } else { sharpest };
         passed_on + shorten(correction, most + against(&passed_on, &correction))
     }
 

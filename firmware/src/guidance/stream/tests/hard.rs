@@ -251,3 +251,46 @@ fn a_speed_that_contradicts_the_places_does_no_harm_after_a_silence() {
         }
     }
 }
+
+#[test]
+fn a_target_is_followed_as_far_as_a_vehicle_could() {
+    // 12 m/s on a radius of 9 m have 16 m/s², and 10 are allowed.
+    let path = |t: f64| circle(9.0, 12.0, t);
+    let link = Link { velocity: true, acceleration: true, ..LINK };
+    let (mut fastest, mut strongest) = (0.0_f32, 0.0_f32);
+    for (t, r) in link.fly(&mut Stream::new(&LIMITS, FASTEST), 20.0, path) {
+        if t > 2.0 {
+            fastest = math::max(fastest, r.velocity.xy().norm());
+            strongest = math::max(strongest, r.acceleration.xy().norm());
+        }
+    }
+    assert!((11.0..1.1 * FASTEST.speed_m_s + SLACK).contains(&fastest), "{fastest} m/s");
+    assert!((0.9..1.05).contains(&(strongest / FASTEST.acceleration_m_s2)), "{strongest} m/s²");
+    // A velocity alone, and a place that moves with one.
+    let velocity = Motion::default().with_velocity([Some(20.0), Some(0.0), None]);
+    let mut stream = Stream::new(&LIMITS, FASTEST);
+    for i in 0..2_500 {
+        let at = i / 5 * 20;
+        stream.advance(i * 4 + 2, &Sample { motion: velocity, at, sent_ms: Some(at) });
+    }
+    assert!(math::abs(stream.reference().velocity.x - 12.0) < 0.05, "{}", stream.reference().velocity);
+    let line = |t: f64| [[13.5 * t, 0.0, 5.0], [0.0; 3], [0.0; 3]];
+    let (_, r) = *Link { clock: true, ..LINK }.fly(&mut start_on(line), 20.0, line).last().expect("some");
+    assert!((11.9..12.3).contains(&r.velocity.x), "{}", r.velocity);
+}
+
+#[test]
+fn samples_that_are_overtaken_change_nothing() {
+    let path = |t: f64| circle(15.0, 6.0, t);
+    let samples = Link { clock: true, ..LINK }.samples(20.0, path);
+    // Each fifth comes once more, 40 ms late.
+    let mut overtaken = samples.clone();
+    for (seen, sample) in samples.iter().step_by(5) {
+        overtaken.push((seen + 40, Sample { at: sample.at + 40, ..*sample }));
+    }
+    overtaken.sort_by_key(|(seen, sample)| (*seen, sample.at, sample.sent_ms));
+    let flown = [&samples, &overtaken].map(|samples| fly(samples, &mut start_on(path), 20.0));
+    let farthest = flown[0].iter().zip(&flown[1]).filter(|((t, _), _)| *t > 3.0);
+    let farthest = farthest.map(|((_, a), (_, b))| (a.position - b.position).norm()).fold(0.0, math::max);
+    assert!(farthest < 0.01, "{farthest} m");
+}

@@ -153,7 +153,8 @@ fn a_target_at_the_greatest_speed_keeps_its_turn() {
     for (radius, seed) in [(30.0, 1), (30.0, 2), (20.0, 3)] {
         let path = |t| circle(radius, 12.0, t);
         let flown = Link { seed, ..LINK }.fly(&mut start_on(path), 30.0, path);
-        let (rms, _, _) = accuracy(&flown, path, 5.0);
+        // It is caught up with at a fiftieth of its speed.
+        let (rms, _, _) = accuracy(&flown, path, 8.0);
         assert!(rms < 0.1, "{radius}: {rms} m");
     }
 }

@@ -22,6 +22,8 @@ fn assert_within_limits(r: &FlatReference) {
     most(math::abs(r.acceleration.z), LIMITS.vertical_acceleration_m_s2, "vertical acceleration");
     most(r.jerk.xy().norm(), LIMITS.jerk_m_s3, "jerk");
     most(math::abs(r.jerk.z), LIMITS.jerk_m_s3, "vertical jerk");
+    // A jerk that goes from one end to the other through a lag of 12 ms.
+    most(r.snap.xy().norm(), 2.0 * LIMITS.jerk_m_s3 / 0.012, "snap");
     most(math::abs(r.yaw_rate), LIMITS.yaw_rate_rad_s, "yaw rate");
     most(math::abs(r.yaw_acceleration), LIMITS.yaw_acceleration_rad_s2, "yaw acceleration");
 }
