@@ -7,7 +7,8 @@
 //! Frames are read where the link's ring holds them. While the stream is synchronised, that is, as long as each frame
 //! begins where the last one ended, a frame that is not known, or is damaged but followed by another, is passed over as
 //! a whole: its payload (a file, for example) may itself look like a command. Once synchronisation is lost, any byte may
-//! begin a frame, until a checksum is right and another frame, or nothing, follows. A frame that is not complete within [`PATIENCE_JOBS`] is discarded.
+//! begin a frame, until a checksum is right and another frame follows, or nothing: where a frame may have begun before,
+//! nothing for [`QUIET_JOBS`]. A frame that is not complete within [`PATIENCE_JOBS`] is discarded.
 
 use glissade_dialect::mavlink_core::{MavlinkVersion, calculate_crc, consts};
 
@@ -25,6 +26,9 @@ const FRAME_MAX: usize = HEADER_V2 + consts::MAX_PAYLOAD_LEN + consts::CHECKSUM_
 /// slowest usual radio (57.6 kBd).
 const PATIENCE_JOBS: u8 = 10;
 
+/// So many jobs without a byte after a frame: nothing follows it. In one job's bytes, the end is wherever they were cut.
+const QUIET_JOBS: u8 = 5;
+
 /// Bytes of frames that may be checked in one job. A hostile stream can begin a long frame with every second byte: what
 /// is beyond this waits for the next job, and costs its sender's link alone.
 const WORK_MAX: usize = 4096;
@@ -33,7 +37,11 @@ const WORK_MAX: usize = 4096;
 #[derive(Clone, Debug)]
 pub(super) struct Parser {
     in_step: bool,
+    /// Jobs for which the rest of a frame has been awaited, and jobs without a byte.
     waited_jobs: u8,
+    empty_jobs: u8,
+    /// Bytes to the end of what may have been a frame, and was damaged or is not known.
+    doubtful: usize,
     /// Bytes that may still be checked in this job.
     work: usize,
     bad_checksums: u32,
@@ -41,7 +49,7 @@ pub(super) struct Parser {
 
 impl Default for Parser {
     fn default() -> Self {
-        Self { in_step: true, waited_jobs: 0, work: 0, bad_checksums: 0 }
+        Self { in_step: true, waited_jobs: 0, empty_jobs: 0, doubtful: 0, work: 0, bad_checksums: 0 }
     }
 }
 
@@ -55,6 +63,17 @@ enum Scan {
     Foreign { length: usize },
     /// Perhaps a frame of a known message.
     Known(Header),
+}
+
+/// What follows a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Next {
+    /// The beginning of another, or nothing.
+    Frame,
+    /// Something else.
+    Other,
+    /// Nothing yet.
+    Unknown,
 }
 
 /// The header of a frame.
@@ -78,7 +97,12 @@ impl Parser {
     /// Begins a job. Call it once per job, even without bytes, and then [`next`](Self::next) until that returns `None`.
     pub(super) fn begin(&mut self, bytes: &Ring<RECEIVED_CAPACITY>) {
         self.work = WORK_MAX;
-        self.waited_jobs = if bytes.readable() > 0 { self.waited_jobs.saturating_add(1) } else { 0 };
+        let is_empty = bytes.readable() == 0;
+        self.waited_jobs = if is_empty { 0 } else { self.waited_jobs.saturating_add(1) };
+        self.empty_jobs = if is_empty { self.empty_jobs.saturating_add(1) } else { 0 };
+        if self.empty_jobs >= QUIET_JOBS {
+            self.doubtful = 0;
+        }
         if self.waited_jobs > PATIENCE_JOBS {
             self.pass_byte(bytes);
         }
@@ -91,13 +115,26 @@ impl Parser {
             match scan(bytes) {
                 Scan::Incomplete => return None,
                 Scan::Nothing => self.pass_byte(bytes),
-                Scan::Foreign { .. } if !self.in_step => self.pass_byte(bytes),
+                Scan::Foreign { length } if !self.in_step => self.doubt(bytes, length),
                 Scan::Foreign { length } if length > bytes.readable() => return None,
                 Scan::Foreign { length } => self.pass(bytes, length),
                 Scan::Known(header) if header.length() > bytes.readable() => return None,
                 Scan::Known(header) => {
+                    let next = self.next_after(bytes, &header);
+                    // By a checksum alone it may be a piece of a file in a message that was damaged on the way; and there is
+                    // no need to check it.
+                    if !self.in_step && next == Next::Other {
+                        self.pass_byte(bytes);
+                        continue;
+                    }
                     self.work = self.work.checked_sub(header.length())?;
-                    if let Some(message) = self.check(bytes, &header, us) {
+                    let mut frame = [0; FRAME_MAX];
+                    let frame = bytes.copy(&mut frame);
+                    let is_intact = is_intact(frame, &header);
+                    if is_intact != self.in_step && next == Next::Unknown {
+                        return None;
+                    }
+                    if let Some(message) = self.take(bytes, &header, is_intact, next, frame, us) {
                         return Some((header.sender, message));
                     }
                 }
@@ -106,25 +143,22 @@ impl Parser {
     }
 
     /// Passes a complete frame of a known message; returns the message if it is intact and for this vehicle.
-    fn check(&mut self, bytes: &Ring<RECEIVED_CAPACITY>, header: &Header, us: Identity) -> Option<Incoming> {
-        let mut frame = [0; FRAME_MAX];
-        let frame = bytes.copy(&mut frame);
-        let known = known(header.id)?;
-        let end = header.start + header.payload;
-        let covered = frame.get(consts::STX_SIZE..end)?;
-        let checksum = frame.get(end..)?.first_chunk::<{ consts::CHECKSUM_SIZE }>()?;
-        if calculate_crc(covered, known.extra_crc) != u16::from_le_bytes(*checksum) {
+    fn take(
+        &mut self,
+        bytes: &Ring<RECEIVED_CAPACITY>,
+        header: &Header,
+        is_intact: bool,
+        next: Next,
+        frame: &[u8],
+        us: Identity,
+    ) -> Option<Incoming> {
+        if !is_intact {
             self.bad_checksums = self.bad_checksums.saturating_add(1);
-            if self.in_step && Self::is_followed(bytes, header) {
+            if self.in_step && next == Next::Frame {
                 self.pass(bytes, header.length());
             } else {
-                self.pass_byte(bytes);
+                self.doubt(bytes, header.length());
             }
-            return None;
-        }
-        if !self.in_step && !Self::is_followed(bytes, header) {
-            // By a checksum alone this may be a piece of a file in a message that was damaged on the way.
-            self.pass_byte(bytes);
             return None;
         }
         self.pass(bytes, header.length());
@@ -132,12 +166,18 @@ impl Parser {
         if header.sender == (us.system, COMPONENT_ID) {
             return None;
         }
-        (known.decode)(&Raw { version: header.version, payload: frame.get(header.start..end)?, us })
+        let payload = frame.get(header.start..header.start + header.payload)?;
+        (known(header.id)?.decode)(&Raw { version: header.version, payload, us })
     }
 
-    /// Whether what follows a frame is the beginning of another, or nothing yet: its length is probably right.
-    fn is_followed(bytes: &Ring<RECEIVED_CAPACITY>, header: &Header) -> bool {
-        bytes.peek(header.length()).is_none_or(|byte| matches!(byte, MAGIC_V1 | MAGIC_V2))
+    /// What follows a frame. If that is another, or nothing, its length is probably right.
+    fn next_after(&self, bytes: &Ring<RECEIVED_CAPACITY>, header: &Header) -> Next {
+        match bytes.peek(header.length()) {
+            Some(MAGIC_V1 | MAGIC_V2) => Next::Frame,
+            Some(_) => Next::Other,
+            None if (self.in_step || self.doubtful > 0) && self.waited_jobs < QUIET_JOBS => Next::Unknown,
+            None => Next::Frame,
+        }
     }
 
     /// Number of frames with a wrong checksum since the link was opened.
@@ -148,12 +188,27 @@ impl Parser {
     fn pass(&mut self, bytes: &Ring<RECEIVED_CAPACITY>, count: usize) {
         bytes.skip(count);
         self.waited_jobs = 0;
+        self.doubtful = self.doubtful.saturating_sub(count);
+    }
+
+    /// Passes the first byte of what may have been a frame of a length.
+    fn doubt(&mut self, bytes: &Ring<RECEIVED_CAPACITY>, length: usize) {
+        self.doubtful = self.doubtful.max(length);
+        self.pass_byte(bytes);
     }
 
     fn pass_byte(&mut self, bytes: &Ring<RECEIVED_CAPACITY>) {
         self.pass(bytes, 1);
         self.in_step = false;
     }
+}
+
+/// Whether a frame's checksum is right.
+fn is_intact(frame: &[u8], header: &Header) -> bool {
+    let end = header.start + header.payload;
+    let checksum = frame.get(end..).and_then(<[u8]>::first_chunk::<{ consts::CHECKSUM_SIZE }>);
+    let (Some(covered), Some(checksum)) = (frame.get(consts::STX_SIZE..end), checksum) else { return false };
+    known(header.id).is_some_and(|known| calculate_crc(covered, known.extra_crc) == u16::from_le_bytes(*checksum))
 }
 
 fn scan(bytes: &Ring<RECEIVED_CAPACITY>) -> Scan {

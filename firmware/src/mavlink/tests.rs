@@ -1,6 +1,7 @@
 //! The partition as a ground station sees it: bytes in, bytes out.
 
 mod failures;
+mod framing;
 mod goals;
 mod messages;
 mod modes;
