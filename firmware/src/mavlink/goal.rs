@@ -49,7 +49,7 @@ pub(super) fn reposition(message: &CommandMessage, view: &View) -> Result<Reques
 pub(super) fn land(message: &CommandMessage, view: &View) -> Result<Request, Effect> {
     let is_unset = match message.form {
         Form::Long([latitude, longitude]) => latitude == 0.0 && longitude == 0.0,
-        Form::Int { xy, .. } => xy == [0, 0],
+        Form::Int { frame, xy } => frame != LOCAL_NED && xy == [0, 0],
     };
     let place_m = if is_unset { None } else { place(message, view, "Landing")?.0 };
     let yaw_deg = given(message.param4).filter(|yaw| *yaw != 0.0 || place_m.is_some());
@@ -72,15 +72,15 @@ pub(super) fn orbit(message: &CommandMessage, view: &View) -> Result<Request, Ef
         nan if nan.is_nan() => OrbitHeading::Center,
         _ => return Err(DENIED),
     };
-    // The command's height is above the sea, whatever the frame: MAVSDK sends it so in a frame of heights above home.
-    let above_sea = match message.form {
-        Form::Int { frame, xy } if frame != LOCAL_NED => {
-            datum(frame)?;
-            CommandMessage { form: Form::Int { frame: GLOBAL, xy }, ..*message }
+    // MAVSDK sends a height above the sea in a frame of heights above home. One that would be below the ground is above home.
+    let is_below_ground = view.ground_msl_m().is_some_and(|ground_m| message.param7 < ground_m);
+    let form = match message.form {
+        Form::Int { frame, xy } if frame != LOCAL_NED && datum(frame)? == Datum::Ground && !is_below_ground => {
+            Form::Int { frame: GLOBAL, xy }
         }
-        _ => *message,
+        form => form,
     };
-    let (center_m, height_m) = place(&above_sea, view, "Orbit")?;
+    let (center_m, height_m) = place(&CommandMessage { form, ..*message }, view, "Orbit")?;
     let radius = given(radius);
     // Clockwise is negative here. Of a speed that is not given the direction is that of the radius.
     let clockwise = radius.is_none_or(|radius| radius > 0.0) != given(speed).is_some_and(|speed| speed < 0.0);

@@ -228,6 +228,11 @@ impl Link {
         None
     }
 
+    /// Whether an arming waits for settings.
+    pub(super) fn has_arming_waiting(&self) -> bool {
+        self.arming_waits_since.is_some()
+    }
+
     /// Refuses what is still waiting for the commander: a kill came after it.
     pub(super) fn refuse_waiting(&mut self) {
         while let Some(command) = self.waiting.pop_front() {

@@ -257,7 +257,9 @@ impl Ground {
         let view = View { latest: self.latest, ..view }.with_channels(&self.hands);
         let origin_before = self.set_origin;
         self.arming_at = self.arming_at.filter(|at| released.wrapping_sub(*at) <= ARMING_SEEN_AFTER);
-        let armed = input.armed || self.arming_at.is_some();
+        // Also while an arming waits for settings: who keeps on setting some would keep the others from arming.
+        let arms = self.arming_at.is_some() || self.links.iter().any(Link::has_arming_waiting);
+        let armed = input.armed || arms;
         for ((number, link), port) in (0..).zip(&mut self.links).zip(ports) {
             let Some((session, profile)) = port.session() else { continue };
             link.begin(session, profile, released, port);

@@ -84,6 +84,16 @@ impl RadioMap {
         }
     }
 
+    /// The channel of the kill switch, by its index.
+    pub(super) fn kill_channel(&self) -> Option<usize> {
+        self.kill.map(|mapped| mapped.index)
+    }
+
+    /// Whether the kill switch is on; `None` if its channel is not there.
+    pub(super) fn kill_switch(&self, channels: &Channels) -> Option<bool> {
+        self.kill.as_ref()?.part(channels).map(|part| part > ON_ABOVE)
+    }
+
     /// The sticks; `None` while one of the four is not mapped, or its channel is not there.
     pub(super) fn sticks(&self, channels: &Channels) -> Option<Sticks> {
         let axis = |mapped: &Option<Mapped>| mapped.as_ref()?.axis(channels);
@@ -99,7 +109,7 @@ impl RadioMap {
             switches: Switches {
                 mode: part(&self.mode).map(|part| math::min(part * f32::from(MODE_POSITIONS), 5.0) as u8),
                 arm: is_on(&self.arm),
-                kill: is_on(&self.kill) == Some(true),
+                kill: self.kill_switch(channels) == Some(true),
             },
         })
     }

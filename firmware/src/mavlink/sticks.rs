@@ -32,6 +32,15 @@ pub(super) enum Channel {
     Set(PulseUs),
 }
 
+impl Channel {
+    fn pulse(self) -> Option<PulseUs> {
+        match self {
+            Self::Set(pulse) => Some(pulse),
+            Self::Ignored | Self::Released => None,
+        }
+    }
+}
+
 /// A message of sticks, its values in their ranges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum StickMessage {
@@ -122,6 +131,9 @@ pub(super) struct Hands {
     channels: Option<Stamped<Channels>>,
     /// Since when each of them has been as it is.
     set_at: [Tick; CHANNELS],
+    /// Whether a radio's kill switch is on, and when one last said something of it.
+    is_killing: bool,
+    kill_told_at: Tick,
 }
 
 /// How sticks are taken, by the settings.
@@ -154,9 +166,8 @@ impl Taking {
 }
 
 impl Hands {
-    /// Takes over a message that was read at a tick, and returns whether a kill switch was turned on by it. While a source has
-    /// said something within half of `loss_s`, no other one counts: the vehicle would be moved by both in turn. After that
-    /// another takes its place before the sticks are lost.
+    /// Takes over a message that was read at a tick, and returns whether a kill switch was turned on by it: one of any radio
+    /// counts, whoever moves the vehicle.
     pub(super) fn take(
         &mut self,
         message: &StickMessage,
@@ -165,11 +176,44 @@ impl Hands {
         taking: &Taking,
         latest: &mut Latest,
     ) -> bool {
+        let is_turned_on = self.turn_kill_switch(message, now, taking);
+        if let Some(mut sticks) = self.counted(message, from, now, taking, latest) {
+            sticks.switches.kill = self.is_killing && !is_older(self.kill_told_at, now, taking.loss_s);
+            latest.sticks = Some(Stamped { value: sticks, at: now });
+        }
+        is_turned_on
+    }
+
+    /// Takes what a radio's message says of its kill switch, and returns whether that was turned on.
+    fn turn_kill_switch(&mut self, message: &StickMessage, now: Tick, taking: &Taking) -> bool {
+        let (StickMessage::Channels(said), Some(index)) = (message, taking.radio.kill_channel()) else { return false };
+        let is_on = match said.get(index) {
+            _ if !taking.takes(Kind::Radio) => None,
+            Some(Channel::Released) => Some(false),
+            _ => taking.radio.kill_switch(&said.map(Channel::pulse)),
+        };
+        let Some(is_on) = is_on else { return false };
+        // One that is on when a lost radio comes back has been turned on.
+        let was_on = self.is_killing && !is_older(self.kill_told_at, now, taking.loss_s);
+        (self.is_killing, self.kill_told_at) = (is_on, now);
+        is_on && !was_on
+    }
+
+    /// The sticks of a message if they count. While a source has said something within half of `loss_s`, no other one does:
+    /// the vehicle would be moved by both in turn. After that another takes its place before the sticks are lost.
+    fn counted(
+        &mut self,
+        message: &StickMessage,
+        from: Source,
+        now: Tick,
+        taking: &Taking,
+        latest: &Latest,
+    ) -> Option<Sticks> {
         let is_free = latest.sticks_within(now, HANDED_OVER * taking.loss_s).is_none();
         let (kind, sticks) = match message {
             StickMessage::Joystick(sticks) => {
                 if !is_free && self.held_by == Some(Kind::Joystick) && self.joystick != Some(from) {
-                    return false;
+                    return None;
                 }
                 self.joystick = Some(from);
                 (Kind::Joystick, Some(*sticks))
@@ -179,7 +223,7 @@ impl Hands {
                 let is_heard = within(self.channels.as_ref(), now, HANDED_OVER * taking.loss_s).is_some();
                 let says_something = message.iter().any(|said| *said != Channel::Ignored);
                 if !says_something || (is_heard && self.radio != Some(from)) {
-                    return false;
+                    return None;
                 }
                 self.radio = Some(from);
                 let channels = self.after(held.unwrap_or_default(), message, now, taking.loss_s);
@@ -189,12 +233,11 @@ impl Hands {
             }
         };
         if !taking.takes(kind) || !(is_free || self.held_by == Some(kind)) {
-            return false;
+            return None;
         }
-        let Some(sticks) = sticks else { return false };
+        let sticks = sticks?;
         self.held_by = Some(kind);
-        let before = latest.sticks.replace(Stamped { value: sticks, at: now });
-        sticks.switches.kill && !before.is_some_and(|before| before.value.switches.kill)
+        Some(sticks)
     }
 
     /// A radio's channels, unless they are older than a time, s.
@@ -209,7 +252,11 @@ impl Hands {
 
     /// Forgets what is so old that its age would soon seem to be small, because the clock wraps.
     pub(super) fn forget_old(&mut self, now: Tick) {
-        self.channels = self.channels.filter(|channels| now.wrapping_sub(channels.at) <= Tick::MAX / 2);
+        let is_old = |at: Tick| now.wrapping_sub(at) > Tick::MAX / 2;
+        self.channels = self.channels.filter(|channels| !is_old(channels.at));
+        if is_old(self.kill_told_at) {
+            self.kill_told_at = now.wrapping_sub(Tick::MAX / 2);
+        }
     }
 
     /// The channels after a message. One that it ignores stays as it is, unless it was lost.

@@ -17,7 +17,7 @@ pub(super) fn write_refusal(request: &str, reason: &str, out: &mut Writer) -> bo
 /// Sends an event; false if it does not fit.
 pub(super) fn write_event(event: Event, out: &mut Writer) -> bool {
     let severity = match event {
-        Event::ArmingRefused { .. } => MavSeverity::MAV_SEVERITY_WARNING,
+        Event::ArmingRefused { .. } | Event::TakeOffRefused { .. } => MavSeverity::MAV_SEVERITY_WARNING,
         _ => MavSeverity::MAV_SEVERITY_CRITICAL,
     };
     write(&[event.text()], severity, out)

@@ -153,6 +153,25 @@ fn a_take_off_without_a_height_goes_to_the_set_one() {
 }
 
 #[test]
+fn who_keeps_on_setting_keeps_nobody_from_arming() {
+    let mut bench = Bench::silent();
+    let mut armed_after = None;
+    for job in 0..60 {
+        // They are taken over within a few jobs, and each job another is set.
+        bench.input.changes_taken = job % 4 == 0;
+        let mut bytes = set_real("GL_E_GYR_N", 1e-4 * (1.0 + 0.01 * job as f32));
+        if job == 10 {
+            bytes.extend(command(ARM, 1.0, 0.0));
+        }
+        bench.job(&bytes);
+        if armed_after.is_none() && !bench.commands.is_empty() {
+            armed_after = Some(job - 10);
+        }
+    }
+    assert!(armed_after.is_some_and(|jobs| jobs < 20), "{armed_after:?}");
+}
+
+#[test]
 fn what_can_be_set_while_disarmed_only_is_refused_from_the_arming_on_not_from_when_it_is_seen() {
     let mut bench = Bench::silent();
     let noise = || set_real("GL_E_GYR_N", 2e-4);

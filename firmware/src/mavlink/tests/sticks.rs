@@ -5,7 +5,7 @@ use glissade_dialect::{HEARTBEAT_DATA, MANUAL_CONTROL_DATA, RC_CHANNELS_DATA, RC
 use super::*;
 use crate::latest::{Stamped, Sticks};
 use crate::mavlink::radio::{Channels, PulseUs};
-use crate::settings::{COM_RC_LOSS_T, Value};
+use crate::settings::{COM_RC_IN_MODE, COM_RC_LOSS_T, RC_MAP_KILL_SW, Value};
 
 /// The bit of `SYS_STATUS`.
 const RC_RECEIVER: u32 = 65_536;
@@ -156,6 +156,35 @@ fn of_two_joysticks_and_of_two_radios_the_first_counts_until_it_is_lost() {
 }
 
 #[test]
+fn a_kill_switch_of_any_radio_counts_whoever_moves_the_vehicle() {
+    let from = |system_id: u32| MavHeader { system_id, ..STATION };
+    let radio = |system_id, switch: u16| {
+        frame_from(from(system_id), &RC_CHANNELS_OVERRIDE_DATA { chan1_raw: 1500, chan5_raw: switch, ..OVERRIDE })
+    };
+    let joystick = || frame_from(from(254), &JOYSTICK);
+    for (leads, sources, counts) in
+        [(joystick(), 3, true), (joystick(), 1, false), (radio(253, 1000), 3, true), (Vec::new(), 3, true)]
+    {
+        let mut bench = Bench::silent();
+        bench.ground.settings.set(RC_MAP_KILL_SW, Value::Int(5), false).expect("a channel");
+        bench.ground.settings.set(COM_RC_IN_MODE, Value::Int(sources), false).expect("a mode");
+        let mut kills = Vec::new();
+        for job in 0..20 {
+            let switch = if (5..15).contains(&job) { 2000 } else { 1000 };
+            // Every second job: what leads says nothing of that switch, or that its own is off.
+            let bytes = if job % 2 == 0 { leads.clone() } else { radio(255, switch) };
+            let output = bench.output_of(&bytes).0;
+            kills.extend(output.kill.then_some(job));
+            if let (true, Some(sticks)) = (leads == joystick(), output.latest.sticks) {
+                // No arming, and no motor test, while it is on.
+                assert_eq!(sticks.value.switches.kill, counts && (6..16).contains(&job), "{job}");
+            }
+        }
+        assert_eq!(kills.first(), counts.then_some(&5), "{sources}: {kills:?}");
+    }
+}
+
+#[test]
 fn a_frame_without_the_added_channels_ignores_them() {
     let mut bench = Bench::silent();
     let mut v1 = MAVLinkV1MessageRaw::new();
@@ -205,4 +234,17 @@ fn a_ground_station_is_heard_by_its_heartbeat_alone() {
     let now = bench.tick;
     assert_eq!(bench.output_of(&beat(6)).0.latest.station, Some(now));
     assert_eq!(bench.output_of(&beat(2)).0.latest.station, Some(now));
+}
+
+#[test]
+fn a_kill_switch_that_is_on_when_a_lost_radio_comes_back_kills() {
+    let mut bench = Bench::silent();
+    bench.ground.settings.set(RC_MAP_KILL_SW, Value::Int(5), false).expect("a channel");
+    let on = frame(&RC_CHANNELS_OVERRIDE_DATA { chan5_raw: 2000, ..OVERRIDE });
+    let mut kills = Vec::new();
+    for job in 0..200 {
+        let bytes = if !(50..150).contains(&job) { on.clone() } else { Vec::new() };
+        kills.extend(bench.output_of(&bytes).0.kill.then_some(job));
+    }
+    assert_eq!(kills, [0, 150]);
 }
