@@ -107,6 +107,11 @@ impl Watchdog {
         (level, is_first)
     }
 
+    /// Whether a descent is flown in place of what the commander told.
+    pub fn descends(&self) -> bool {
+        self.descends
+    }
+
     /// A descent by what is known in place of the commander's directive, at a rate (m/s); `None` on the ground. Also
     /// whether this is the first.
     pub fn descent(

@@ -138,13 +138,21 @@ impl<A: AttitudeLaw> InnerTask<A> {
             };
         }
         if !armed && let Some(MotorTest { rotor, part }) = self.commander.motor_test {
-            self.inner.spin(rotor, part);
+            self.test_motor(tick, rotor, part);
         }
         if self.inner.navigator().is_some() {
             self.inner.watch_rotors(armed, !self.commander.landed);
         }
         self.tick = tick.wrapping_add(1);
         released
+    }
+
+    /// Turns a motor, unless a kill or the commander's hanging has ended its test: nobody else would.
+    #[cold]
+    fn test_motor(&mut self, tick: Tick, rotor: u8, part: f32) {
+        if self.commander.kills == self.kills && !self.watchdog.hung(tick).commander {
+            self.inner.spin(rotor, part);
+        }
     }
 
     /// One tick of control while the outer partition hangs: a blind descent, unless the vehicle is on the ground.
@@ -227,8 +235,11 @@ impl<A: AttitudeLaw> InnerTask<A> {
             }
             for command in &output.commands {
                 if let Err(command) = self.commands.push(*command) {
-                    self.reply(&Reply { command, outcome: Outcome::TemporarilyRejected(Refusal::Busy) });
+                    self.refuse(command, Refusal::Busy);
                 }
+            }
+            if !self.commands.is_empty() && self.watchdog.hung(tick).commander {
+                self.refuse_all();
             }
             self.latest = output.latest;
             ports.publish();
@@ -265,6 +276,18 @@ impl<A: AttitudeLaw> InnerTask<A> {
         // twice as often, refuses no more.
         if let Some(reply) = reply.to_station() {
             let _ = self.replies.push(reply);
+        }
+    }
+
+    fn refuse(&mut self, command: Command, refusal: Refusal) {
+        self.reply(&Reply { command, outcome: Outcome::TemporarilyRejected(refusal) });
+    }
+
+    /// Answers what waits for a commander that hangs, which may go on much later.
+    #[cold]
+    fn refuse_all(&mut self) {
+        for command in core::mem::take(&mut self.commands) {
+            self.refuse(command, Refusal::NoCommander);
         }
     }
 
@@ -310,7 +333,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
                 failed_rotor: self.inner.failed_rotor(),
                 outer_hung: self.watchdog.is_outer_hung(tick),
                 kills: self.kills,
-                terminated: self.terminated,
+                terminated: self.terminated || self.restart_at.is_some(),
                 latest: self.latest,
                 commands: core::mem::take(&mut self.commands),
                 changes: self.changes_for(|waiting| &mut waiting.commander),

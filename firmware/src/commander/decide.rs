@@ -25,6 +25,10 @@ impl Commander {
             (Request::SetHome { position_m }, None) => self.set_home(*position_m, input),
             (Request::Speed { kind, speed_m_s }, None) => {
                 self.speeds.choose(*kind, *speed_m_s);
+                if let (State::GoTo(course) | State::Approach(course), SpeedKind::Horizontal) = (&mut self.state, kind)
+                {
+                    course.speed_m_s = None;
+                }
                 Ok(())
             }
             (_, None) => self.disarm(),
@@ -36,14 +40,18 @@ impl Commander {
     pub(super) fn arm(&mut self, force: bool, effective: Tick, input: &CommanderInput) -> Result<(), Refusal> {
         if let State::Idle { .. } = self.state {
             self.state = State::Idle { disarm_at: self.unused_until(effective) };
-            self.rest_intent();
+            // A take-off that waits for the rotors goes on waiting.
+            if !self.intent.leaves_ground() {
+                self.rest_intent();
+            }
         }
         if self.state != State::Disarmed {
             return Ok(());
         }
-        // Nobody can know what it would do: not even forced.
+        // Not even forced: nobody can know what it would do, or somebody does not want it.
         self.check_configured()?;
         self.check_terminated()?;
+        self.check_kill_switch(effective.wrapping_sub(COMMANDER.offset), input)?;
         let intent = self.intent;
         let launch = if intent.leaves_ground() { self.check_take_off(&intent, input) } else { Ok(()) };
         if !force {
@@ -56,9 +64,9 @@ impl Commander {
         }
         self.battery_answered = super::Charge::Good;
         self.station.rearm();
+        self.begin_to_spin(effective);
         self.state = State::Idle { disarm_at: self.unused_until(effective) };
         self.stood_m = Some(input.nav.position.z);
-        self.begin_to_spin(effective);
         if intent.leaves_ground() && launch.is_ok() {
             self.launch(intent, effective, input);
         } else {
@@ -184,9 +192,6 @@ impl Commander {
     /// Begins with what the pilot wants, and ends what has overridden it.
     pub(super) fn engage(&mut self, intent: Intent, effective: Tick, input: &CommanderInput) {
         self.state = self.state_for(&intent, effective, &input.nav.position);
-        if let Intent::GoTo(Goal { speed_m_s: Some(speed_m_s), .. }) = intent {
-            self.speeds.choose(SpeedKind::Horizontal, Some(speed_m_s));
-        }
         let expires = matches!(intent, Intent::Velocity { .. });
         self.keep(intent, expires.then(|| effective.wrapping_add(ticks(VELOCITY_TIMEOUT_S))));
         self.overridden = None;
@@ -233,13 +238,16 @@ impl Commander {
     fn course_to(&self, goal: &Goal, height: f32) -> Course {
         let before = match self.state {
             State::GoTo(course) => course,
-            State::TakeOff { to_m, .. } => Course { place_m: None, height_m: to_m, yaw: None },
-            _ => Course { place_m: None, height_m: height, yaw: None },
+            State::TakeOff { to_m, .. } => Course { place_m: None, height_m: to_m, yaw: None, speed_m_s: None },
+            _ => Course { place_m: None, height_m: height, yaw: None, speed_m_s: None },
         };
+        // Another place is gone to with the usual speed, unless one is given.
+        let kept_m_s = if goal.place_m.is_none() { before.speed_m_s } else { None };
         Course {
             place_m: goal.place_m.or(before.place_m),
             height_m: goal.height_m.unwrap_or(before.height_m),
             yaw: goal.yaw_rad.or(before.yaw),
+            speed_m_s: goal.speed_m_s.or(kept_m_s),
         }
     }
 }

@@ -17,7 +17,7 @@ pub struct Goal {
     pub height_m: Option<f32>,
     /// ψ, rad.
     pub yaw_rad: Option<f32>,
-    /// Horizontal speed, m/s, as by a [`Request::Speed`](super::Request::Speed).
+    /// Horizontal speed on this way, m/s.
     pub speed_m_s: Option<f32>,
 }
 

@@ -196,8 +196,9 @@ pub struct Commander {
 pub const VELOCITY_TIMEOUT_S: f32 = 1.0;
 /// Time for which nothing starts after a kill, s: more than what waits on another link needs to be read.
 const KILL_HOLDS_S: f32 = 1.0;
-/// Acceptance radius of a height, m.
+/// Acceptance radius of a height, m, and as a part of a take-off.
 const AT_HEIGHT_M: f32 = 0.3;
+const AT_PART: f32 = 0.3;
 /// Acceptance radius of a place, m; the vehicle must also be slow.
 pub(crate) const AT_PLACE_M: f32 = 0.5;
 /// Acceptance range of a heading, rad.
@@ -310,7 +311,6 @@ impl Commander {
         self.terminated = input.terminated;
         if input.kills != self.kills {
             self.kills = input.kills;
-            self.motor_test = None;
             self.killed_until = Some(effective.wrapping_add(ticks(KILL_HOLDS_S)));
             self.stop();
         }
@@ -318,7 +318,8 @@ impl Commander {
         for command in &input.commands {
             // Which of the two came first is not known: a kill is not undone by an arming that waited on another link, nor
             // does a flight that was asked for before it begin with the next arming.
-            let starts = matches!(command.request, Request::Arm { .. }) || Intent::of(&command.request).is_some();
+            let turns = matches!(command.request, Request::Arm { .. } | Request::TestMotor { .. });
+            let starts = turns || Intent::of(&command.request).is_some();
             let outcome = if starts && self.killed_until.is_some() {
                 Outcome::TemporarilyRejected(Refusal::Killed)
             } else {
@@ -329,6 +330,7 @@ impl Commander {
         }
         let event = self.take_sticks(effective, input).or_else(|| self.take_setpoints(effective, input));
         let event = self.fail_safe(effective, input).or(event);
+        let event = event.or(self.spin_up(effective, input));
         self.progress(effective, input);
         let home = self.known_home(input);
         let armable = self.check(input).and_then(|()| self.check_sticks(released, input));
@@ -374,9 +376,9 @@ impl Commander {
         landed.wrapping_add(ticks(self.landed_s))
     }
 
-    /// When a vehicle that was armed and does not fly is disarmed.
+    /// When a vehicle that was armed, or armed again, and does not fly is disarmed: the rotors have spun up by then.
     fn unused_until(&self, armed: Tick) -> Option<Tick> {
-        (self.unused_s > 0.0).then(|| armed.wrapping_add(ticks(self.unused_s)))
+        (self.unused_s > 0.0).then(|| self.spins_until.unwrap_or(armed).wrapping_add(ticks(self.unused_s)))
     }
 
     /// The present state.
@@ -411,17 +413,20 @@ impl Commander {
         }
     }
 
+    /// Disarms. One that is disarmed keeps the home and the speeds that it was given.
     fn stop(&mut self) {
-        self.state = State::Disarmed;
-        self.spins_until = None;
-        self.home_is_set = false;
-        self.speeds = ChosenSpeeds::default();
+        self.motor_test = None;
+        if self.state != State::Disarmed {
+            self.state = State::Disarmed;
+            self.spins_until = None;
+            self.home_is_set = false;
+            self.speeds = ChosenSpeeds::default();
+        }
         self.rest_intent();
     }
 
     /// Transitions on arrival, touchdown and timeout.
     fn progress(&mut self, effective: Tick, input: &CommanderInput) {
-        self.spin_up(effective, input);
         let nav = &input.nav;
         let expires = self.until.is_some_and(|until| has_come(until, effective));
         if expires {
@@ -431,7 +436,7 @@ impl Commander {
         let heads = |yaw: f32| math::abs(math::wrap_angle(nav.yaw() - yaw)) < AT_HEADING_RAD;
         self.state = match self.state {
             State::Idle { disarm_at: Some(at) } if has_come(at, effective) => return self.stop(),
-            State::TakeOff { to_m, .. } if math::abs(nav.position.z - to_m) < AT_HEIGHT_M => State::Hold,
+            State::TakeOff { from_m, to_m } if self.is_at_height(nav, from_m, to_m) => State::Hold,
             State::Velocity { .. } if expires => State::Hold,
             State::Join if is_at(self.entry) && is_slow(nav) && heads(self.entry_yaw) => {
                 State::Follow { since: effective }
@@ -446,6 +451,12 @@ impl Commander {
             }
             state => state,
         };
+    }
+
+    /// Whether a take-off has arrived. One to a small height has still to leave the ground.
+    fn is_at_height(&self, nav: &NavState, from_m: f32, to_m: f32) -> bool {
+        let within_m = math::min(AT_HEIGHT_M, AT_PART * (to_m - from_m));
+        self.ground.is_airborne() && math::abs(nav.position.z - to_m) < within_m
     }
 
     /// What has come down idles. Before the orders: none of them is for a vehicle that flies any more.

@@ -39,13 +39,16 @@ impl Commander {
         if self.state != State::Disarmed {
             return Err(Refusal::Armed);
         }
+        if self.ground.is_airborne() {
+            return Err(Refusal::InAir);
+        }
         self.check_terminated()?;
         self.check_kill_switch(effective.wrapping_sub(COMMANDER.offset), input)?;
         self.motor_test = Some((test, effective.wrapping_add(ticks(seconds))));
         Ok(())
     }
 
-    /// The motor that turns at a tick. Arming and a kill stop it.
+    /// The motor that turns at a tick. Arming, disarming and a kill stop it.
     pub(super) fn tested_motor(&mut self, effective: Tick) -> Option<MotorTest> {
         self.motor_test =
             self.motor_test.filter(|(_, until)| self.state == State::Disarmed && !has_come(*until, effective));

@@ -189,6 +189,8 @@ pub enum Refusal {
     RotorFailed,
     /// The outer partition hangs.
     NoGuidance,
+    /// The commander hangs.
+    NoCommander,
     /// In the air.
     InAir,
     /// On the ground: take off first.
@@ -301,6 +303,11 @@ pub enum Event {
     },
     /// Sticks or a switch have asked to arm, and the vehicle does not.
     ArmingRefused {
+        /// Why.
+        refusal: Refusal,
+    },
+    /// A take-off has waited for the rotors, and is not possible any more.
+    TakeOffRefused {
         /// Why.
         refusal: Refusal,
     },

@@ -1,6 +1,6 @@
 //! Rotors that spin up: for a time after arming nothing lifts the vehicle, and a take-off that is asked for meanwhile waits.
 
-use super::{Commander, CommanderInput, Intent, State, has_come, ticks};
+use super::{Commander, CommanderInput, Event, Intent, State, has_come, ticks};
 use crate::signals::Tick;
 
 impl Commander {
@@ -23,17 +23,21 @@ impl Commander {
         }
     }
 
-    /// Begins the flight that has waited, if it is still possible.
-    pub(super) fn spin_up(&mut self, effective: Tick, input: &CommanderInput) {
+    /// Begins the flight that has waited, if it is still possible; tells why not.
+    pub(super) fn spin_up(&mut self, effective: Tick, input: &CommanderInput) -> Option<Event> {
         if self.spins_until.is_none() || !self.has_spun_up(effective) {
-            return;
+            return None;
         }
         self.spins_until = None;
-        if matches!(self.state, State::Idle { .. }) && self.intent.leaves_ground() {
-            match self.check_take_off(&self.intent, input) {
-                Ok(()) => self.engage(self.intent, effective, input),
-                Err(_) => self.rest_intent(),
-            }
+        if !matches!(self.state, State::Idle { .. }) || !self.intent.leaves_ground() {
+            return None;
         }
+        let refused = self.check_take_off(&self.intent, input).err();
+        if refused.is_none() {
+            self.engage(self.intent, effective, input);
+        } else {
+            self.rest_intent();
+        }
+        refused.map(|refusal| Event::TakeOffRefused { refusal })
     }
 }

@@ -132,6 +132,8 @@ pub struct Course {
     pub height_m: f32,
     /// ψ, rad; `None` for as it heads.
     pub yaw: Option<f32>,
+    /// Horizontal speed, m/s; `None` for the one that has been chosen for all, or is usual.
+    pub speed_m_s: Option<f32>,
 }
 
 impl State {

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Commander, Course, Directive, Ground, Known, State};
+use super::{Commander, Course, Directive, Ground, Known, Orbit, State};
 use crate::guidance::setpoint::{self, Speeds};
 use crate::math;
 use crate::signals::NavState;
@@ -42,7 +42,7 @@ impl Commander {
             State::Idle { .. } => Directive::Idle,
             State::TakeOff { to_m, .. } => climb(to_m, settings.take_off_m_s),
             State::Hold => Directive::HOLD,
-            State::Orbit(orbit) => Directive::Orbit(orbit),
+            State::Orbit(orbit) => self.circle(orbit, height),
             State::Offboard => Directive::Offboard { in_air: self.ground.is_clear() },
             State::Manual(mode) => Directive::Manual {
                 mode,
@@ -69,6 +69,9 @@ impl Commander {
     fn steer(&self, course: &Course, height: f32) -> Directive {
         let (height_m, yaw) = (course.height_m, course.yaw);
         let mut speeds = self.speeds.within(&self.settings);
+        if let Some(speed_m_s) = course.speed_m_s {
+            speeds.horizontal_m_s = math::min(speed_m_s, self.settings.fastest_m_s);
+        }
         if self.over_ground(height_m) < LEADS_DOWN_M {
             speeds.down_m_s = self.rate_of_descent(speeds.down_m_s, height);
         }
@@ -77,6 +80,18 @@ impl Commander {
             return Directive::Climb { height_m, speed_m_s, yaw };
         };
         Directive::GoTo { position: Vector3::new(x, y, height_m), yaw, speeds }
+    }
+
+    /// A circle on the ground, or below it, is come down to straight: the ground would be touched at the circle's speed.
+    /// Far below what is taken for the ground there is none, and the circle is flown once it is reached.
+    fn circle(&self, orbit: Orbit, height: f32) -> Directive {
+        let height_m = orbit.center.z;
+        let is_reached = self.over_ground(height) < -BELOW_M && height < height_m + BELOW_M;
+        if self.over_ground(height_m) < LEADS_DOWN_M && !is_reached {
+            let speed_m_s = self.rate_of_descent(self.settings.sink_m_s, height);
+            return Directive::Climb { height_m, speed_m_s, yaw: None };
+        }
+        Directive::Orbit(orbit)
     }
 
     fn descend(&self, rate_m_s: f32, height: f32, heading_free: bool) -> Directive {

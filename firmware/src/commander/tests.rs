@@ -116,7 +116,7 @@ fn goal(course: &Course) -> Goal {
 
 /// The course to a place, m, and a heading, rad.
 fn course([x, y, z]: [f32; 3], yaw: f32) -> Course {
-    Course { place_m: Some([x, y]), height_m: z, yaw: Some(yaw) }
+    Course { place_m: Some([x, y]), height_m: z, yaw: Some(yaw), speed_m_s: None }
 }
 
 fn name(state: &State) -> String {

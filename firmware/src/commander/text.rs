@@ -64,6 +64,11 @@ macro_rules! reasons {
             const fn of_arming(self) -> &'static str {
                 match self { $(Self::$refusal => concat!("Arming refused: ", $reason),)* }
             }
+
+            /// The same, said of a take-off.
+            const fn of_take_off(self) -> &'static str {
+                match self { $(Self::$refusal => concat!("Takeoff refused: ", $reason),)* }
+            }
         }
     };
 }
@@ -80,11 +85,12 @@ reasons! {
     Battery "battery too low";
     RotorFailed "motor failed";
     NoGuidance "guidance hung";
+    NoCommander "commander hung";
     InAir "vehicle in the air";
     OnGround "vehicle on the ground";
     Disarmed "vehicle disarmed";
     Armed "vehicle armed";
-    Terminated "flight terminated";
+    Terminated "restart the vehicle first";
     NotAtStart "not at the start point";
     NotConfigured "vehicle not configured";
     Busy "too many commands at once";
@@ -127,6 +133,7 @@ impl Event {
             Self::RotorFailed { rotor: 3 } => "Motor 4 failed: descending without yaw control",
             Self::RotorFailed { .. } => "Motor failed: descending without yaw control",
             Self::ArmingRefused { refusal } => refusal.of_arming(),
+            Self::TakeOffRefused { refusal } => refusal.of_take_off(),
             Self::OuterHung => "Guidance hung: blind descent",
             Self::CommanderHung => "Commander hung: descending",
         }
@@ -171,6 +178,7 @@ mod tests {
             Refusal::Battery,
             Refusal::RotorFailed,
             Refusal::NoGuidance,
+            Refusal::NoCommander,
             Refusal::InAir,
             Refusal::OnGround,
             Refusal::Disarmed,

@@ -73,6 +73,13 @@ fn a_chosen_speed_counts_until_another_one_or_disarming_and_within_the_limits() 
     vehicle.ask(Request::GoTo(Goal { speed_m_s: Some(1.0), ..Goal::at([40.0, 0.0, 4.0], 0.0) }));
     vehicle.run(6.0);
     assert!((vehicle.body.nav.velocity.xy().norm() - 1.0).abs() < 0.05, "by the goal itself");
+    let reached = top_speed(&mut vehicle, 60.0);
+    assert!((reached - 5.0).abs() < 0.1, "and on the next way the usual one: {reached}");
+    vehicle.ask(Request::GoTo(Goal { speed_m_s: Some(1.0), ..Goal::at([40.0, 0.0, 4.0], 0.0) }));
+    vehicle.run(3.0);
+    vehicle.ask(speed(SpeedKind::Horizontal, Some(3.0)));
+    vehicle.run(4.0);
+    assert!((vehicle.body.nav.velocity.xy().norm() - 3.0).abs() < 0.05, "by what is chosen on the way");
     vehicle.ask(Request::Hold);
     vehicle.run(4.0);
     vehicle.ask(speed(SpeedKind::Up, Some(0.5)));

@@ -2,7 +2,7 @@
 
 use firmware::airframe::ROTORS;
 use firmware::autopilot::{Autopilot, Released};
-use firmware::commander::{Mode, Refusal, Request};
+use firmware::commander::{Mode, MotorTest, Refusal, Request};
 use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
 use firmware::mavlink::GroundInput;
@@ -11,8 +11,8 @@ use firmware::schedule::GROUND;
 use firmware::settings::{Value, find};
 use firmware::signals::{MotorCommand, NavState, SensorFrame, TICK_S, Tick};
 use firmware::watchdog::{COMMANDER_HUNG_AFTER, OUTER_HUNG_AFTER};
-use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
-use glissade_dialect::{COMMAND_LONG_DATA, MavCmd};
+use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message};
+use glissade_dialect::{COMMAND_LONG_DATA, HEARTBEAT_DATA, MavCmd, MavMessage, MavState};
 use nalgebra::Vector3;
 
 use crate::vehicle::{Body, config};
@@ -58,6 +58,14 @@ impl Vehicle {
             ground_job: None,
             sent: Vec::new(),
         }
+    }
+
+    /// Disarmed on the ground.
+    fn standing() -> Self {
+        let config = config();
+        let pilot = Autopilot::new(&config).expect("valid");
+        pilot.ports.first().open(Profile::Normal);
+        Self { pilot, body: Body { airframe: config.airframe, nav: NavState::at_rest() }, ..Self::flying(0.0) }
     }
 
     fn tick(&mut self) {
@@ -197,16 +205,7 @@ fn a_partition_that_is_late_is_none_that_hangs() {
 
 #[test]
 fn on_the_ground_a_hung_partition_starts_nothing() {
-    let config = config();
-    let body = Body { airframe: config.airframe, nav: NavState::at_rest() };
-    let mut vehicle = Vehicle {
-        pilot: Autopilot::new(&config).expect("valid"),
-        body,
-        motors: MotorCommand::STOPPED,
-        ground_job: None,
-        hangs: Hangs::default(),
-        sent: Vec::new(),
-    };
+    let mut vehicle = Vehicle::standing();
     vehicle.run(0.1);
     vehicle.pilot.inner.request(Request::Arm { force: false }).expect("room");
     vehicle.run(0.1);
@@ -218,12 +217,32 @@ fn on_the_ground_a_hung_partition_starts_nothing() {
     assert!(!vehicle.has_said("hung"), "nothing is done about it");
 }
 
-fn kill() -> Vec<u8> {
+/// A command with its first four numbers.
+fn command(command: MavCmd, [param1, param2, param3, param4]: [f32; 4]) -> Vec<u8> {
     let mut raw = MAVLinkV2MessageRaw::new();
-    let command = MavCmd::MAV_CMD_COMPONENT_ARM_DISARM as u16;
-    let message = COMMAND_LONG_DATA { target_system: 1, command, param2: 21_196.0, ..COMMAND_LONG_DATA::DEFAULT };
+    let command = command as u16;
+    let numbers = COMMAND_LONG_DATA { param1, param2, param3, param4, ..COMMAND_LONG_DATA::DEFAULT };
+    let message = COMMAND_LONG_DATA { target_system: 1, command, ..numbers };
     raw.serialize_message_data(MavHeader { system_id: 255, component_id: 190, sequence: 0 }, &message);
     raw.raw_bytes().to_vec()
+}
+
+fn kill() -> Vec<u8> {
+    command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [0.0, 21_196.0, 0.0, 0.0])
+}
+
+/// The last heartbeat of what was sent.
+fn last_heartbeat(mut sent: &[u8]) -> HEARTBEAT_DATA {
+    let mut last = None;
+    while let [_, length, _, _, _, _, _, id0, id1, id2, ref rest @ ..] = *sent {
+        let payload = &rest[..usize::from(length)];
+        let id = u32::from_le_bytes([id0, id1, id2, 0]);
+        if let Ok(MavMessage::HEARTBEAT(heartbeat)) = MavMessage::parse(MavlinkVersion::V2, id, payload) {
+            last = Some(heartbeat);
+        }
+        sent = &rest[usize::from(length) + 2..];
+    }
+    last.expect("a heartbeat")
 }
 
 fn turn(motors: &MotorCommand) -> bool {
@@ -272,4 +291,61 @@ fn what_is_flown_in_place_of_a_hung_partition_follows_the_settings() {
     for (set, part) in [(None, default), (Some(0.5), 0.5)] {
         assert!((thrust(set) - part * weight).abs() < 0.02 * weight, "{set:?}: {}", thrust(set));
     }
+}
+
+#[test]
+fn a_hung_commander_is_told_as_a_descent_and_what_is_asked_of_it_is_refused_and_never_carried_out() {
+    let mut vehicle = Vehicle::flying(0.0);
+    vehicle.run(0.3);
+    vehicle.hangs.commander = true;
+    vehicle.run(1.0);
+    let heartbeat = last_heartbeat(&vehicle.sent);
+    // PX4's main mode automatic, sub-mode land.
+    assert_eq!(heartbeat.custom_mode.to_le_bytes()[2..], [4, 6]);
+    assert_eq!(heartbeat.system_status, MavState::MAV_STATE_CRITICAL as u8);
+    vehicle.pilot.ports.first().receive(&command(MavCmd::MAV_CMD_NAV_RETURN_TO_LAUNCH, [0.0; 4]));
+    let answered = vehicle.sent.len();
+    vehicle.run(0.1);
+    assert!(vehicle.has_said("Return refused: commander hung"));
+    assert!(vehicle.sent.len() > answered);
+    vehicle.hangs.commander = false;
+    let late = vehicle.pilot.inner.commander_output().clone();
+    vehicle.pilot.mail.commander.finish(late);
+    vehicle.run(2.0);
+    assert_eq!(vehicle.mode(), Mode::Follow, "the order of then is forgotten");
+}
+
+#[test]
+fn a_motor_test_ends_with_a_kill_at_once_and_when_the_commander_hangs() {
+    for hangs in [false, true] {
+        let mut vehicle = Vehicle::standing();
+        let test = MotorTest { rotor: 1, part: 0.2 };
+        vehicle.pilot.inner.request(Request::TestMotor { test, seconds: 1.0 }).expect("room");
+        vehicle.run(0.1);
+        assert!(turn(&vehicle.motors));
+        vehicle.hangs.commander = hangs;
+        if hangs {
+            vehicle.run(0.6);
+            assert!(!turn(&vehicle.motors), "nobody would end it");
+        } else {
+            vehicle.pilot.inner.kill();
+            vehicle.tick();
+            assert!(!turn(&vehicle.motors));
+            vehicle.run(0.5);
+            assert!(!turn(&vehicle.motors));
+        }
+    }
+}
+
+#[test]
+fn what_is_about_to_restart_is_not_armed() {
+    let mut vehicle = Vehicle::standing();
+    vehicle.run(0.1);
+    let mut bytes = command(MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, [1.0, 0.0, 0.0, 0.0]);
+    bytes.extend(command(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM, [1.0, 0.0, 0.0, 0.0]));
+    vehicle.pilot.ports.first().receive(&bytes);
+    vehicle.run(0.1);
+    assert!(!vehicle.pilot.inner.commander_output().armed && vehicle.has_said("Arming refused: restart the vehicle"));
+    vehicle.run(0.5);
+    assert!(vehicle.pilot.inner.takes_restart());
 }

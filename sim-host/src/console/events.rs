@@ -119,6 +119,9 @@ impl Watch {
                 Event::ArmingRefused { refusal } => {
                     tell(Tone::Plain, format!("sticks: arm: refused, {}", refusal.reason()));
                 }
+                Event::TakeOffRefused { refusal } => {
+                    tell(Tone::Plain, format!("take-off: refused, {}", refusal.reason()));
+                }
                 _ => tell(Tone::Alarm, failsafe(event)),
             }
             if let Event::RotorFailed { rotor } = event

@@ -1,7 +1,7 @@
 //! What the ground partition is told of the vehicle.
 
 use super::{InnerTask, Waiting};
-use crate::commander::{Directive, Known, ManualMode};
+use crate::commander::{Directive, Known, ManualMode, Mode};
 use crate::control::law::AttitudeLaw;
 use crate::estimator::status::Status;
 use crate::mavlink::report::{Aim, ControlReport, LawReport, SensorReport};
@@ -13,7 +13,7 @@ impl<A: AttitudeLaw> InnerTask<A> {
         GroundInput {
             nav: *self.inner.nav(),
             armed: self.is_armed(),
-            mode: self.commander.shown,
+            mode: if self.watchdog.descends() { Mode::Descent } else { self.commander.shown },
             landed: self.commander.landed,
             ground_m: self.commander.ground_m,
             armable: self.commander.armable.is_ok(),

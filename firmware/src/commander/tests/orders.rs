@@ -18,17 +18,29 @@ fn a_motor_turns_for_its_time_while_disarmed_and_is_stopped_by_arming_and_by_a_k
     }
     bench.run(0.1, &standing());
     assert_eq!(bench.step(&standing()).motor_test, None);
-    for stop in [asking(ARM, &standing()), CommanderInput { kills: 1, ..standing() }] {
+    let disarms = asking(Request::Disarm, &standing());
+    for stop in [asking(ARM, &standing()), disarms, CommanderInput { kills: 1, ..standing() }] {
         let mut bench = Bench::new(State::Disarmed);
         bench.ask(test(0, 0.1, 5.0), &standing());
         assert_eq!(bench.step(&stop).motor_test, None);
         assert_eq!(bench.step(&CommanderInput { commands: Commands::new(), ..stop }).motor_test, None);
     }
+    // What was asked for before a kill may come after it, on another link.
+    let mut bench = Bench::new(State::Disarmed);
+    let killed = CommanderInput { kills: 1, ..standing() };
+    assert_eq!(bench.ask(test(0, 0.1, 1.0), &killed), Outcome::TemporarilyRejected(Refusal::Killed));
+    bench.run(1.0, &killed);
+    assert_eq!(bench.ask(test(0, 0.1, 1.0), &killed), Outcome::Accepted);
+    let mut falls = Bench::new(State::Hold);
+    let down = NavState { velocity: Vector3::new(0.0, 0.0, -5.0), ..hovering().nav };
+    let falling = CommanderInput { kills: 1, nav: down, ..hovering() };
+    falls.run(1.1, &falling);
+    assert_eq!(falls.ask(test(0, 0.1, 1.0), &falling), Outcome::TemporarilyRejected(Refusal::InAir));
     let mut armed = Bench::new(State::Idle { disarm_at: None });
     assert_eq!(armed.ask(test(0, 0.1, 1.0), &standing()), Outcome::TemporarilyRejected(Refusal::Armed));
     for wrong in [test(4, 0.1, 1.0), test(0, 0.31, 1.0), test(0, f32::NAN, 1.0), test(0, 0.1, 11.0), test(0, 0.1, -1.0)]
     {
-        assert_eq!(bench.ask(wrong, &standing()), Outcome::Denied);
+        assert_eq!(armed.ask(wrong, &standing()), Outcome::Denied);
     }
 }
 
@@ -92,11 +104,23 @@ fn nothing_lifts_the_vehicle_before_the_rotors_have_spun_up() {
         if !before {
             assert_eq!(bench.ask(TAKE_OFF, &standing()), Outcome::Accepted);
         }
-        bench.run(0.9, &standing());
+        bench.run(0.5, &standing());
+        // As a ground station repeats what it has no answer for.
+        bench.ask(ARM, &standing());
+        bench.run(0.36, &standing());
         assert_eq!(bench.step(&standing()).mode, Mode::Idle);
         bench.run(0.1, &standing());
         assert_eq!(bench.step(&standing()).mode, Mode::TakeOff);
     }
+    // It is told if it has become impossible, and the time without use begins when the rotors have spun up.
+    let mut bench = spinning();
+    bench.commander.set(crate::settings::COM_DISARM_PRFLT, Value::Real(0.5));
+    bench.ask(ARM, &standing());
+    bench.ask(TAKE_OFF, &standing());
+    assert!(bench.run(0.9, &standing()).is_empty() && bench.step(&standing()).armed);
+    let refused = bench.run(0.2, &CommanderInput { health: NavHealth::NONE, ..standing() });
+    assert_eq!(refused, [Event::TakeOffRefused { refusal: Refusal::NotAligned }]);
+    assert_eq!(refused[0].text(), "Takeoff refused: no valid attitude estimate");
     // What is asked for in its place ends it.
     let mut bench = spinning();
     bench.ask(ARM, &standing());
@@ -163,7 +187,7 @@ fn a_heading_alone_ends_neither_a_landing_nor_a_circle_nor_what_a_failure_has_be
     let turn = Request::GoTo(Goal { yaw_rad: Some(1.0), ..Goal::default() });
     let refused = Outcome::TemporarilyRejected(Refusal::NotHolding);
     let orbit = Orbit { center: Vector3::zeros(), radius_m: 5.0, speed_m_s: 1.0, heading: OrbitHeading::Kept };
-    let course = Course { place_m: Some([5.0, 0.0]), height_m: 2.0, yaw: None };
+    let course = Course { place_m: Some([5.0, 0.0]), height_m: 2.0, yaw: None, speed_m_s: None };
     for (state, outcome) in [
         (State::Land, refused),
         (State::Return { at_m: 5.0, climbs: false }, refused),
@@ -195,5 +219,51 @@ fn a_mode_switch_counts_when_it_is_first_seen_while_disarmed_and_in_the_air_when
         input.latest.sticks = Some(Stamped { value: Sticks { switches, ..Sticks::CENTRED }, at: 0 });
         bench.run(0.2, &input);
         assert_eq!(bench.step(&input).shown, seen);
+    }
+}
+
+#[test]
+fn disarming_what_is_disarmed_forgets_neither_home_nor_the_speeds() {
+    for again in [asking(Request::Disarm, &standing()), CommanderInput { kills: 1, ..standing() }] {
+        let mut bench = Bench::new(State::Disarmed);
+        let home = [3.0, 4.0, 5.0];
+        bench.ask(Request::SetHome { position_m: Some(home) }, &standing());
+        bench.ask(Request::Speed { kind: SpeedKind::Horizontal, speed_m_s: Some(2.0) }, &standing());
+        bench.step(&again);
+        let after = CommanderInput { commands: Commands::new(), ..again };
+        assert_eq!(bench.step(&after).home, Some(home.into()));
+        bench.run(1.0, &after);
+        bench.ask(ARM, &after);
+        assert_eq!(bench.step(&after).home, Some(home.into()));
+        assert_eq!(bench.commander.speeds.within(&settings()).horizontal_m_s, 2.0);
+    }
+}
+
+#[test]
+fn a_low_take_off_has_arrived_when_it_is_at_its_height_and_off_the_ground() {
+    for (height_m, arrives_m) in [(0.3, 0.21), (0.5, 0.35), (2.5, 2.2)] {
+        let mut bench = Bench::new(State::Idle { disarm_at: None });
+        bench.ask(Request::TakeOff { height_m }, &standing());
+        let lifting = standing_with_thrust();
+        let at = |z: f32| CommanderInput { nav: NavState::at_rest_at(Vector3::new(0.0, 0.0, z)), ..lifting.clone() };
+        bench.run(0.2, &at(0.04));
+        bench.run(0.2, &at(arrives_m - 0.02));
+        assert_eq!(bench.step(&at(arrives_m - 0.02)).mode, Mode::TakeOff, "{height_m}");
+        bench.step(&at(arrives_m + 0.02));
+        assert_eq!(bench.step(&at(arrives_m + 0.02)).mode, Mode::Hold, "{height_m}");
+    }
+}
+
+/// Standing, with as much thrust as a hovering vehicle has.
+fn standing_with_thrust() -> CommanderInput {
+    CommanderInput { thrust_n: hovering().thrust_n, ..standing() }
+}
+
+#[test]
+fn a_kill_switch_that_is_on_is_not_armed_against_not_even_by_force() {
+    let killed = with_sticks(Sticks { switches: Switches { kill: true, ..Switches::NONE }, ..Sticks::CENTRED });
+    for force in [false, true] {
+        let mut bench = Bench::new(State::Disarmed);
+        assert_eq!(bench.ask(Request::Arm { force }, &killed), Outcome::TemporarilyRejected(Refusal::KillSwitch));
     }
 }

@@ -38,7 +38,8 @@ pub(super) fn is_lost(bench: &mut Bench, action: StationAction, input: &Commande
     bench.step(&heard(bench.tick.wrapping_sub(ticks(AFTER_S as f32) + 1), input));
 }
 
-const GOING: State = State::GoTo(Course { place_m: Some([500.0, 0.0]), height_m: 30.0, yaw: Some(0.0) });
+const GOING: State =
+    State::GoTo(Course { place_m: Some([500.0, 0.0]), height_m: 30.0, yaw: Some(0.0), speed_m_s: None });
 const ACTIONS: [StationAction; 3] = [StationAction::Hold, StationAction::Return, StationAction::Land];
 
 #[test]
