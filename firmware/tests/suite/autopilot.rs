@@ -14,7 +14,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
 /// Hovering in the air at the origin.
-fn in_flight() -> FlightConfig {
+pub(crate) fn in_flight() -> FlightConfig {
     FlightConfig {
         start: Start::InFlight,
         trajectory: Trajectory::Hold { position_m: [0.0; 3], yaw_rad: 0.0 },
@@ -23,13 +23,13 @@ fn in_flight() -> FlightConfig {
     }
 }
 
-fn autopilot(config: &FlightConfig) -> Autopilot {
+pub(crate) fn autopilot(config: &FlightConfig) -> Autopilot {
     let autopilot = Autopilot::new(config).expect("valid");
     autopilot.ports.first().open(Profile::Normal);
     autopilot
 }
 
-fn at(position: [f32; 3]) -> SensorFrame {
+pub(crate) fn at(position: [f32; 3]) -> SensorFrame {
     SensorFrame::Motion(NavState { position: position.into(), ..NavState::at_rest() })
 }
 
@@ -190,7 +190,7 @@ fn an_outer_loop_that_stops_answering_is_not_extrapolated_for_ever() {
 }
 
 /// MAVLink 2 `COMMAND_LONG` 400 (arm or disarm), by hand: from system 255, component 190, to system 1, component 1.
-fn command_arm(arm: bool, force: bool) -> Vec<u8> {
+pub(crate) fn command_arm(arm: bool, force: bool) -> Vec<u8> {
     command_arm_from(255, arm, force)
 }
 
@@ -266,7 +266,7 @@ fn after_a_forced_disarm_the_vehicle_can_be_armed_again() {
 }
 
 /// Results of the acknowledgements to a system among whole MAVLink 2 frames.
-fn acknowledged(mut frames: &[u8], system: u8) -> Vec<u8> {
+pub(crate) fn acknowledged(mut frames: &[u8], system: u8) -> Vec<u8> {
     let mut results = Vec::new();
     while let [0xfd, length, ..] = *frames {
         let (frame, rest) = frames.split_at(12 + usize::from(length));

@@ -4,6 +4,7 @@ use firmware::airframe::ROTORS;
 use firmware::autopilot::{Autopilot, Released};
 use firmware::commander::{Mode, MotorTest, Refusal, Request};
 use firmware::config::{FlightConfig, Start};
+use firmware::control::observer::ObserverGains;
 use firmware::guidance::Trajectory;
 use firmware::mavlink::GroundInput;
 use firmware::mavlink::port::Profile;
@@ -39,12 +40,17 @@ struct Vehicle {
 impl Vehicle {
     /// Flying at 5 m along x.
     fn flying(speed_m_s: f32) -> Self {
+        Self::flying_by(config(), speed_m_s)
+    }
+
+    /// The same with other gains.
+    fn flying_by(config: FlightConfig, speed_m_s: f32) -> Self {
         let start = Vector3::new(0.0, 0.0, 5.0);
         let config = FlightConfig {
             trajectory: Trajectory::Hold { position_m: start.into(), yaw_rad: 0.0 },
             start: Start::InFlight,
             start_position_m: start.into(),
-            ..config()
+            ..config
         };
         let velocity = Vector3::new(speed_m_s, 0.0, 0.0);
         let nav = NavState { position: start, velocity, ..NavState::at_rest() };
@@ -150,6 +156,25 @@ fn with_a_hung_outer_partition_it_comes_down_level_and_is_disarmed() {
 }
 
 #[test]
+fn with_weak_rotors_a_blind_descent_has_the_thrust_that_it_was_seen_to_need() {
+    let mut config = config();
+    config.position.effectiveness_rate = 1.0;
+    config.position.observer = ObserverGains { bandwidth_rad_s: 5.0, disturbance_max: 8.0 };
+    let mut vehicle = Vehicle::flying_by(config, 0.0);
+    // They lift four fifths of what the model says.
+    vehicle.body.airframe.geometry.thrust = vehicle.body.airframe.geometry.thrust.map(|lift| 0.8 * lift);
+    vehicle.run(15.0);
+    assert!((vehicle.body.nav.position.z - 5.0).abs() < 0.1, "it has learnt to hover: {:?}", vehicle.body.nav);
+    vehicle.hangs.outer = true;
+    vehicle.run(0.5);
+    let weight = vehicle.body.airframe.weight_n();
+    let lifts = 0.8 * vehicle.pilot.inner.inner_output().demand.thrust_n;
+    assert!((0.9 * weight..0.95 * weight).contains(&lifts), "{lifts} of {weight} N");
+    let fastest = vehicle.comes_down(10.0);
+    assert!(fastest < 2.5, "{fastest} m/s");
+}
+
+#[test]
 fn with_a_hung_commander_it_descends_by_what_is_known_until_it_is_killed() {
     let mut vehicle = Vehicle::flying(0.0);
     vehicle.run(0.3);
@@ -205,16 +230,18 @@ fn a_partition_that_is_late_is_none_that_hangs() {
 
 #[test]
 fn on_the_ground_a_hung_partition_starts_nothing() {
-    let mut vehicle = Vehicle::standing();
-    vehicle.run(0.1);
-    vehicle.pilot.inner.request(Request::Arm { force: false }).expect("room");
-    vehicle.run(0.1);
-    let idle = vehicle.motors;
-    assert!(idle.omega_rad_s[0] > 0.0);
-    vehicle.hangs = Hangs { outer: true, commander: true, ..Hangs::default() };
-    vehicle.run(3.0);
-    assert_eq!(vehicle.motors, idle);
-    assert!(!vehicle.has_said("hung"), "nothing is done about it");
+    for (outer, commander) in [(true, true), (true, false), (false, true)] {
+        let mut vehicle = Vehicle::standing();
+        vehicle.run(0.1);
+        vehicle.pilot.inner.request(Request::Arm { force: false }).expect("room");
+        vehicle.run(0.1);
+        let idle = vehicle.motors;
+        assert!(idle.omega_rad_s[0] > 0.0);
+        vehicle.hangs = Hangs { outer, commander, ..Hangs::default() };
+        vehicle.run(3.0);
+        assert_eq!(vehicle.motors, idle);
+        assert!(!vehicle.has_said("hung"), "nothing is done about it");
+    }
 }
 
 /// A command with its first four numbers.

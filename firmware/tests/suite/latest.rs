@@ -7,7 +7,7 @@ use firmware::config::{FlightConfig, Start};
 use firmware::guidance::Trajectory;
 use firmware::latest::Latest;
 use firmware::mavlink::port::Profile;
-use firmware::schedule::OUTER;
+use firmware::schedule::{GROUND, OUTER};
 use firmware::settings::{COM_DL_LOSS_T, NAV_DLL_ACT, Settings, Value};
 use firmware::signals::{NavState, SensorFrame, Tick};
 use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader, MessageData};
@@ -15,9 +15,10 @@ use glissade_dialect::{HEARTBEAT_DATA, MANUAL_CONTROL_DATA};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
+use crate::autopilot::command_arm;
 use crate::vehicle::{Body, config};
 
-fn frame(message: &impl MessageData) -> Vec<u8> {
+pub(crate) fn frame(message: &impl MessageData) -> Vec<u8> {
     let mut frame = MAVLinkV2MessageRaw::new();
     frame.serialize_message_data(MavHeader { system_id: 255, component_id: 190, sequence: 0 }, message);
     frame.raw_bytes().to_vec()
@@ -121,6 +122,21 @@ fn sticks_are_in_the_outer_loop_within_18_ms_and_can_move_a_rotor_within_20() {
     assert!(longest + OUTER.offset <= 20 && 20 < STICK_TO_ROTOR);
 }
 
+#[test]
+fn sticks_that_come_together_with_commands_arrive_as_soon() {
+    let mut vehicle = Vehicle::new();
+    for number in 1..20 {
+        // Armed it is already.
+        let bytes = [sticks(number), command_arm(true, false)].concat();
+        vehicle.pilot.ports.first().receive(&bytes);
+        for _ in 0..GROUND.period {
+            vehicle.tick(0);
+        }
+        let arrived = vehicle.pilot.inner.latest().sticks.expect("sticks");
+        assert_eq!(arrived.value.buttons, number);
+    }
+}
+
 proptest! {
     /// Sticks on one link and heartbeats on two at any ticks, with a ground partition that is late at times.
     #[test]
@@ -165,16 +181,16 @@ proptest! {
 }
 
 /// A vehicle in the air, and the ground stations that it hears.
-struct Flight {
-    pilot: Autopilot,
-    body: Body,
+pub(crate) struct Flight {
+    pub(crate) pilot: Autopilot,
+    pub(crate) body: Body,
     tick: Tick,
-    sent: Vec<u8>,
+    pub(crate) sent: Vec<u8>,
 }
 
 impl Flight {
     /// Hovering at 20 m; the ground station is lost after 5 s.
-    fn new(action: i32) -> Self {
+    pub(crate) fn new(action: i32) -> Self {
         let config = hovering();
         let mut settings = Settings::of(&config);
         settings.restore(NAV_DLL_ACT, Value::Int(action)).expect("in range");
@@ -186,7 +202,7 @@ impl Flight {
     }
 
     /// Flies, with a heartbeat of these types each second.
-    fn fly(&mut self, seconds: u32, beats: &[u8]) -> &mut Self {
+    pub(crate) fn fly(&mut self, seconds: u32, beats: &[u8]) -> &mut Self {
         for _ in 0..seconds * 1000 {
             if self.tick.is_multiple_of(1000) {
                 for mavtype in beats {
@@ -216,7 +232,7 @@ impl Flight {
         self.pilot.inner.commander_output().mode
     }
 
-    fn says(&self, text: &str) -> bool {
+    pub(crate) fn says(&self, text: &str) -> bool {
         self.sent.windows(text.len()).any(|bytes| bytes == text.as_bytes())
     }
 

@@ -3,8 +3,10 @@
 use firmware::autopilot::{Autopilot, Released};
 use firmware::commander::{Goal, Mode, Outcome, Refusal, Request};
 use firmware::config::{FlightConfig, Start};
+use firmware::estimator::EstimatorSettings;
 use firmware::guidance::Trajectory;
 use firmware::mavlink::port::Profile;
+use firmware::sensors::{ImuSample, MagSample, Measurements};
 use firmware::settings::{COUNT, Class, SETTINGS, SYS_AUTOSTART, Settings, Value, find};
 use firmware::signals::{NavState, SensorFrame};
 use glissade_dialect::mavlink_core::types::CharArray;
@@ -187,6 +189,35 @@ fn what_is_set_while_disarmed_only_is_in_effect_before_an_arming_asked_for_after
         flight.pilot.ports.first().receive(&arm());
         flight.fly(1_000);
         assert_eq!(flight.pilot.inner.commander_output().mode, Mode::Disarmed, "{wait} ms after");
+    }
+}
+
+#[test]
+fn the_estimator_begins_by_the_field_that_was_set_before() {
+    // A field that points forward and down: the vehicle heads north where such a field points north, and west where it
+    // points west.
+    for (field, yaw_deg) in [([20.0, 0.0, -40.0], 0.0), ([0.0, 20.0, -40.0], 90.0)] {
+        let config = FlightConfig { estimator: Some(EstimatorSettings::default()), ..config() };
+        let mut pilot = Autopilot::new(&config).expect("valid");
+        pilot.ports.first().open(Profile::Normal);
+        for (name, value) in ["GL_E_FIELD_X", "GL_E_FIELD_Y", "GL_E_FIELD_Z"].into_iter().zip(field) {
+            pilot.ports.first().receive(&param_set(index(name), Value::Real(value)));
+        }
+        for at in 0..5_000 {
+            // What repeats itself exactly would be a stuck sensor's.
+            let noise = Vector3::repeat(1e-3 * f64::from(at).sin() as f32);
+            let rests = Measurements {
+                imu: Some(ImuSample { at, gyro: noise, accel: Vector3::z() * 9.81 + noise }),
+                mag: at
+                    .is_multiple_of(20)
+                    .then_some(MagSample { at, field_ut: Vector3::new(20.0, 0.0, -40.0) + noise }),
+                ..Measurements::default()
+            };
+            pilot.tick(Some(&SensorFrame::Measured(rests)));
+        }
+        assert!(pilot.inner.nav_health().heading);
+        let yaw = pilot.inner.nav().yaw().to_degrees();
+        assert!((yaw - yaw_deg).abs() < 1.0, "{yaw}° in place of {yaw_deg}°");
     }
 }
 
