@@ -6,6 +6,7 @@ mod diagram;
 mod intents;
 mod orders;
 mod station;
+mod stream;
 
 use nalgebra::{UnitQuaternion, Vector3};
 

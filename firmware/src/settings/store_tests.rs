@@ -299,6 +299,22 @@ fn values_wait_while_the_vehicle_is_armed_and_are_saved_then() {
 }
 
 #[test]
+fn a_page_that_looks_erased_at_its_ends_alone_is_found_and_rebuilt() {
+    let mut flash = Flash::<4>::new();
+    let (saved, _) = play(&mut flash, 0..5);
+    // The last page of the first half, which a cut has left half erased.
+    let page = 2 * PAGE;
+    assert!(flash.bytes[page..page + PAGE].iter().all(|byte| *byte == 0xff), "not used yet");
+    let middle = page + PAGE / 2;
+    (flash.bytes[middle], flash.written[middle / 4]) = (0x5a, true);
+    let mut had = defaults();
+    let mut again = store(flash);
+    assert_eq!(block_on(again.load(&mut had)), Ok(Loaded { values: 5, refused: 0, rebuilt: 1 }));
+    assert_eq!(had, saved);
+    assert_eq!(again.flash().bytes[middle], 0xff);
+}
+
+#[test]
 fn all_pages_wear_alike() {
     let mut flash = Flash::<4>::new();
     assert_eq!(Store::new(flash.clone(), 0..100).map(|_| ()).err(), Some(StoreError::Range));

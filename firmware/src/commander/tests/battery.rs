@@ -48,6 +48,19 @@ fn a_battery_that_has_been_replaced_is_a_new_one() {
 }
 
 #[test]
+fn a_low_battery_stays_low_when_its_voltage_recovers_without_load() {
+    let mut bench = Bench::new(State::Idle { disarm_at: None });
+    bench.run(2.1, &volts(13.5, &standing()));
+    assert_eq!(bench.ask(Request::Disarm, &volts(13.5, &standing())), Outcome::Accepted);
+    // Low is 14 V under load, and 9 % more at rest.
+    let rested = volts(15.2, &standing());
+    bench.run(60.0, &rested);
+    assert_eq!(bench.ask(TAKE_OFF, &rested), Outcome::TemporarilyRejected(Refusal::Battery));
+    bench.run(2.1, &volts(CHARGED, &standing()));
+    assert_eq!(bench.ask(TAKE_OFF, &volts(CHARGED, &standing())), Outcome::Accepted, "another one");
+}
+
+#[test]
 fn a_level_that_was_reached_holds_while_armed() {
     let mut bench = Bench::new(State::Idle { disarm_at: None });
     bench.run(2.1, &volts(13.5, &standing()));

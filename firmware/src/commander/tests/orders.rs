@@ -146,22 +146,44 @@ fn nothing_lifts_the_vehicle_before_the_rotors_have_spun_up() {
     assert_eq!(bench.step(&standing()).mode, Mode::Idle);
 }
 
+/// Standing with the throttle down, and with switches.
+fn switched(arm: bool, kill: bool) -> CommanderInput {
+    let switches = Switches { arm: Some(arm), kill, mode: None };
+    with_sticks(Sticks { throttle: 0.0, switches, ..Sticks::CENTRED })
+}
+
 #[test]
 fn an_arming_by_switch_that_is_refused_is_told_once_with_its_reason() {
     let mut bench = Bench::new(State::Disarmed);
-    let switched = |arm, kill| {
-        let mut input = with_throttle(0.0);
-        if let Some(sticks) = &mut input.latest.sticks {
-            sticks.value.switches = Switches { arm: Some(arm), kill, mode: None };
-        }
-        input
-    };
     bench.run(0.2, &switched(false, true));
     let events = bench.run(1.0, &switched(true, true));
     assert_eq!(events, [Event::ArmingRefused { refusal: Refusal::KillSwitch }]);
     assert_eq!(events[0].text(), "Arming refused: kill switch on");
     bench.run(0.2, &switched(false, false));
     assert_eq!(bench.run(1.0, &switched(true, false)), []);
+    assert!(bench.step(&switched(true, false)).armed);
+}
+
+#[test]
+fn a_switch_arms_a_vehicle_that_was_just_killed_no_sooner_than_a_command() {
+    let killed = |arm| CommanderInput { kills: 1, ..switched(arm, false) };
+    let mut bench = Bench::new(State::Disarmed);
+    bench.run(0.2, &switched(false, false));
+    bench.run(0.5, &killed(false));
+    assert_eq!(bench.run(0.2, &killed(true)), [Event::ArmingRefused { refusal: Refusal::Killed }]);
+    assert!(!bench.step(&killed(true)).armed);
+    // A second later it does.
+    bench.run(0.5, &killed(false));
+    assert_eq!(bench.run(0.2, &killed(true)), []);
+    assert!(bench.step(&killed(true)).armed);
+}
+
+#[test]
+fn an_arming_switch_that_is_on_when_it_is_first_seen_arms_only_after_it_was_off() {
+    let mut bench = Bench::new(State::Disarmed);
+    assert_eq!(bench.run(3.0, &switched(true, false)), []);
+    assert!(!bench.step(&switched(true, false)).armed, "a radio that is turned on starts nothing");
+    bench.run(0.2, &switched(false, false));
     assert!(bench.step(&switched(true, false)).armed);
 }
 
@@ -179,6 +201,37 @@ fn no_motor_is_tested_with_a_kill_switch_on_or_after_a_termination() {
     for (input, refusal) in [(killed, Refusal::KillSwitch), (ended, Refusal::Terminated)] {
         let mut bench = Bench::new(State::Disarmed);
         assert_eq!(bench.ask(test(0, 0.1, 1.0), &input), Outcome::TemporarilyRejected(refusal));
+    }
+}
+
+#[test]
+fn home_here_is_on_the_ground_below_a_vehicle_that_flies() {
+    let mut bench = Bench::new(State::Hold);
+    let here = hovering();
+    assert_eq!(bench.ask(Request::SetHome { position_m: None }, &here), Outcome::Accepted);
+    let below = Vector3::new(here.nav.position.x, here.nav.position.y, 0.0);
+    assert_eq!(bench.step(&here).home, Some(below));
+}
+
+#[test]
+fn a_speed_that_was_chosen_counts_until_the_vehicle_is_disarmed() {
+    let slow = Request::Speed { kind: SpeedKind::Horizontal, speed_m_s: Some(1.0) };
+    let speed = |bench: &mut Bench| {
+        bench.ask(GO_TO, &hovering());
+        let Directive::GoTo { speeds, .. } = bench.step(&hovering()).directive else { panic!("it goes nowhere") };
+        speeds.horizontal_m_s
+    };
+    for disarms in [false, true] {
+        let mut bench = Bench::new(State::Disarmed);
+        bench.ask(ARM, &standing());
+        assert_eq!(bench.ask(slow, &standing()), Outcome::Accepted);
+        if disarms {
+            bench.ask(Request::Disarm, &standing());
+            bench.ask(ARM, &standing());
+        }
+        bench.ask(Request::TakeOff { height_m: 30.0 }, &standing());
+        bench.run(1.0, &hovering());
+        assert_eq!(speed(&mut bench), if disarms { settings().cruise_m_s } else { 1.0 });
     }
 }
 
