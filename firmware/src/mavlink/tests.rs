@@ -3,11 +3,13 @@
 mod failures;
 mod framing;
 mod goals;
+mod links;
 mod messages;
 mod modes;
 mod orders;
 mod params;
 mod places;
+mod radio;
 mod requests;
 mod services;
 mod setpoints;
@@ -436,17 +438,19 @@ fn a_frame_may_come_in_pieces() {
     }
 }
 
+/// A command with incompatibility flags, and with this many bytes after its checksum.
+fn with_flags(flags: u8, trailer: usize) -> Vec<u8> {
+    let mut bytes = command(NAV_WAYPOINT, 0.0, 0.0);
+    bytes[2] = flags;
+    let end = bytes.len() - 2;
+    let checksum = calculate_crc(&bytes[1..end], COMMAND_LONG_DATA::EXTRA_CRC);
+    bytes[end..].copy_from_slice(&checksum.to_le_bytes());
+    bytes.extend(core::iter::repeat_n(0x55, trailer));
+    bytes
+}
+
 #[test]
 fn signed_frames_are_read_and_unknown_flags_are_not() {
-    let with_flags = |flags: u8, trailer: usize| {
-        let mut bytes = command(NAV_WAYPOINT, 0.0, 0.0);
-        bytes[2] = flags;
-        let end = bytes.len() - 2;
-        let checksum = calculate_crc(&bytes[1..end], COMMAND_LONG_DATA::EXTRA_CRC);
-        bytes[end..].copy_from_slice(&checksum.to_le_bytes());
-        bytes.extend(core::iter::repeat_n(0x55, trailer));
-        bytes
-    };
     let mut bench = Bench::silent();
     assert!(bench.result_of(&with_flags(1, 13)).is_some());
     assert_eq!(bench.result_of(&with_flags(2, 0)), None);

@@ -168,6 +168,12 @@ fn the_pilots_instruments_show_air_and_ground_speed() {
     assert!(close(told.groundspeed, 2.236_07) && close(told.airspeed, 3.201_56), "{told:?}");
     assert_eq!((told.heading, told.throttle, told.climb), (270, 13, -0.5));
     assert!(close(told.alt, 451.0));
+    // With a wind from behind the air passes more slowly: √((3 − 2)² + (1 + 1)²).
+    bench.input.nav.velocity = Vector3::new(3.0, 1.0, 0.0);
+    assert!(close(expect!(&mut bench, VFR_HUD, VFR_HUD_DATA).airspeed, 2.236_07));
+    bench.input.estimator = Some(Status { health: NavHealth { velocity: false, ..NavHealth::ALL }, ..estimator() });
+    let told = expect!(&mut bench, VFR_HUD, VFR_HUD_DATA);
+    assert!(told.groundspeed.is_nan() && told.airspeed.is_nan() && told.climb == 0.0, "{told:?}");
 }
 
 #[test]
@@ -267,6 +273,8 @@ fn what_is_aimed_at_is_told_while_something_is() {
     let aim = bench.input.control.aim.as_mut().expect("set");
     (aim.holds_position, aim.holds_heading) = (false, false);
     let told = expect!(&mut bench, POSITION_TARGET_LOCAL_NED, POSITION_TARGET_LOCAL_NED_DATA);
+    // The yaw rate is not controlled; the attitude is.
+    assert_eq!(expect!(&mut bench, ATTITUDE_TARGET, ATTITUDE_TARGET_DATA).type_mask, 0b100);
     // x, y, vx, vy, afx, afy, yaw and yaw rate are not controlled; z, vz and afz are.
     assert_eq!(told.type_mask, 0b1100_1101_1011);
 }

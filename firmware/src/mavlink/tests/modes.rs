@@ -1,5 +1,7 @@
 //! Modes as telemetry reports them, and the commands that set them.
 
+use glissade_dialect::SET_MODE_DATA;
+
 use super::*;
 use crate::commander::{ManualMode, TAKE_OFF_HEIGHT_M};
 
@@ -103,6 +105,19 @@ fn commands_to_fly_become_requests() {
             assert_eq!(bench.commands.pop(), Some(from_station(number, request)));
         }
     }
+}
+
+#[test]
+fn an_old_message_sets_the_mode_of_the_vehicle_that_it_names() {
+    // Auto, loiter.
+    let hold = |target_system| frame(&SET_MODE_DATA { target_system, base_mode: 1, custom_mode: 4 << 16 | 3 << 24 });
+    let mut bench = Bench::silent();
+    for other in [2, 7, 255] {
+        assert_eq!(bench.job(&hold(other)), [], "system {other}");
+        assert!(bench.commands.is_empty());
+    }
+    bench.job(&hold(1));
+    assert_eq!(bench.commands.pop(), Some(from_station(SET_MODE, Request::Hold)));
 }
 
 #[test]

@@ -80,6 +80,21 @@ fn a_take_off_height_is_above_what_its_frame_says() {
 }
 
 #[test]
+fn a_height_above_the_sea_is_the_same_when_it_is_repeated_in_the_climb() {
+    let mut bench = landed();
+    (bench.input.ground_m, bench.input.nav.position.z) = (2.0, 2.0);
+    for (up_m, landed) in [(2.0, true), (3.5, false), (9.0, false)] {
+        (bench.input.nav.position.z, bench.input.landed) = (up_m, landed);
+        // The ground is 441 m + 2 m above the sea.
+        bench.job(&int(TAKEOFF, 0, 0.0, [0, 0], 455.0));
+        let Some(Command { request: Request::TakeOff { height_m }, .. }) = bench.commands.pop() else {
+            panic!("no take-off")
+        };
+        assert!(crate::math::abs(height_m - 12.0) < 2e-3, "{height_m} m at {up_m} m");
+    }
+}
+
+#[test]
 fn home_is_set_here_or_at_a_place() {
     let mut bench = landed();
     for bytes in [long(SET_HOME, 1.0, 0.0), int(SET_HOME, 0, 1.0, [0, 0], 0.0)] {
@@ -179,6 +194,18 @@ fn home_is_told_on_request_and_when_it_changes() {
     bench.input.home = Some(Vector3::new(5.0, 0.0, 0.0));
     assert_eq!(count(&bench.jobs(1), 242), 1, "at once");
     assert_eq!(count(&bench.jobs(100), 242), 0);
+}
+
+#[test]
+fn home_is_told_at_once_when_the_vehicle_is_armed_and_disarmed() {
+    let mut bench = landed();
+    bench.set_interval(242.0, 10e6);
+    bench.jobs(100);
+    for armed in [true, false] {
+        bench.input.armed = armed;
+        assert_eq!(count(&bench.job(&[]), 242), 1, "armed: {armed}");
+        assert_eq!(count(&bench.jobs(100), 242), 0);
+    }
 }
 
 fn set_origin(latitude: i32, longitude: i32, altitude: i32) -> Vec<u8> {

@@ -64,6 +64,21 @@ fn an_interval_with_a_reserved_parameter_is_denied() {
 }
 
 #[test]
+fn an_interval_that_is_no_multiple_of_10_ms_is_kept_on_average_and_a_very_long_one_is_long() {
+    let mut bench = Bench::new();
+    bench.set_interval(30.0, 25_000.0);
+    bench.jobs(10);
+    let came = count(&bench.jobs(1_000), 30);
+    assert!(came.abs_diff(400) <= 1, "{came} in 10 s");
+    // A month is more than half of what the clock counts before it begins anew.
+    for seconds in [1e6, 3e6, 4e6, 1e9] {
+        bench.job(&command(SET_INTERVAL, 30.0, seconds * 1e6));
+        bench.jobs(1);
+        assert_eq!(count(&bench.jobs(500), 30), 0, "{seconds} s");
+    }
+}
+
+#[test]
 fn the_protocols_version_is_told_by_the_old_command_too() {
     let mut bench = Bench::silent();
     assert_eq!(count(&bench.job(&command(PROTOCOL_VERSION, 1.0, 0.0)), 300), 1);

@@ -94,6 +94,14 @@ fn unknown_states_are_not_flagged() {
 }
 
 #[test]
+fn a_position_without_gnss_is_a_relative_one() {
+    let silent = Status { gnss: SILENT, ..status() };
+    let told =
+        heard(silent).into_iter().find_map(|m| if let MavMessage::ESTIMATOR_STATUS(m) = m { Some(m) } else { None });
+    assert_eq!(told.expect("sent").flags.bits(), 1 | 2 | 4 | 8);
+}
+
+#[test]
 fn on_ideal_state_nothing_is_estimated() {
     assert_eq!(count(&Bench::new().jobs(200), 230), 0);
     let result = Bench::silent().result_of(&command(REQUEST_MESSAGE, 230.0, 0.0));

@@ -13,7 +13,7 @@ const RC_RECEIVER: u32 = 65_536;
 const JOYSTICK: MANUAL_CONTROL_DATA =
     MANUAL_CONTROL_DATA { target: 1, x: 500, y: -250, z: 750, r: 100, buttons: 0x8001 };
 /// Everything ignored.
-const OVERRIDE: RC_CHANNELS_OVERRIDE_DATA = RC_CHANNELS_OVERRIDE_DATA {
+pub(super) const OVERRIDE: RC_CHANNELS_OVERRIDE_DATA = RC_CHANNELS_OVERRIDE_DATA {
     target_system: 1,
     target_component: 1,
     chan1_raw: u16::MAX,

@@ -225,6 +225,66 @@ fn a_burst_of_commands_is_answered_one_and_all() {
 }
 
 #[test]
+fn acknowledgements_are_written_where_telemetry_and_answers_would_have_to_wait() {
+    let mut line = Line::with_everything(0);
+    line.jobs(10);
+    // A quarter of what may wait is there: with these it is more than half.
+    line.job(&command(NAV_WAYPOINT, 0.0, 0.0).repeat(46));
+    line.carries = SENT_CAPACITY;
+    line.job(&[]);
+    assert_eq!(count(&line.messages(), 77), 46);
+}
+
+#[test]
+fn a_line_that_stands_still_and_is_full_of_acknowledgements_has_room_for_a_heartbeat() {
+    let mut line = Line::new(0, Profile::Normal);
+    // The first heartbeat comes at once, the next one a second later.
+    for _ in 0..150 {
+        line.job(&command(NAV_WAYPOINT, 0.0, 0.0).repeat(8));
+    }
+    line.sent.extend_from_slice(line.bench.ports.first().take(&mut [0; SENT_CAPACITY]));
+    let messages = line.messages();
+    assert!(count(&messages, 77) > 64 && count(&messages, 0) == 2, "{} heartbeats", count(&messages, 0));
+}
+
+#[test]
+fn of_more_failures_than_can_wait_the_newest_are_told() {
+    let mut line = Line::new(0, Profile::Normal);
+    for _ in 0..30 {
+        line.job(&command(NAV_WAYPOINT, 0.0, 0.0).repeat(8));
+    }
+    let events = [
+        Event::RotorFailed { rotor: 0 },
+        Event::RotorFailed { rotor: 1 },
+        Event::RotorFailed { rotor: 2 },
+        Event::RotorFailed { rotor: 3 },
+        Event::PositionLost,
+        Event::VelocityLost,
+        Event::HeightLost,
+        Event::AttitudeLost,
+        Event::SensorsLost,
+        Event::BatteryLow,
+        Event::BatteryCritical,
+        Event::SensorsGone,
+    ];
+    for event in events {
+        let _ = line.bench.input.events.push(event);
+        line.job(&[]);
+        line.bench.input.events.clear();
+    }
+    line.carries = SENT_CAPACITY;
+    line.jobs(20);
+    let messages = line.messages();
+    let told: Vec<_> = messages
+        .iter()
+        .filter_map(|m| if let MavMessage::STATUSTEXT(m) = m { m.text.to_str().ok() } else { None })
+        .collect();
+    assert!(told.len() > 4, "{told:?}");
+    let newest = &events[events.len() - told.len()..];
+    assert_eq!(told, newest.iter().map(|event| event.text()).collect::<Vec<_>>());
+}
+
+#[test]
 fn a_link_that_is_opened_after_weeks_is_told_everything() {
     let told = |opened_at: Tick| {
         let mut bench = Bench::new();
