@@ -243,7 +243,7 @@ fn a_kill_switch_that_is_on_when_a_lost_radio_comes_back_kills() {
     let on = frame(&RC_CHANNELS_OVERRIDE_DATA { chan5_raw: 2000, ..OVERRIDE });
     let mut kills = Vec::new();
     for job in 0..200 {
-        let bytes = if !(50..150).contains(&job) { on.clone() } else { Vec::new() };
+        let bytes = if (50..150).contains(&job) { Vec::new() } else { on.clone() };
         kills.extend(bench.output_of(&bytes).0.kill.then_some(job));
     }
     assert_eq!(kills, [0, 150]);
