@@ -300,7 +300,7 @@ struct ServeArgs {
     /// MAVLink system of the vehicle, 1 to 250, in place of the scenario's.
     #[arg(long, value_name = "N", value_parser = whole(1..=250_u32), allow_negative_numbers = true)]
     sysid: Option<u32>,
-    /// Vehicles to fly by one clock: each has the next system, seed, `--listen` and `--onboard` port.
+    /// Vehicles to fly by one clock, 1 to 250: each has the next system, seed, `--listen` and `--onboard` port.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = vehicles, allow_negative_numbers = true)]
     vehicles: u16,
     /// Record what comes from outside into a new file, for `run --replay` and `pil --replay`.

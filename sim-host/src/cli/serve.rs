@@ -16,7 +16,7 @@ use crate::flash_file::ParameterFile;
 use crate::flight;
 use crate::hands::station::Station;
 use crate::interrupt::{self, Interrupted};
-use crate::link::{DEFAULT_PEERS, Links, Peer};
+use crate::link::{DEFAULT_PEERS, LAST_ONBOARD_PORT, Links, Peer};
 use crate::recording::{Header, Recorder, arguments};
 use crate::scenario::Scenario;
 use crate::serve::{Flown, Member, Pacing, serve};
@@ -30,6 +30,7 @@ const METRES_A_DEGREE: f64 = 111_320.0;
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
     names::require(Kind::Scenario, &args.scenario)?;
     require_ports(args)?;
+    require_no_overlap(args)?;
     let mut set = args.settings.set.clone();
     set.extend(args.sysid.map(|system| format!("params.MAV_SYS_ID={system}")));
     let scenario = Scenario::load(&args.scenario, &set)?;
@@ -129,7 +130,7 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
     let flight = flight::lockstep(&scenario, seed, flight::rigid_body(&scenario, seed))?;
     let vehicle = Session::new(flight).telling_the_truth(&scenario.file.home);
     let mut links = Links::bind(further(args.listen, number), &peers(args, number))?;
-    if args.peers.is_empty() && args.onboard.is_empty() {
+    if is_presumed(args) {
         links = links.presuming_its_peers();
     }
     if let Some(listen) = args.tcp {
@@ -163,17 +164,41 @@ fn require_ports(args: &ServeArgs) -> Result<()> {
     Ok(())
 }
 
+/// Refuses programs' ports that go on, from vehicle to vehicle, into a ground station's.
+fn require_no_overlap(args: &ServeArgs) -> Result<()> {
+    for onboard in &args.onboard {
+        for number in 1..args.vehicles {
+            let address = further(*onboard, number);
+            ensure!(
+                !args.peers.contains(&address),
+                "--onboard {onboard}: vehicle {} would have {address}, which is given by --peer: use --vehicles {number} \
+                 or fewer, or ports that are further apart",
+                number + 1
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Whether nobody was named, so that a vehicle has the default peers.
+fn is_presumed(args: &ServeArgs) -> bool {
+    args.peers.is_empty() && args.onboard.is_empty()
+}
+
 /// Whom a vehicle sends to without having heard of them: all the same ground stations, each its own programs.
 fn peers(args: &ServeArgs, number: u16) -> Vec<Peer> {
     let named = |addresses: &[SocketAddr], profile| {
         addresses.iter().map(move |address| Peer { address: *address, profile }).collect::<Vec<_>>()
     };
     let mut peers = [named(&args.peers, Profile::Normal), named(&args.onboard, Profile::Onboard)].concat();
-    if peers.is_empty() {
+    if is_presumed(args) {
         peers = DEFAULT_PEERS.to_vec();
     }
+    // The ports of the defaults end before the ground stations'; what was given goes on as it was given.
+    let highest = if is_presumed(args) { LAST_ONBOARD_PORT } else { u16::MAX };
     for peer in peers.iter_mut().filter(|peer| peer.profile == Profile::Onboard) {
-        peer.address = further(peer.address, number);
+        let address = further(peer.address, number);
+        peer.address = SocketAddr::new(address.ip(), address.port().min(highest));
     }
     peers
 }
@@ -245,7 +270,46 @@ fn farewell(flown: &Flown) -> String {
 
 #[cfg(test)]
 mod tests {
+    use clap::Parser as _;
+
+    use super::super::{Cli, Command};
     use super::*;
+
+    /// What follows `serve` on the command line, in words.
+    fn args(words: &str) -> ServeArgs {
+        let all = ["sim-host", "serve"].into_iter().chain(words.split_whitespace());
+        match Cli::try_parse_from(all).expect("they are arguments").command {
+            Some(Command::Serve(args)) => args,
+            other => panic!("serve, not {other:?}"),
+        }
+    }
+
+    /// The ports to which a vehicle sends, from 0.
+    fn ports(args: &ServeArgs, number: u16) -> Vec<u16> {
+        peers(args, number).iter().map(|peer| peer.address.port()).collect()
+    }
+
+    #[test]
+    fn two_hundred_and_fifty_vehicles_have_programs_and_a_ground_station() {
+        let many = args("--vehicles 250");
+        for (number, onboard) in [(0, 14_540), (8, 14_548), (9, 14_549), (10, 14_549), (249, 14_549)] {
+            assert_eq!(ports(&many, number), [14_550, onboard], "vehicle {}", number + 1);
+        }
+        require_ports(&many).and_then(|()| require_no_overlap(&many)).expect("they are flown");
+    }
+
+    #[test]
+    fn programs_ports_that_go_on_into_a_ground_stations_are_refused_with_the_vehicle_that_has_it() {
+        let given = "--peer 127.0.0.1:14550 --onboard 127.0.0.1:14540 --vehicles";
+        require_no_overlap(&args(&format!("{given} 10"))).expect("14549 is the last");
+        let error = require_no_overlap(&args(&format!("{given} 11"))).expect_err("14550 is a station's");
+        assert_eq!(
+            error.to_string(),
+            "--onboard 127.0.0.1:14540: vehicle 11 would have 127.0.0.1:14550, which is given by --peer: use --vehicles 10 \
+             or fewer, or ports that are further apart"
+        );
+        assert_eq!(ports(&args("--onboard 127.0.0.1:14540 --vehicles 20"), 19), [14_559], "no station is named");
+    }
 
     #[test]
     fn one_parameter_is_told_as_one() {

@@ -75,6 +75,8 @@ pub const TCP_PORT: u16 = 5760;
 pub const PEER_PORT: u16 = 14550;
 /// See [`LISTEN_PORT`].
 pub const ONBOARD_PORT: u16 = 14540;
+/// The default port of the program of a vehicle beyond the tenth, as PX4 has it: further ones would be ground stations'.
+pub const LAST_ONBOARD_PORT: u16 = PEER_PORT - 1;
 
 /// A guest that has been silent this long has gone; ground stations send a heartbeat every second.
 const FORGET_AFTER: Duration = Duration::from_secs(10);
