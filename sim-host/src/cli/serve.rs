@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 use std::path::Path;
 
-use anyhow::{Context as _, Result, anyhow, ensure};
+use anyhow::{Context as _, Result, anyhow, bail, ensure};
 use firmware::config::Start;
 use firmware::mavlink::port::Profile;
 use firmware::settings::store::Loaded;
@@ -16,6 +16,7 @@ use crate::flash_file::ParameterFile;
 use crate::flight;
 use crate::hands::station::Station;
 use crate::interrupt::{self, Interrupted};
+use crate::link::address::{elsewhere, is_own};
 use crate::link::{DEFAULT_PEERS, LAST_ONBOARD_PORT, Links, Peer};
 use crate::recording::{Header, Recorder, arguments};
 use crate::scenario::Scenario;
@@ -31,6 +32,8 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     names::require(Kind::Scenario, &args.scenario)?;
     require_ports(args)?;
     require_no_overlap(args)?;
+    let listeners: Vec<SocketAddr> = (0..args.vehicles).map(|number| further(args.listen, number)).collect();
+    require_apart(args, &listeners)?;
     let mut set = args.settings.set.clone();
     set.extend(args.sysid.map(|system| format!("params.MAV_SYS_ID={system}")));
     let scenario = Scenario::load(&args.scenario, &set)?;
@@ -44,6 +47,9 @@ pub(super) fn run(args: &ServeArgs) -> Result<()> {
     for number in 0..args.vehicles {
         fleet.push(member(&scenario, args, number)?);
     }
+    // Ports that the system has chosen are known only now.
+    let listeners: Vec<SocketAddr> = fleet.iter().map(|one| one.links.local_address()).collect::<Result<_>>()?;
+    require_apart(args, &listeners)?;
     if hands.is_some() {
         fleet.iter_mut().try_for_each(seat_pilot)?;
     }
@@ -180,6 +186,37 @@ fn require_no_overlap(args: &ServeArgs) -> Result<()> {
     Ok(())
 }
 
+/// Refuses peers at whose address a vehicle listens: it would be sent what another tells, or what it tells itself.
+fn require_apart(args: &ServeArgs, listeners: &[SocketAddr]) -> Result<()> {
+    for number in 0..args.vehicles {
+        for peer in peers(args, number) {
+            let is_there = |own: &SocketAddr| own.port() != 0 && is_own(*own, &peer.address);
+            if let Some(listener) = (0..).zip(listeners).find_map(|(who, own)| is_there(own).then_some(who)) {
+                bail!(meets(args, number, &peer, listener));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is said of a peer of the vehicle `number` at whose address the vehicle `listener` listens, both from 0.
+fn meets(args: &ServeArgs, number: u16, peer: &Peer, listener: u16) -> String {
+    let (option, address, listen) = (peer.option(), peer.address, args.listen);
+    let (sender, receiver) = (number + 1, listener + 1);
+    match () {
+        () if peer.profile == Profile::Onboard && args.vehicles > 1 => format!(
+            "--onboard {}: vehicle {sender} would send to {address}, where vehicle {receiver} listens: use fewer vehicles, or \
+             ports of --listen and --onboard that are further apart",
+            SocketAddr::new(address.ip(), address.port().saturating_sub(number))
+        ),
+        () => {
+            let who = if args.vehicles > 1 { format!("vehicle {receiver}") } else { "the vehicle itself".to_owned() };
+            let station = elsewhere(further(listen, listener));
+            format!("{option} {address} is where {who} listens: give the ground station's address, as {station}")
+        }
+    }
+}
+
 /// Whether nobody was named, so that a vehicle has the default peers.
 fn is_presumed(args: &ServeArgs) -> bool {
     args.peers.is_empty() && args.onboard.is_empty()
@@ -309,6 +346,37 @@ mod tests {
              or fewer, or ports that are further apart"
         );
         assert_eq!(ports(&args("--onboard 127.0.0.1:14540 --vehicles 20"), 19), [14_559], "no station is named");
+    }
+
+    /// Why vehicles that listen where they are told to are not flown, if they are not.
+    fn met(words: &str) -> Option<String> {
+        let args = args(words);
+        let listeners: Vec<SocketAddr> = (0..args.vehicles).map(|number| further(args.listen, number)).collect();
+        require_apart(&args, &listeners).err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn no_vehicle_is_another_ones_peer() {
+        let onboard = "--onboard 127.0.0.1:14540 --vehicles";
+        assert_eq!(met(&format!("{onboard} 40")), None);
+        for (words, expected) in [
+            (
+                format!("{onboard} 41"),
+                "--onboard 127.0.0.1:14540: vehicle 41 would send to 127.0.0.1:14580, where vehicle 1 listens: use fewer \
+                 vehicles, or ports of --listen and --onboard that are further apart",
+            ),
+            (
+                "--listen :14580 --peer 127.0.0.1:14581 --vehicles 2".to_owned(),
+                "--peer 127.0.0.1:14581 is where vehicle 2 listens: give the ground station's address, as 127.0.0.1:14550",
+            ),
+            (
+                "--peer 127.0.0.1:14580".to_owned(),
+                "--peer 127.0.0.1:14580 is where the vehicle itself listens: give the ground station's address, as \
+                 127.0.0.1:14550",
+            ),
+        ] {
+            assert_eq!(met(&words).as_deref(), Some(expected), "{words}");
+        }
     }
 
     #[test]

@@ -93,14 +93,14 @@ fn cannot_have(option: &str, listen: SocketAddr, usual: u16, error: &std::io::Er
 }
 
 /// Whether what is sent to `peer` comes in at `own` again.
-pub(super) fn is_own(own: SocketAddr, peer: &SocketAddr) -> bool {
+pub fn is_own(own: SocketAddr, peer: &SocketAddr) -> bool {
     // Only an address of this machine can be bound.
     let is_this_machine = || UdpSocket::bind((peer.ip(), 0)).is_ok();
     own.port() == peer.port() && (own.ip() == peer.ip() || (own.ip().is_unspecified() && is_this_machine()))
 }
 
 /// Where ground stations listen on this machine, unless that is `own`.
-pub(super) fn elsewhere(own: SocketAddr) -> SocketAddr {
+pub fn elsewhere(own: SocketAddr) -> SocketAddr {
     let ip = if own.ip().is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { own.ip() };
     SocketAddr::new(ip, if own.port() == PEER_PORT { LISTEN_PORT } else { PEER_PORT })
 }

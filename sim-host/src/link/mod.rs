@@ -42,7 +42,7 @@ pub struct Peer {
 
 impl Peer {
     /// The option that names it.
-    fn option(&self) -> &'static str {
+    pub fn option(&self) -> &'static str {
         match self.profile {
             Profile::Normal => "--peer",
             Profile::Onboard => "--onboard",
