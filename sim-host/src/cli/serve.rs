@@ -17,7 +17,7 @@ use crate::flight;
 use crate::hands::station::Station;
 use crate::interrupt::{self, Interrupted};
 use crate::link::address::{elsewhere, is_own};
-use crate::link::{DEFAULT_PEERS, LAST_ONBOARD_PORT, Links, Peer};
+use crate::link::{DEFAULT_PEERS, LAST_ONBOARD_PORT, LISTEN_PORT, Links, Peer};
 use crate::recording::{Header, Recorder, arguments};
 use crate::scenario::Scenario;
 use crate::serve::{Flown, Member, Pacing, serve};
@@ -203,7 +203,17 @@ fn require_apart(args: &ServeArgs, listeners: &[SocketAddr]) -> Result<()> {
 fn meets(args: &ServeArgs, number: u16, peer: &Peer, listener: u16) -> String {
     let (option, address, listen) = (peer.option(), peer.address, args.listen);
     let (sender, receiver) = (number + 1, listener + 1);
+    let whom = if peer.profile == Profile::Onboard { "programs on board" } else { "the ground station" };
+    let other_port = SocketAddr::new(listen.ip(), LISTEN_PORT);
     match () {
+        () if is_presumed(args) && listener == 0 => format!(
+            "--listen {listen} is the port of {whom}, to which vehicles send by themselves: leave out --listen, or use another \
+             port, as --listen {other_port}"
+        ),
+        () if is_presumed(args) => format!(
+            "--listen {listen}: vehicle {receiver} would listen on port {}, which is that of {whom}: use --listen {other_port}",
+            address.port()
+        ),
         () if peer.profile == Profile::Onboard && args.vehicles > 1 => format!(
             "--onboard {}: vehicle {sender} would send to {address}, where vehicle {receiver} listens: use fewer vehicles, or \
              ports of --listen and --onboard that are further apart",
@@ -377,6 +387,30 @@ mod tests {
         ] {
             assert_eq!(met(&words).as_deref(), Some(expected), "{words}");
         }
+    }
+
+    #[test]
+    fn where_a_ground_station_listens_no_vehicle_does_and_no_peer_is_blamed_that_was_not_given() {
+        for (words, expected) in [
+            (
+                "--listen 127.0.0.1:14550",
+                "--listen 127.0.0.1:14550 is the port of the ground station, to which vehicles send by themselves: leave out \
+                 --listen, or use another port, as --listen 127.0.0.1:14580",
+            ),
+            (
+                "--listen :14540",
+                "--listen 0.0.0.0:14540 is the port of programs on board, to which vehicles send by themselves: leave out \
+                 --listen, or use another port, as --listen 0.0.0.0:14580",
+            ),
+            (
+                "--listen 127.0.0.1:14549 --vehicles 2",
+                "--listen 127.0.0.1:14549: vehicle 2 would listen on port 14550, which is that of the ground station: use \
+                 --listen 127.0.0.1:14580",
+            ),
+        ] {
+            assert_eq!(met(words).as_deref(), Some(expected), "{words}");
+        }
+        assert_eq!(met("--listen 127.0.0.1:14550 --peer 127.0.0.1:14551"), None, "a station elsewhere");
     }
 
     #[test]
