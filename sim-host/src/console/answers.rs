@@ -1,5 +1,5 @@
-//! The answers to ground stations' commands that never reach the commander: unsupported ones, and those whose parameters
-//! make no request. They are read from what the vehicle sends, so that the firmware need not tell of them twice.
+//! The answers to ground stations' commands that never reach the commander: unsupported ones, those whose parameters make
+//! no request, and those that act at once. They are read from what the vehicle sends, so that the firmware need not tell of them twice.
 
 use firmware::commander::{Origin, Reply};
 use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData, consts};
@@ -51,7 +51,8 @@ impl Answers {
         self.awaited.push(Asked { link, sender, command });
     }
 
-    /// Tells the answers among the frames that are sent on a link that the commander has not given: refusals, and kills.
+    /// Tells the answers among the frames that are sent on a link that the commander has not given: refusals, and what
+    /// acts at once: kills, terminations, restarts.
     pub(super) fn read(&mut self, link: u8, frames: &[u8], tell: &mut impl FnMut(String)) {
         let reason = reason(frames);
         for ack in acknowledgements(frames) {
@@ -137,14 +138,22 @@ fn answer(ack: &COMMAND_ACK_DATA, reason: Option<&str>) -> Option<String> {
             "refused, no place on Earth known or too many at once"
         }
         MavResult::MAV_RESULT_TEMPORARILY_REJECTED => "refused, too many at once",
-        // Of arming and disarming only a kill is accepted without the commander.
-        MavResult::MAV_RESULT_ACCEPTED if known == Some(MavCmd::MAV_CMD_COMPONENT_ARM_DISARM) => {
-            return Some("kill: accepted".to_owned());
-        }
-        MavResult::MAV_RESULT_ACCEPTED | MavResult::MAV_RESULT_IN_PROGRESS => return None,
+        MavResult::MAV_RESULT_ACCEPTED => return accepted(known?).map(|what| format!("{what}: accepted")),
+        MavResult::MAV_RESULT_IN_PROGRESS => return None,
     };
     let name = known.map(|known| format!(" ({})", format!("{known:?}").trim_start_matches("MAV_CMD_")));
     Some(format!("command {}{}: {outcome}", ack.command, name.unwrap_or_default()))
+}
+
+/// What is accepted without the commander, as far as it is told here: of an injected failure it is told when it begins.
+fn accepted(command: MavCmd) -> Option<&'static str> {
+    match command {
+        // Of arming and disarming only a kill.
+        MavCmd::MAV_CMD_COMPONENT_ARM_DISARM => Some("kill"),
+        MavCmd::MAV_CMD_DO_FLIGHTTERMINATION => Some("termination"),
+        MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN => Some("restart"),
+        _ => None,
+    }
 }
 
 #[cfg(test)]

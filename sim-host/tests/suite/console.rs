@@ -321,6 +321,20 @@ fn falls_by(kill: impl Fn(&mut Bench)) {
 }
 
 #[test]
+fn a_restart_and_a_termination_by_a_ground_station_are_told() {
+    let mut bench = Bench::new("pad");
+    bench.until("] ready to arm", 5.0);
+    for (command, told) in [(246, "restart"), (185, "termination")] {
+        bench.hear(&command_long(command, [1.0, 0.0, 0.0]));
+        bench.until(&format!("ground station 255: {told}: accepted"), 0.1);
+        // A restart follows its answer.
+        bench.fly(2.0);
+    }
+    let told = bench.printed.iter().filter(|line| line.contains("ground station 255")).count();
+    assert_eq!(told, 2, "{:#?}", bench.printed);
+}
+
+#[test]
 fn after_a_crash_it_is_told_to_be_neither_flying_nor_in_the_air() {
     let mut bench = Bench::new("field");
     bench.arm_and_climb(5.0);
