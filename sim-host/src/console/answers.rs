@@ -6,6 +6,8 @@ use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData, consts};
 use glissade_dialect::num_traits::FromPrimitive as _;
 use glissade_dialect::{COMMAND_ACK_DATA, MavCmd, MavMessage, MavResult, STATUSTEXT_DATA};
 
+use super::commands;
+
 /// Bytes of a MAVLink 2 frame before its payload.
 const HEADER: usize = consts::STX_SIZE + consts::v2::MIN_HEADER_SIZE;
 /// More answers are not awaited: acknowledgements may be lost, where too many are asked for.
@@ -141,8 +143,8 @@ fn answer(ack: &COMMAND_ACK_DATA, reason: Option<&str>) -> Option<String> {
         MavResult::MAV_RESULT_ACCEPTED => return accepted(known?).map(|what| format!("{what}: accepted")),
         MavResult::MAV_RESULT_IN_PROGRESS => return None,
     };
-    let name = known.map(|known| format!(" ({})", format!("{known:?}").trim_start_matches("MAV_CMD_")));
-    Some(format!("command {}{}: {outcome}", ack.command, name.unwrap_or_default()))
+    let name = commands::name(ack.command).map_or_else(String::new, |name| format!(" ({name})"));
+    Some(format!("command {}{name}: {outcome}", ack.command))
 }
 
 /// What is accepted without the commander, as far as it is told here: of an injected failure it is told when it begins.

@@ -7,6 +7,7 @@
 //! [keys](crate::hands::keys) gets them from there.
 
 mod answers;
+mod commands;
 mod editor;
 pub mod events;
 pub mod keyboard;

@@ -240,6 +240,9 @@ fn each_command_of_a_ground_station_is_told_once_with_its_answer() {
     for (command, parameters, told) in [
         // PREFLIGHT_STORAGE, to a main mode that there is not, neither arm nor disarm.
         (245, [0.0; 3], &["command 245 (PREFLIGHT_STORAGE): unsupported"][..]),
+        // MISSION_START, which is not in the dialect; and one that nobody knows.
+        (300, [0.0; 3], &["command 300 (MISSION_START): unsupported"]),
+        (60_000, [0.0; 3], &["command 60000: unsupported"]),
         // The same again, as stations do every other second.
         (245, [0.0; 3], &[]),
         (176, [1.0, 9.0, 0.0], &["command 176 (DO_SET_MODE): denied"]),
