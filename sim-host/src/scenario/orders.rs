@@ -4,7 +4,7 @@ use anyhow::Result;
 use firmware::commander::{FARTHEST_M, FASTEST_M_S, TAKE_OFF_HEIGHTS_M};
 
 use super::ScenarioFile;
-use super::validate::each;
+use super::validate::{DURATION_MAX_S, each};
 use crate::pilot::Order;
 use crate::refusal::{Refusal, shortest, within};
 
@@ -17,6 +17,9 @@ pub(super) fn commands(f: &ScenarioFile) -> Result<()> {
     let mut before = None;
     for (i, command) in f.command.iter().enumerate() {
         order(&format!("command.{i}.order"), &command.order, ground_m)?;
+        for (key, seconds) in [("at_s", command.at_s), ("arrived_for_s", command.arrived_for_s)] {
+            within(&format!("command.{i}.{key}"), seconds.unwrap_or(0.0), 0.0, DURATION_MAX_S)?;
+        }
         if command.arrived_for_s.is_some() && !before.is_some_and(|order: Order| order.arrives()) {
             return Err(Refusal::new(format!("command.{i}.arrived_for_s"), "follows a command that arrives nowhere")
                 .remedy("only take-off, go-to and hold do: give `at_s`, the time in the flight")

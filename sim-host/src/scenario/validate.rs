@@ -22,7 +22,7 @@ const RATE_MAX_RAD_S: f64 = 100.0;
 /// Strongest push, m/s² and rad/s².
 const ACCELERATION_MAX: f64 = 1e6;
 /// Longest flight, s: 11 days.
-const DURATION_MAX_S: f64 = 1e6;
+pub(super) const DURATION_MAX_S: f64 = 1e6;
 /// Longest flight on the decoupled plant, s: its steps of 10 µs are counted in 32 bits.
 const DECOUPLED_DURATION_MAX_S: f64 = 4e4;
 

@@ -218,6 +218,19 @@ fn an_order_that_cannot_be_carried_out_is_refused_when_it_is_read() {
             "command=[{at_s=1.0,order={velocity={velocity_m_s=[0.0,0.0,101.0]}}}]",
             &["`command.0.order.velocity.velocity_m_s.2` must be between -100 and 100 m/s, not 101"],
         ),
+        ("outdoor-hover", "command.0.at_s=-1", &["`command.0.at_s` must be between 0 and 1e6 s, not -1"]),
+        ("outdoor-hover", "command.0.at_s=nan", &["`command.0.at_s` must be between 0 and 1e6 s, not nan"]),
+        (
+            "outdoor-hover",
+            "command=[{at_s=1,order=\"hold\"},{arrived_for_s=-0.5,order=\"land\"}]",
+            &["`command.1.arrived_for_s` must be between 0 and 1e6 s, not -0.5"],
+        ),
+        ("field", "fault=[{sensor=\"gnss\",kind=\"off\",from_s=-1}]", &["`fault.0.from_s` must be between 0 and 1e6"]),
+        (
+            "x500-hover",
+            "push=[{from_s=-1,to_s=1,acceleration_m_s2=[1,0,0]}]",
+            &["`push.0.from_s` must be between 0 and 1e6 s, not -1"],
+        ),
         ("field", "fault=[{sensor=\"gps\",kind=\"off\",from_s=1}]", &["`fault.0.sensor`", "did you mean `gnss`?"]),
     ] {
         refuses_settings(&folder, scenario, &[setting], parts);
