@@ -234,6 +234,10 @@ fn elsewhere(name: &str, known: &[&str]) -> Option<String> {
         "actuation_delay_s" if known.contains(&"mass_factor") => {
             Some("it stands at the top, outside of `truth`: the firmware is never told of it".to_owned())
         }
+        // Of letters alone it is most like the latitude.
+        "altitude_m" | "altitude" if known.contains(&"latitude_deg") => {
+            Some("the place's height is `height_m`; the air's density goes by `world.altitude_m`".to_owned())
+        }
         _ if at_the_top && AXES.contains(&name) => {
             Some(format!("gains stand below `control`, as in control.{name}.lambda"))
         }
