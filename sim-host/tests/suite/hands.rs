@@ -24,11 +24,15 @@ struct Cockpit {
 
 impl Cockpit {
     fn new(scenario: &Scenario) -> Self {
-        let flight = sim_host::flight::lockstep(scenario, SEED, sim_host::flight::rigid_body(scenario, SEED));
+        Self::of_seed(scenario, SEED)
+    }
+
+    fn of_seed(scenario: &Scenario, seed: u64) -> Self {
+        let flight = sim_host::flight::lockstep(scenario, seed, sim_host::flight::rigid_body(scenario, seed));
         let mut session = Session::new(flight.expect("flies"));
         let mut links = Links::bind("127.0.0.1:0".parse().expect("an address"), &[]).expect("a free port");
         session.seat_pilot(links.seat_pilot().expect("a free link"));
-        let recorder = Recorder::new(Vec::new(), &Header::new(scenario, &[], SEED).expect("loaded"));
+        let recorder = Recorder::new(Vec::new(), &Header::new(scenario, &[], seed).expect("loaded"));
         Self { session, links, pilot: Station::new(1), recorder, course: Course::default() }
     }
 
@@ -136,6 +140,9 @@ fn a_refusal_is_told_once_and_as_the_pilots() {
     assert_eq!(said.iter().filter(|said| said.contains("pilot")).collect::<Vec<_>>(), [refused], "{said:?}");
 }
 
+/// The seed that `serve` flies unless told otherwise, as the commands beside the shown flights do.
+const SHOWN_SEED: u64 = 1;
+
 /// A flight that a document shows, and what is printed.
 struct Shown {
     cockpit: Cockpit,
@@ -144,7 +151,7 @@ struct Shown {
 
 impl Shown {
     fn new() -> Self {
-        Self { cockpit: Cockpit::new(&load("field", &[])), printed: String::new() }
+        Self { cockpit: Cockpit::of_seed(&load("field", &[]), SHOWN_SEED), printed: String::new() }
     }
 
     /// Flies until a time, s.
@@ -193,22 +200,36 @@ fn a_pilots_session_in_the_readme_is_what_is_printed() {
     shown.assert_shown("README.md", "pilot");
 }
 
-#[test]
-fn the_first_flight_in_the_docs_is_what_is_printed() {
-    let mut shown = Shown::new();
-    let lines = [
-        (3.0, "arm"),
-        (4.0, "takeoff 5"),
-        (10.0, "goto 5 0 5 90"),
-        (18.0, "status"),
-        (19.0, "fault gnss off"),
-        (32.0, ""),
-    ];
-    for (at_s, line) in lines {
-        shown.until(at_s, None);
-        if !line.is_empty() {
-            shown.cockpit.session.enter(line);
+/// What the script beside the first flight types, each line with its time, s.
+fn typed(document: &str) -> Vec<(f64, String)> {
+    let (_, script) = document.split_once("```sh\n(").expect("the script begins");
+    let (script, _) = script.split_once(") | cargo run --release -- serve\n").expect("the script ends");
+    let (mut now_s, mut lines) = (0.0, Vec::new());
+    for word in script.split([';', '\n']).map(str::trim) {
+        if let Some(pause) = word.strip_prefix("sleep ") {
+            now_s += pause.parse::<f64>().expect("seconds");
+        } else {
+            lines.push((now_s, word.strip_prefix("echo ").expect("a line").to_owned()));
         }
     }
+    lines
+}
+
+#[test]
+fn the_first_flight_in_the_docs_is_what_is_printed() {
+    let document = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/serve.md");
+    let mut lines = typed(&std::fs::read_to_string(document).expect("a document"));
+    let (quit_s, quit) = lines.pop().expect("it ends");
+    assert_eq!(quit, "quit");
+    let mut shown = Shown::new();
+    for (at_s, line) in lines {
+        shown.until(at_s, None);
+        shown.cockpit.session.enter(&line);
+    }
+    // What is printed last is printed also where the program begins later than the script.
+    shown.until(quit_s - 1.0, None);
+    let before = shown.printed.len();
+    shown.until(quit_s, None);
+    assert!(shown.printed.contains("] disarmed\n") && shown.printed.len() == before, "{}", shown.printed);
     shown.assert_shown("docs/serve.md", "first flight");
 }
