@@ -175,7 +175,8 @@ impl Backdrop {
 
 /// Left edges of names (the middle that each would have, and its width) that do not overlap and end within `width`.
 fn apart(names: &[(f64, f64)], width: f64) -> Vec<f64> {
-    const GAP: f64 = 6.0;
+    // Of the fonts that a viewer may have the widest takes 4.5 pixels more for `touchdown` than its width here.
+    const GAP: f64 = 12.0;
     let mut free = 0.0_f64;
     let mut lefts: Vec<f64> = Vec::with_capacity(names.len());
     for (middle, wide) in names {
@@ -259,7 +260,11 @@ mod tests {
     #[test]
     fn names_keep_apart_and_within_the_panel() {
         assert_eq!(apart(&[(10.0, 20.0), (100.0, 20.0)], 200.0), [0.0, 90.0]);
-        assert_eq!(apart(&[(190.0, 20.0), (195.0, 20.0), (196.0, 20.0)], 200.0), [128.0, 154.0, 180.0]);
+        assert_eq!(apart(&[(190.0, 20.0), (195.0, 20.0), (196.0, 20.0)], 200.0), [116.0, 148.0, 180.0]);
         assert!(apart(&[], 200.0).is_empty());
+        // As wide as in DejaVu Sans, in sizes of the font.
+        let (touchdown, names) = (5.53 * SIZE, ["touchdown", DISARMED].map(|name| text_width(name, SIZE)));
+        let [first, second] = apart(&names.map(|wide| (500.0, wide)), 1000.0)[..] else { panic!("two names") };
+        assert!(second - first > touchdown + 5.0, "a space shows between them");
     }
 }
