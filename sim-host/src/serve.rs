@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use core::ops::RangeInclusive;
 
 use anyhow::ensure;
-use firmware::mavlink::port::Ports;
+use firmware::mavlink::port::{LinkEvent, Ports};
 use firmware::signals::{TICK_S_EXACT, Tick};
 
 use crate::console::terminal::Terminal;
@@ -32,6 +32,9 @@ pub trait Vehicle {
 
     /// Its links: what has arrived is put into them before a tick, and what is to be sent taken from them after it.
     fn ports(&self) -> &Ports;
+
+    /// What comes on a link before the next tick, beside what is put into [`ports`](Self::ports): to be read along.
+    fn overhear(&mut self, link: usize, bytes: &[u8]);
 
     /// MAVLink frames that the simulator itself tells all peers, when there are any.
     fn truth(&mut self) -> Option<Vec<u8>>;
@@ -62,6 +65,10 @@ impl Vehicle for Session {
 
     fn ports(&self) -> &Ports {
         Self::ports(self)
+    }
+
+    fn overhear(&mut self, link: usize, bytes: &[u8]) {
+        Self::overhear(self, link, bytes);
     }
 
     fn truth(&mut self) -> Option<Vec<u8>> {
@@ -159,11 +166,16 @@ impl<V: Vehicle> Member<V> {
         if let Some(pilot) = pilot {
             links.hear_pilot(&pilot.frames(tick, sticks));
         }
+        let mut arrived = Vec::new();
         links.deliver(vehicle.ports(), |link, event| {
+            if let LinkEvent::Received(bytes) = event {
+                arrived.push((link, bytes.to_vec()));
+            }
             if let Some(recorder) = recorder {
                 recorder.link(tick, link, event);
             }
         });
+        arrived.iter().for_each(|(link, bytes)| vehicle.overhear(*link, bytes));
         vehicle.tick();
         links.send(vehicle.ports());
         if let Some(frames) = vehicle.truth() {

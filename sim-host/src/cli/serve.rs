@@ -120,6 +120,7 @@ fn seat_pilot(member: &mut Member<Session>) -> Result<()> {
 
 /// The vehicle with this number, from 0: each has the next system, seed and ports, and its home beside the last one's.
 fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<Session>> {
+    let first = scenario.settings().system_id();
     let mut scenario = scenario.clone();
     if number > 0 {
         let mut settings = scenario.settings();
@@ -134,7 +135,8 @@ fn member(scenario: &Scenario, args: &ServeArgs, number: u16) -> Result<Member<S
     }
     let seed = args.seed.wrapping_add(number.into());
     let flight = flight::lockstep(&scenario, seed, flight::rigid_body(&scenario, seed))?;
-    let vehicle = Session::new(flight).telling_the_truth(&scenario.file.home);
+    let last = u8::try_from(u16::from(first) + args.vehicles - 1).unwrap_or(u8::MAX);
+    let vehicle = Session::new(flight).among(first..=last).telling_the_truth(&scenario.file.home);
     let mut links = Links::bind(further(args.listen, number), &peers(args, number))?;
     if is_presumed(args) {
         links = links.presuming_its_peers();

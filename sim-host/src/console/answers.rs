@@ -15,6 +15,9 @@ const AWAITED_MAX: usize = 16;
 /// More commands that are unsupported are told each time: no ground station has so many.
 const UNSUPPORTED_MAX: usize = 64;
 
+/// What the firmware calls a set-point that it refuses.
+const SET_POINT: &str = "Set-point";
+
 /// To whom an answer goes, and to what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Asked {
@@ -101,13 +104,23 @@ fn acknowledgements(frames: &[u8]) -> impl Iterator<Item = COMMAND_ACK_DATA> {
     messages(frames)
 }
 
-/// The reason of the one refusal that is told as a text among whole frames; of several nobody knows which is whose.
+/// What is refused by a text among whole frames, and why.
+fn refusals(frames: &[u8]) -> impl Iterator<Item = (String, String)> {
+    messages(frames).filter_map(|text: STATUSTEXT_DATA| {
+        let (what, reason) = text.text.to_str().ok()?.split_once(" refused: ")?;
+        Some((what.to_owned(), reason.to_owned()))
+    })
+}
+
+/// The reason of the one command that is refused by a text among whole frames; of several nobody knows which is whose.
 fn reason(frames: &[u8]) -> Option<String> {
-    let mut reasons = messages(frames).filter_map(|text: STATUSTEXT_DATA| {
-        let text = text.text.to_str().ok()?.to_owned();
-        text.split_once(" refused: ").map(|(_, reason)| reason.to_owned())
-    });
+    let mut reasons = refusals(frames).filter_map(|(what, reason)| (what != SET_POINT).then_some(reason));
     reasons.next().filter(|_| reasons.next().is_none())
+}
+
+/// Why a set-point is refused, which no acknowledgement tells.
+pub(super) fn refused_set_point(frames: &[u8]) -> Option<String> {
+    refusals(frames).find_map(|(what, reason)| (what == SET_POINT).then_some(reason))
 }
 
 /// An answer in words. Ground stations ask for messages all the time, and do without those that there are not: of that

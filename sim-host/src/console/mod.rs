@@ -12,6 +12,7 @@ mod editor;
 pub mod events;
 pub mod keyboard;
 pub mod line;
+mod overheard;
 pub mod parse;
 mod session;
 pub mod terminal;

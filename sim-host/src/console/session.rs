@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 use std::net::SocketAddr;
+use std::ops::RangeInclusive;
 
 use anyhow::{Result, ensure};
 use firmware::commander::{
@@ -13,9 +14,10 @@ use firmware::mavlink::port::{LINKS, Ports, SENT_CAPACITY};
 use firmware::signals::Tick;
 use nalgebra::Vector3;
 
-use super::answers::Answers;
+use super::answers::{self, Answers};
 use super::events::{self, Watch};
 use super::line::{Line, Tone};
+use super::overheard::Overheard;
 use super::parse::{self, COMMANDS, Command};
 use crate::failures::Equipment;
 use crate::flash_file::ParameterFile;
@@ -54,6 +56,8 @@ pub struct Session {
     watch: Watch,
     /// What is answered to ground stations.
     answers: Answers,
+    /// What they send and the vehicle passes over.
+    overheard: Overheard,
     /// Requests in their order; the commander gets one at a time.
     asked: VecDeque<Asked>,
     /// The velocity to repeat, and the tick of its last request.
@@ -87,11 +91,14 @@ impl Session {
         let injectable = flight.injectable();
         flight.autopilot.inner.allow_failures(injectable);
         let watch = Watch::new(&flight);
+        let system = flight.autopilot.ground.settings().system_id();
+        let overheard = Overheard::of(system..=system);
         let (answers, asked) = (Answers::default(), VecDeque::new());
         Self {
             flight,
             watch,
             answers,
+            overheard,
             asked,
             velocity: None,
             said: Vec::new(),
@@ -105,6 +112,13 @@ impl Session {
     #[must_use]
     pub fn telling_the_truth(mut self, home: &Home) -> Self {
         self.truth = Some(TruthStream::new(home, self.flight.autopilot.ground.settings().system_id()));
+        self
+    }
+
+    /// The same, of vehicles with these systems, which ground stations may speak to beside this one.
+    #[must_use]
+    pub fn among(mut self, systems: RangeInclusive<u8>) -> Self {
+        self.overheard = Overheard::of(systems);
         self
     }
 
@@ -195,6 +209,16 @@ impl Session {
         self.read_answers(left);
     }
 
+    /// Reads along what comes on a link before the next tick, and tells of what the vehicle passes over.
+    pub fn overhear(&mut self, link: usize, bytes: &[u8]) {
+        let (tick, t_s) = (self.flight.next_tick(), Some(self.time_s()));
+        let Self { answers, overheard, said, .. } = self;
+        overheard.read(tick, link, bytes, &mut |system, text| {
+            let text = format!("{}: {text}", answers.who(link as u8, system));
+            said.push(Line { t_s, tone: Tone::Refused, text });
+        });
+    }
+
     /// Bytes that the links still hold from before: a slow station has not taken them. They were read.
     fn left(&self) -> [usize; LINKS] {
         let mut left = [0; LINKS];
@@ -206,13 +230,19 @@ impl Session {
 
     /// Reports what the vehicle refuses ground stations without the commander.
     fn read_answers(&mut self, left: [usize; LINKS]) {
-        let t_s = Some(self.time_s());
-        let Self { answers, said, flight, .. } = self;
+        let (tick, t_s) = (self.flight.next_tick(), Some(self.time_s()));
+        let Self { answers, overheard, said, flight, .. } = self;
         for ((number, port), left) in (0..).zip(&flight.autopilot.ports).zip(left) {
             if port.has_output() {
                 let mut sent = [0; SENT_CAPACITY];
+                let frames = port.look(&mut sent).get(left..).unwrap_or_default();
                 let tell = &mut |text| said.push(Line { t_s, tone: Tone::Refused, text });
-                answers.read(number, port.look(&mut sent).get(left..).unwrap_or_default(), tell);
+                answers.read(number, frames, tell);
+                if let Some(reason) = answers::refused_set_point(frames)
+                    && let Some(system) = overheard.refused_set_point(tick, number.into())
+                {
+                    tell(format!("{}: set-point: refused, {reason}", answers.who(number, system)));
+                }
             }
         }
     }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glissade_dialect::MavMessage;
 use glissade_dialect::mavlink_core::{
-    MAVLinkV2MessageRaw, MavHeader, Message as _, MessageData, calculate_crc, consts,
+    MAVLinkV2MessageRaw, MavHeader, MavlinkVersion, Message as _, MessageData, calculate_crc, consts,
 };
 
 const HEADER_V1: usize = consts::STX_SIZE + consts::v1::HEADER_SIZE;
@@ -86,14 +86,31 @@ fn length(bytes: &[u8]) -> Option<usize> {
     }
 }
 
+/// The message of a whole frame, if it is known here.
+pub fn message(frame: &[u8]) -> Option<MavMessage> {
+    let is_v1 = frame.first() == Some(&0xfe);
+    if frame.len() < if is_v1 { HEADER_V1 } else { HEADER_V2 } {
+        return None;
+    }
+    let (header, _, id) = head(frame);
+    let version = if is_v1 { MavlinkVersion::V1 } else { MavlinkVersion::V2 };
+    let payload = frame.get(header..header + usize::from(frame[1]))?;
+    MavMessage::parse(version, id, payload).ok()
+}
+
+/// Length of a whole frame's header, the system that has sent it, and its message's number.
+fn head(frame: &[u8]) -> (usize, u8, u32) {
+    if frame[0] == 0xfe {
+        (HEADER_V1, frame[3], u32::from(frame[5]))
+    } else {
+        (HEADER_V2, frame[5], u32::from_le_bytes([frame[7], frame[8], frame[9], 0]))
+    }
+}
+
 fn judge(datagram: &[u8], range: Range<usize>) -> Frame {
     let bytes = &datagram[range.clone()];
     let payload = usize::from(bytes[1]);
-    let (header, system, id) = if bytes[0] == 0xfe {
-        (HEADER_V1, bytes[3], u32::from(bytes[5]))
-    } else {
-        (HEADER_V2, bytes[5], u32::from_le_bytes([bytes[7], bytes[8], bytes[9], 0]))
-    };
+    let (header, system, id) = head(bytes);
     let end = header + payload;
     let checksum = u16::from_le_bytes([bytes[end], bytes[end + 1]]);
     let known = MavMessage::default_message_from_id(id).is_some();

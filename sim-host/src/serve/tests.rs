@@ -48,6 +48,8 @@ impl Vehicle for Counter<'_> {
         &self.ports
     }
 
+    fn overhear(&mut self, _: usize, _: &[u8]) {}
+
     fn truth(&mut self) -> Option<Vec<u8>> {
         None
     }

@@ -4,8 +4,8 @@
 use firmware::commander::{Event, Refusal};
 use firmware::mavlink::port::{Profile, SENT_CAPACITY};
 use firmware::signals::TICK_S_EXACT;
-use glissade_dialect::COMMAND_LONG_DATA;
-use glissade_dialect::mavlink_core::{MAVLinkV2MessageRaw, MavHeader};
+use glissade_dialect::mavlink_core::MessageData;
+use glissade_dialect::{COMMAND_LONG_DATA, MANUAL_CONTROL_DATA, SET_POSITION_TARGET_LOCAL_NED_DATA};
 use nalgebra::{UnitQuaternion, Vector3};
 use sim_host::console::{Control, Session};
 use sim_host::flight;
@@ -13,6 +13,8 @@ use sim_host::plant::rigid_body::RigidBody;
 use sim_host::plant::{Motion, Plant as _};
 use sim_host::scenario::Scenario;
 use sim_host::sil::{Flight, Lockstep as _};
+
+use crate::common::station;
 
 fn flight(name: &str, seed: u64) -> Flight<RigidBody> {
     let scenario = Scenario::load(name, &[]).expect("built in");
@@ -52,6 +54,7 @@ impl Bench {
 
     /// A tick in which this arrives from a ground station.
     fn hear(&mut self, bytes: &[u8]) {
+        self.session.overhear(0, bytes);
         self.session.ports().first().receive(bytes);
         self.tick();
     }
@@ -228,9 +231,12 @@ fn faults_are_told_when_they_begin_and_when_they_end() {
 /// A `COMMAND_LONG` of ground station 255, by its number and first three parameters.
 fn command_long(command: u16, [param1, param2, param3]: [f32; 3]) -> Vec<u8> {
     let message = COMMAND_LONG_DATA { command, param1, param2, param3, target_system: 1, ..COMMAND_LONG_DATA::DEFAULT };
-    let mut frame = MAVLinkV2MessageRaw::new();
-    frame.serialize_message_data(MavHeader { system_id: 255, component_id: 190, sequence: 0 }, &message);
-    frame.raw_bytes().to_vec()
+    frame(&message)
+}
+
+/// A frame of ground station 255.
+fn frame(message: &impl MessageData) -> Vec<u8> {
+    station::frame(0, message)
 }
 
 #[test]
@@ -321,6 +327,37 @@ fn falls_by(kill: impl Fn(&mut Bench)) {
     // v = √(2 g h); drag takes a little.
     let fallen = (2.0 * 9.81 * height).sqrt();
     assert!((0.8 * fallen..1.01 * fallen).contains(&numbers(&landed)[0]), "{landed}: {fallen}");
+}
+
+#[test]
+fn what_a_vehicle_passes_over_is_told_once_in_a_while() {
+    let mut bench = Bench::new("pad");
+    bench.until("] ready to arm", 5.0);
+    // A mask that gives nothing, and a place beyond all others.
+    let nothing = SET_POSITION_TARGET_LOCAL_NED_DATA {
+        type_mask: 0xfff,
+        coordinate_frame: 1,
+        target_system: 1,
+        ..SET_POSITION_TARGET_LOCAL_NED_DATA::DEFAULT
+    };
+    let far = SET_POSITION_TARGET_LOCAL_NED_DATA { type_mask: 0, x: 1e6, ..nothing.clone() };
+    let sticks = MANUAL_CONTROL_DATA { x: 2000, target: 1, ..MANUAL_CONTROL_DATA::DEFAULT };
+    let other = COMMAND_LONG_DATA { command: 400, target_system: 9, ..COMMAND_LONG_DATA::DEFAULT };
+    for (bytes, told) in [
+        (frame(&nothing), "set-point: refused, mask not supported"),
+        (frame(&far), "set-point: refused, out of range"),
+        (frame(&sticks), "MANUAL_CONTROL: ignored, x must be between -1000 and 1000, not 2000"),
+        (frame(&other), "command 400 (COMPONENT_ARM_DISARM): ignored, it is for system 9; the vehicle is 1"),
+    ] {
+        bench.seen = bench.printed.len();
+        for _ in 0..100 {
+            bench.hear(&bytes);
+            bench.fly(0.049);
+        }
+        let lines: Vec<&str> = bench.printed[bench.seen..].iter().map(|line| text(line)).collect();
+        assert_eq!(lines, [format!("ground station 255: {told}")]);
+        bench.fly(5.0);
+    }
 }
 
 #[test]
