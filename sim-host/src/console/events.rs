@@ -9,6 +9,7 @@ use firmware::schedule::COMMANDER;
 use firmware::signals::{TICK_S_EXACT, Tick};
 use nalgebra::Vector3;
 
+use super::disarming::Disarming;
 use super::line::Tone;
 use crate::failures::Equipment;
 use crate::outcome::Contact;
@@ -59,6 +60,7 @@ impl<T: Copy + PartialEq> Steady<T> {
 #[derive(Clone, Debug)]
 pub struct Watch {
     armed: bool,
+    disarming: Disarming,
     landed: bool,
     mode: Mode,
     ready: Steady<Result<(), Refusal>>,
@@ -84,6 +86,7 @@ impl Watch {
         let commander = flight.autopilot.inner.commander_output();
         Self {
             armed: commander.armed,
+            disarming: Disarming::new(flight),
             landed: commander.landed,
             mode: commander.mode,
             ready: Steady::new(),
@@ -111,8 +114,8 @@ impl Watch {
         }
     }
 
-    /// Reports what has changed since the last look.
-    pub fn look(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
+    /// Reports what has changed since the last look. `disarmed_by` is whose request to disarm was accepted since.
+    pub fn look(&mut self, flight: &Flight<RigidBody>, disarmed_by: Option<&str>, tell: &mut impl FnMut(Tone, String)) {
         self.look_at_faults(flight, tell);
         if let Some(event) = flight.autopilot.inner.commander_output().event {
             match event {
@@ -131,7 +134,7 @@ impl Watch {
             }
         }
         self.look_at_ground(flight, tell);
-        self.look_at_mode(flight, tell);
+        self.look_at_mode(flight, disarmed_by, tell);
         self.look_at_health(flight, tell);
         self.looked_at = flight.next_tick();
     }
@@ -190,7 +193,12 @@ impl Watch {
         format!("touched down at {:.2} m/s{}", contact.descent_m_s, away.unwrap_or_default())
     }
 
-    fn look_at_mode(&mut self, flight: &Flight<RigidBody>, tell: &mut impl FnMut(Tone, String)) {
+    fn look_at_mode(
+        &mut self,
+        flight: &Flight<RigidBody>,
+        disarmed_by: Option<&str>,
+        tell: &mut impl FnMut(Tone, String),
+    ) {
         let commander = flight.autopilot.inner.commander_output();
         let (armed, mode) = (commander.armed, commander.mode);
         match (self.armed, armed) {
@@ -202,12 +210,19 @@ impl Watch {
                     tell(Tone::Plain, format!("mode: {} → {}", Mode::Idle.name(), mode.name()));
                 }
             }
-            (true, false) if commander.landed || stands(flight) => tell(Tone::Good, "disarmed".to_owned()),
-            (true, false) => tell(Tone::Alarm, "disarmed in the air: the rotors are stopped".to_owned()),
+            (true, false) => {
+                let why = self.disarming.why(commander, flight.next_tick(), disarmed_by);
+                if commander.landed || stands(flight) {
+                    tell(Tone::Good, format!("disarmed: {why}"));
+                } else {
+                    tell(Tone::Alarm, format!("disarmed in the air: {why}; the rotors are stopped"));
+                }
+            }
             _ if mode != self.mode => tell(Tone::Plain, format!("mode: {} → {}", self.mode.name(), mode.name())),
             _ => {}
         }
         (self.armed, self.mode) = (armed, mode);
+        self.disarming.look(flight);
     }
 
     /// Reports whether it can be armed; while armed, whether it knows its position.

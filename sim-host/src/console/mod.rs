@@ -8,6 +8,7 @@
 
 mod answers;
 mod commands;
+mod disarming;
 mod editor;
 pub mod events;
 pub mod keyboard;

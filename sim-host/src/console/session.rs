@@ -259,33 +259,41 @@ impl Session {
     /// Reports the commander's decisions, and what has changed.
     fn look(&mut self) {
         let t_s = Some(self.time_s());
+        let mut disarmed_by = None;
         for reply in self.flight.autopilot.inner.commander_output().replies.clone() {
-            self.hear(&reply);
+            let who = self.hear(&reply);
+            if reply.command.request == Request::Disarm && reply.outcome == Outcome::Accepted {
+                disarmed_by = who;
+            }
         }
         let Self { watch, flight, said, .. } = self;
-        watch.look(flight, &mut |tone, text| said.push(Line { t_s, tone, text }));
+        watch.look(flight, disarmed_by.as_deref(), &mut |tone, text| said.push(Line { t_s, tone, text }));
         self.go_on_with_velocity();
         self.send();
     }
 
-    /// Reports the commander's answer to a request, whoever has sent it.
-    fn hear(&mut self, reply: &Reply) {
+    /// Reports the commander's answer to a request. Returns who has sent that, unless nothing is reported.
+    fn hear(&mut self, reply: &Reply) -> Option<String> {
         let request = reply.command.request;
+        let mut is_typed = false;
         let who = match reply.command.origin {
             Origin::Station { link, sender: (system, _), .. } => {
                 self.answers.told(reply);
-                format!("{}: ", self.answers.who(link, system))
+                self.answers.who(link, system)
             }
             Origin::OnBoard => {
                 let mine = self.asked.iter().position(|asked| asked.sent && asked.request == request);
                 match mine.and_then(|place| self.asked.remove(place)) {
-                    Some(Asked { quiet: true, .. }) => return,
-                    Some(_) => String::new(),
-                    None => "scenario: ".to_owned(),
+                    Some(Asked { quiet: true, .. }) => return None,
+                    Some(_) => {
+                        is_typed = true;
+                        "a typed line".to_owned()
+                    }
+                    None => "scenario".to_owned(),
                 }
             }
         };
-        if who.is_empty() && reply.outcome == Outcome::Accepted {
+        if is_typed && reply.outcome == Outcome::Accepted {
             let goes_on = matches!(request, Request::Velocity { .. });
             self.velocity = goes_on.then_some((request, self.flight.next_tick()));
         }
@@ -297,7 +305,9 @@ impl Session {
             Outcome::TemporarilyRejected(refusal) => (Tone::Refused, refused(&request, refusal)),
             Outcome::Denied => (Tone::Refused, "denied: a value is out of its range".to_owned()),
         };
-        self.say(tone, format!("{who}{}: {outcome}", describe(&request)));
+        let whose = if is_typed { String::new() } else { format!("{who}: ") };
+        self.say(tone, format!("{whose}{}: {outcome}", describe(&request)));
+        Some(who)
     }
 
     /// Whether a request to leave the ground, which was accepted, is held until the vehicle is armed.

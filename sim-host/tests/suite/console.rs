@@ -150,7 +150,7 @@ fn a_whole_flight_is_commanded_by_lines_and_told_as_it_was() {
     bench.fly(5.0);
     assert_eq!(text(&bench.enter("land")), "land: accepted");
     let landed = bench.until("] landed: touched down at", 30.0);
-    bench.until("] disarmed", 3.0);
+    bench.until("] disarmed: after landing", 3.0);
 
     let (speed, place) = *bench.touchdowns.first().expect("it has come down");
     let away = (place - home).xy().norm();
@@ -322,7 +322,7 @@ fn falls_by(kill: impl Fn(&mut Bench)) {
     bench.arm_and_climb(5.0);
     let height = bench.motion().position.z;
     kill(&mut bench);
-    bench.until("disarmed in the air", 0.1);
+    bench.until("disarmed in the air: killed; the rotors are stopped", 0.1);
     let landed = bench.until("touched down at", 20.0);
     // v = √(2 g h); drag takes a little.
     let fallen = (2.0 * 9.81 * height).sqrt();
@@ -375,6 +375,36 @@ fn a_restart_and_a_termination_by_a_ground_station_are_told() {
 }
 
 #[test]
+fn why_it_was_disarmed_is_told() {
+    let mut bench = Bench::new("pad");
+    bench.until("] ready to arm", 5.0);
+    let sticks = MANUAL_CONTROL_DATA { z: 0, r: -1000, target: 1, ..MANUAL_CONTROL_DATA::DEFAULT };
+    let disarm: [(&str, &dyn Fn(&mut Bench)); 5] = [
+        ("by a typed line", &|bench| {
+            bench.session.enter("disarm");
+        }),
+        ("by ground station 255", &|bench| bench.hear(&command_long(400, [0.0; 3]))),
+        ("killed", &|bench| bench.hear(&command_long(400, [0.0, 21_196.0, 0.0]))),
+        // The gesture: throttle down, yaw to the left.
+        ("by stick or switch", &|bench| {
+            for _ in 0..60 {
+                bench.hear(&frame(&sticks));
+                bench.fly(0.02);
+            }
+        }),
+        ("not flown since it was armed", &|bench| bench.fly(9.9)),
+    ];
+    for (why, disarm) in disarm {
+        assert_eq!(text(&bench.enter("arm")), "arm: accepted", "before {why}");
+        bench.until("armed: the rotors idle", 0.1);
+        disarm(&mut bench);
+        bench.until(&format!("] disarmed: {why}"), 1.0);
+        // For a second after a kill nothing starts.
+        bench.fly(2.0);
+    }
+}
+
+#[test]
 fn after_a_crash_it_is_told_to_be_neither_flying_nor_in_the_air() {
     let mut bench = Bench::new("field");
     bench.arm_and_climb(5.0);
@@ -387,7 +417,7 @@ fn after_a_crash_it_is_told_to_be_neither_flying_nor_in_the_air() {
     let after = &bench.printed[bench.seen..];
     let wrong = ["in the air", "on the ground without knowing it"];
     assert!(!after.iter().any(|line| wrong.iter().any(|text| line.contains(text))), "{after:#?}");
-    assert!(after.iter().any(|line| line.ends_with("] disarmed")), "{after:#?}");
+    assert!(after.iter().any(|line| line.ends_with("] disarmed: killed")), "{after:#?}");
 }
 
 #[test]

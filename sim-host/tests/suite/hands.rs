@@ -230,6 +230,6 @@ fn the_first_flight_in_the_docs_is_what_is_printed() {
     shown.until(quit_s - 1.0, None);
     let before = shown.printed.len();
     shown.until(quit_s, None);
-    assert!(shown.printed.contains("] disarmed\n") && shown.printed.len() == before, "{}", shown.printed);
+    assert!(shown.printed.contains("] disarmed: ") && shown.printed.len() == before, "{}", shown.printed);
     shown.assert_shown("docs/serve.md", "first flight");
 }
