@@ -29,7 +29,13 @@ impl Commander {
 
     /// Whether the vehicle was ever configured.
     pub(super) fn check_configured(&self) -> Result<(), Refusal> {
-        if self.configured { Ok(()) } else { Err(Refusal::NotConfigured) }
+        if !self.configured {
+            Err(Refusal::NotConfigured)
+        } else if super::THRUST_TO_WEIGHT.contains(&self.thrust_to_weight) {
+            Ok(())
+        } else {
+            Err(Refusal::ThrustToWeight)
+        }
     }
 
     /// Whether the flight was terminated since the vehicle was started.

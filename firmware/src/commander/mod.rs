@@ -147,6 +147,8 @@ pub struct Commander {
     /// Whether the vehicle was ever configured: if not, it does not arm.
     configured: bool,
     weight_n: f32,
+    /// Greatest thrust, as a multiple of the weight.
+    thrust_to_weight: f32,
     /// Where the trajectory is joined from the ground; then the place and heading to join it from the air.
     start: Vector3<f32>,
     entry: Vector3<f32>,
@@ -192,6 +194,9 @@ pub struct Commander {
     battery_answered: Charge,
 }
 
+/// Ratio of the greatest thrust to the weight with which a vehicle is armed. Each number of its airframe may be plausible
+/// where all together are not.
+const THRUST_TO_WEIGHT: core::ops::RangeInclusive<f32> = 1.01..=1_000.0;
 /// A velocity request expires after this time, s, unless it is repeated.
 pub const VELOCITY_TIMEOUT_S: f32 = 1.0;
 /// Time for which nothing starts after a kill, s: more than what waits on another link needs to be read.
@@ -226,6 +231,7 @@ impl Commander {
             settings: config.modes,
             configured: true,
             weight_n: config.airframe.weight_n(),
+            thrust_to_weight: config.airframe.thrust_max_n() / config.airframe.weight_n(),
             start,
             entry,
             entry_yaw,

@@ -205,6 +205,8 @@ pub enum Refusal {
     NotAtStart,
     /// The vehicle was never configured.
     NotConfigured,
+    /// It is configured with rotors that cannot lift it, or with next to no weight.
+    ThrustToWeight,
     /// More commands at once than the commander takes.
     Busy,
     /// What can be set while disarmed only is still being set.

@@ -93,6 +93,7 @@ reasons! {
     Terminated "restart the vehicle first";
     NotAtStart "not at the start point";
     NotConfigured "vehicle not configured";
+    ThrustToWeight "airframe cannot fly";
     Busy "too many commands at once";
     Unsettled "parameters are being set";
     Killed "killed a second ago";
@@ -186,6 +187,7 @@ mod tests {
             Refusal::Terminated,
             Refusal::NotAtStart,
             Refusal::NotConfigured,
+            Refusal::ThrustToWeight,
             Refusal::Busy,
             Refusal::Unsettled,
             Refusal::Killed,

@@ -320,3 +320,17 @@ fn a_kill_switch_that_is_on_is_not_armed_against_not_even_by_force() {
         assert_eq!(bench.ask(Request::Arm { force }, &killed), Outcome::TemporarilyRejected(Refusal::KillSwitch));
     }
 }
+
+#[test]
+fn rotors_that_cannot_lift_the_vehicle_are_not_armed_not_even_by_force() {
+    let airframe = FlightConfig::default().airframe;
+    let light = crate::airframe::Airframe { mass_kg: 1e-6, ..airframe };
+    let weak = crate::airframe::Airframe { omega_max_rad_s: 1.0, ..airframe };
+    for (airframe, flies) in [(airframe, true), (light, false), (weak, false)] {
+        let mut bench = Bench::new(State::Disarmed);
+        bench.commander = Commander::new(&FlightConfig { airframe, ..FlightConfig::default() });
+        let outcome = bench.ask(Request::Arm { force: true }, &standing());
+        let refused = Outcome::TemporarilyRejected(Refusal::ThrustToWeight);
+        assert_eq!(outcome, if flies { Outcome::Accepted } else { refused });
+    }
+}
