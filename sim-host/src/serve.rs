@@ -175,7 +175,9 @@ impl<V: Vehicle> Member<V> {
                 recorder.link(tick, link, event);
             }
         });
-        arrived.iter().for_each(|(link, bytes)| vehicle.overhear(*link, bytes));
+        for (link, bytes) in &arrived {
+            vehicle.overhear(*link, bytes);
+        }
         vehicle.tick();
         links.send(vehicle.ports());
         if let Some(frames) = vehicle.truth() {

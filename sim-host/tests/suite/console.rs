@@ -374,12 +374,15 @@ fn a_restart_and_a_termination_by_a_ground_station_are_told() {
     assert_eq!(told, 2, "{:#?}", bench.printed);
 }
 
+/// Why a vehicle is disarmed, and how that comes about.
+type Cause<'a> = (&'a str, &'a dyn Fn(&mut Bench));
+
 #[test]
 fn why_it_was_disarmed_is_told() {
     let mut bench = Bench::new("pad");
     bench.until("] ready to arm", 5.0);
     let sticks = MANUAL_CONTROL_DATA { z: 0, r: -1000, target: 1, ..MANUAL_CONTROL_DATA::DEFAULT };
-    let disarm: [(&str, &dyn Fn(&mut Bench)); 5] = [
+    let disarm: [Cause; 5] = [
         ("by a typed line", &|bench| {
             bench.session.enter("disarm");
         }),
