@@ -8,6 +8,7 @@ use firmware::failure::Injectable;
 use firmware::inner::InnerOutput;
 use firmware::outer::OuterOutput;
 use firmware::pil::AllSent;
+use firmware::signals::TICK_S_EXACT;
 use serde_json::json;
 
 use super::{PilArgs, fly as report_of, replay};
@@ -28,6 +29,9 @@ pub(super) fn run(args: &PilArgs) -> Result<()> {
     let (scenario, seed) = replay::load(&args.which, args.seed, args.replay.as_deref(), |_| 1)?;
     scenario.require_rigid_body()?;
     scenario.controller.require_smc("`pil`")?;
+    if let Some(path) = &args.replay {
+        require_no_restart(&scenario, seed, path)?;
+    }
     let config = scenario.flight_config();
     let busy =
         BusyWait { outer_us: args.busy_outer_us, commander_us: args.busy_commander_us, ground_us: args.busy_ground_us };
@@ -62,6 +66,32 @@ pub(super) fn run(args: &PilArgs) -> Result<()> {
         return Err(TruthDiffers { desktop: sil.truth_sha256, image: summary.truth_sha256 }.into());
     }
     report(args, &summary, wall_s, &sent)
+}
+
+/// Refuses a recording in which a ground station restarts the vehicle, which the image would have to boot again for. What is
+/// asked and not done, as while it is armed, is no obstacle: so the desktop flies it first.
+fn require_no_restart(scenario: &Scenario, seed: u64, recording: &Path) -> Result<()> {
+    let mut flight = flight::lockstep(scenario, seed, flight::rigid_body(scenario, seed))?;
+    for _ in 0..scenario.ticks() {
+        flight.hear_replayed();
+        let sample = flight.sense();
+        flight.ask_pilot();
+        flight.autopilot.tick(Some(&sample));
+        if flight.autopilot.inner.takes_restart() {
+            bail!(
+                "recording `{}`: a ground station restarts the vehicle before {:.1} s (PREFLIGHT_REBOOT_SHUTDOWN), and the \
+                 image flies without a restart: record a flight that has none, or fly this one by `run --replay`",
+                recording.display(),
+                f64::from(flight.next_tick()) * TICK_S_EXACT
+            );
+        }
+        flight.send_replayed();
+        let InnerOutput { motors, saturated, .. } = *flight.autopilot.inner.inner_output();
+        if !flight.actuate(&motors, saturated) {
+            break;
+        }
+    }
+    Ok(())
 }
 
 /// What came of a flight, how long it took, s, and what was sent on the links.

@@ -5,19 +5,21 @@ use std::process::Stdio;
 use std::sync::Arc;
 
 use firmware::commander::Mode;
+use firmware::mavlink::port::Profile;
 use firmware::pil::{AllSent, Sent, take_sent};
 use firmware::signals::Tick;
+use glissade_dialect::MavCmd;
 use sim_host::console::Session;
 use sim_host::flight;
 use sim_host::plant::{Motion, Plant as _};
 use sim_host::recording::{Header, Recorder, Recording};
 use sim_host::scenario::Scenario;
 use sim_host::sil::Lockstep as _;
-use sim_host::sil::replay::{Entry, Input};
+use sim_host::sil::replay::{Entry, Input, OnLink};
 
 use crate::common::folder::Folder;
 use crate::common::load::load;
-use crate::common::station::flight_by_two;
+use crate::common::station::{self, flight_by_two};
 
 pub(crate) const SEED: u64 = 3;
 
@@ -160,6 +162,30 @@ fn serve_records_what_run_flies_again() {
     folder.file("cut.txt", format!("{cut}\n"));
     let (_, said) = folder.prints(&["run", "pad", "--replay", "cut.txt", "--json"]);
     assert!(said.contains("`cut.txt` was cut off"), "{said}");
+}
+
+#[test]
+fn a_recording_with_a_restart_is_flown_again_by_run_and_refused_by_pil() {
+    let folder = Folder::new("restart");
+    let scenario = load("pad", &[]);
+    let restart = |param1| station::command(MavCmd::MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN, [param1, 0.0, 0.0, 0.0]);
+    let on_link = |tick, event| Entry { tick, input: Input::Link { link: 0, event } };
+    let record = |name: &str, param1| {
+        let received = OnLink::Received(station::frame(0, &restart(param1)));
+        let entries = [on_link(0, OnLink::Open(Profile::Normal)), on_link(1_000, received)];
+        let (_, recording) = by_hand(&scenario, &entries, &[], 3_000);
+        folder.file(name, recording);
+    };
+    // Only the first of them is carried out: the second asks for a shutdown.
+    record("restart.txt", 1.0);
+    record("shutdown.txt", 2.0);
+    folder.succeeds(&["run", "pad", "--replay", "restart.txt", "--json"]);
+    let image = ["--image", "gone.elf"];
+    folder.refuses(
+        &["pil", "pad", "--replay", "restart.txt", image[0], image[1]],
+        &["recording `restart.txt`", "before 1.5 s (PREFLIGHT_REBOOT_SHUTDOWN)", "`run --replay`"],
+    );
+    folder.refuses(&["pil", "pad", "--replay", "shutdown.txt", image[0], image[1]], &["gone.elf"]);
 }
 
 #[test]
