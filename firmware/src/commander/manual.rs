@@ -179,7 +179,11 @@ impl Commander {
                     self.state = State::Manual(mode);
                 }
             }
-            (State::Manual(mode), _) => return self.degrade(mode, input),
+            (State::Manual(mode), _) => {
+                // Where the sticks are when the next automatic mode begins is where they rest.
+                self.hand.rest = None;
+                return self.degrade(mode, input);
+            }
             _ => {}
         }
         self.take_over(&sticks, effective, input);

@@ -183,7 +183,7 @@ fn on_earth(latitude: i32, longitude: i32) -> Result<Option<(i32, i32)>, Effect>
     }
 }
 
-/// Degrees as 1e-7°. What does not fit is no place on Earth either.
+/// Degrees as 1e-7°. What does not fit is no place on Earth, and not one that is not given.
 fn e7(degrees: f32) -> i32 {
-    (f64::from(degrees) * 1e7) as i32
+    ((f64::from(degrees) * 1e7) as i32).clamp(i32::MIN + 1, i32::MAX - 1)
 }

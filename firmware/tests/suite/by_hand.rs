@@ -196,6 +196,29 @@ fn a_moved_stick_ends_an_automatic_mode_and_a_resting_one_does_not() {
 }
 
 #[test]
+fn a_stick_that_is_held_when_an_automatic_mode_begins_does_not_end_it_whatever_was_flown_before() {
+    for request in [Request::Return, Request::Hold, Request::Land] {
+        // An automatic mode with centred sticks, and then by hand.
+        let mut vehicle = in_mode(ManualMode::Position);
+        vehicle.ask(Request::Hold);
+        vehicle.run(0.5);
+        vehicle.ask(Request::Manual(ManualMode::Position));
+        vehicle.run(0.2);
+        vehicle.hold(Sticks { pitch: 0.6, ..CENTRED });
+        vehicle.run(1.0);
+        vehicle.ask(request);
+        vehicle.run(1.0);
+        assert_ne!(vehicle.told.mode, Mode::Position, "{request:?}");
+        // Let go, and moved anew, it takes over.
+        vehicle.hold(CENTRED);
+        vehicle.run(0.1);
+        vehicle.hold(Sticks { pitch: 0.6, ..CENTRED });
+        vehicle.run(0.1);
+        assert_eq!(vehicle.told.mode, Mode::Position, "{request:?}");
+    }
+}
+
+#[test]
 fn without_sticks_or_with_the_throttle_up_it_is_not_armed_for_a_manual_mode() {
     let mut vehicle = Vehicle::new(&agile());
     vehicle.ask(Request::Manual(ManualMode::Stabilized));

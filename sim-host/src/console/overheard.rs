@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use firmware::mavlink::port::LINKS;
 use firmware::signals::Tick;
-use glissade_dialect::{MANUAL_CONTROL_DATA, MavMessage};
+use glissade_dialect::{MANUAL_CONTROL_DATA, MavMessage, RC_CHANNELS_OVERRIDE_DATA};
 
 use super::commands;
 use crate::link::frames::{self, LONGEST};
@@ -92,6 +92,13 @@ impl Overheard {
             return Some((Kind::ForAnother, format!("{what}: ignored, it is for system {target}; {}", self.here())));
         }
         match message {
+            MavMessage::MANUAL_CONTROL(_) | MavMessage::RC_CHANNELS_OVERRIDE(_) if target == 0 => {
+                Some((Kind::ForAnother, format!("{what}: ignored, it is for every system; {}", self.here())))
+            }
+            MavMessage::RC_CHANNELS_OVERRIDE(channels) => {
+                let (channel, us) = no_pulse(channels)?;
+                Some((Kind::Sticks, format!("{what}: ignored, channel {channel} must be 800 to 2200 us, not {us}")))
+            }
             MavMessage::MANUAL_CONTROL(sticks) => {
                 let (axis, value, low) = out_of_range(sticks)?;
                 Some((Kind::Sticks, format!("{what}: ignored, {axis} must be between {low} and 1000, not {value}")))
@@ -132,6 +139,16 @@ fn addressed(message: &MavMessage) -> Option<(u8, String)> {
         MavMessage::SET_ATTITUDE_TARGET(m) => (m.target_system, "SET_ATTITUDE_TARGET".to_owned()),
         _ => return None,
     })
+}
+
+/// The first of the channels that there have always been with a width that no radio has, and that, µs.
+fn no_pulse(m: &RC_CHANNELS_OVERRIDE_DATA) -> Option<(usize, u16)> {
+    const RELEASED: u16 = 0;
+    const IGNORED: u16 = u16::MAX;
+    let widths =
+        [m.chan1_raw, m.chan2_raw, m.chan3_raw, m.chan4_raw, m.chan5_raw, m.chan6_raw, m.chan7_raw, m.chan8_raw];
+    let is_one = |us: u16| matches!(us, RELEASED | IGNORED | 800..=2200);
+    (1..).zip(widths).find(|(_, us)| !is_one(*us))
 }
 
 /// The first axis that is out of its range, its value, and the least that it may be.
@@ -193,7 +210,14 @@ mod tests {
         let high = MANUAL_CONTROL_DATA { r: 1001, ..sticks.clone() };
         let line = "255: MANUAL_CONTROL: ignored, r must be between -1000 and 1000, not 1001";
         assert_eq!(told(1..=1, &[0], &high), [line]);
-        let missing = MANUAL_CONTROL_DATA { x: -1000, y: NO_AXIS, z: 1000, ..sticks };
+        let missing = MANUAL_CONTROL_DATA { x: -1000, y: NO_AXIS, z: 1000, ..sticks.clone() };
         assert_eq!(told(1..=1, &[0], &missing), [""; 0]);
+        let line = "255: MANUAL_CONTROL: ignored, it is for every system; the vehicle is 1";
+        assert_eq!(told(1..=1, &[0], &MANUAL_CONTROL_DATA { target: 0, ..sticks }), [line]);
+        let channels = RC_CHANNELS_OVERRIDE_DATA { target_system: 1, ..RC_CHANNELS_OVERRIDE_DATA::DEFAULT };
+        let well = RC_CHANNELS_OVERRIDE_DATA { chan1_raw: 1500, chan2_raw: u16::MAX, ..channels.clone() };
+        assert_eq!(told(1..=1, &[0], &well), [""; 0]);
+        let line = "255: RC_CHANNELS_OVERRIDE: ignored, channel 2 must be 800 to 2200 us, not 50";
+        assert_eq!(told(1..=1, &[0], &RC_CHANNELS_OVERRIDE_DATA { chan2_raw: 50, ..channels }), [line]);
     }
 }
