@@ -148,8 +148,8 @@ fn moved(speed: f32, change: f32) -> (f32, f32) {
 /// Below this the reference stands, m/s, m/s² and rad/s.
 const STANDS: f32 = 1e-3;
 /// Greatest time constant of a lag with which a moving reference is taken over, s: with slower lags the course would be far
-/// ahead of it, and much faster.
-const TAKES_OVER_S: f32 = 0.3;
+/// ahead of it, and much faster. An acceleration that would need more, far beyond what the jerk suits, exceeds the jerk limit.
+const TAKES_OVER_S: f32 = 0.7;
 
 /// Greatest time constant of a lag, s: the reference is three of them late. An acceleration that would need more, far beyond
 /// what the jerk suits, exceeds the jerk limit.
@@ -161,11 +161,13 @@ fn time_constant_s(limits: &ModeSettings) -> f32 {
     math::min(KERNEL * fastest / limits.jerk_m_s3, SLOWEST_S)
 }
 
-/// The same for going on from an acceleration that may be beyond the limit, m/s²: the course's may be against it.
+/// The same for going on from an acceleration that may be beyond the limit, m/s²: the course's may be against it, and later
+/// against its own.
 fn takes_over_s(limits: &ModeSettings, acceleration: &Vector3<f32>) -> f32 {
     let across = math::sqrt(acceleration.xy().norm_squared()) + limits.acceleration_m_s2;
     let along = math::abs(acceleration.z) + limits.vertical_acceleration_m_s2;
-    math::min(0.5 * KERNEL * math::max(across, along) / limits.jerk_m_s3, TAKES_OVER_S)
+    let needed_s = 0.5 * KERNEL * math::max(across, along) / limits.jerk_m_s3;
+    math::min(math::max(needed_s, time_constant_s(limits)), TAKES_OVER_S)
 }
 
 /// Delay of the reference behind the course, s.

@@ -1,6 +1,6 @@
 //! Flights by streamed set-points.
 
-use firmware::commander::{ManualMode, Mode, Request};
+use firmware::commander::{Goal, ManualMode, Mode, Request};
 use firmware::config::FlightConfig;
 use firmware::guidance::stream::Motion;
 use firmware::latest::{AttitudeSetPoint, SetPoint, Stamped, Sticks};
@@ -305,9 +305,10 @@ impl Bends {
     }
 
     /// Checks the jerk limit of the settings.
-    fn check(&self, name: &str) {
+    fn check(&self, limit_m_s3: f32, name: &str) {
         let Self { level_m_s3, vertical_m_s3, jump_m, .. } = self;
-        assert!(*level_m_s3 < 10.2 && *vertical_m_s3 < 10.2, "{name}: {level_m_s3} and {vertical_m_s3} m/s³");
+        let most = 1.03 * limit_m_s3;
+        assert!(*level_m_s3 < most && *vertical_m_s3 < most, "{name}: {level_m_s3} and {vertical_m_s3} m/s³");
         assert!(*jump_m < 1e-5, "{name}: {jump_m} m");
     }
 }
@@ -329,8 +330,43 @@ fn a_stream_on_a_circle_is_left_and_taken_up_within_the_jerk_limit() {
                 vehicle.ask(request);
                 stream_while(&mut vehicle, 3.0, |t| circle(begun + after + t), |_, vehicle| bends.look(vehicle));
                 assert_eq!(vehicle.told.mode, mode);
-                bends.check(&format!("{mode:?} at {begun} s"));
+                bends.check(10.0, &format!("{mode:?} at {begun} s"));
             }
+        }
+    }
+}
+
+#[test]
+fn ways_that_follow_a_stream_keep_the_jerk_limit_that_is_set_also_when_they_turn_back() {
+    for limit_m_s3 in [4.0, 10.0, 20.0] {
+        let mut config = agile();
+        config.modes.jerk_m_s3 = limit_m_s3;
+        for speed in [0.3, 0.8, 2.0, 4.0] {
+            for back in [false, true] {
+                let mut vehicle = offboard(&config);
+                stream(&mut vehicle, 3.0, |_| velocity([speed, 0.0, -0.2 * speed]));
+                let place = vehicle.body.nav.position;
+                let mut bends = Bends::default();
+                let aside = |metres: f32| Request::GoTo(Goal::at([place.x + metres, 0.0, place.z + 1.0], 0.0));
+                vehicle.ask(aside(if back { -6.0 } else { 3.0 }));
+                stream_while(&mut vehicle, 1.5, |_| velocity([speed, 0.0, 0.0]), |_, vehicle| bends.look(vehicle));
+                vehicle.ask(aside(if back { 6.0 } else { -3.0 }));
+                stream_while(&mut vehicle, 4.0, |_| velocity([speed, 0.0, 0.0]), |_, vehicle| bends.look(vehicle));
+                bends.check(limit_m_s3, &format!("{limit_m_s3} m/s³, {speed} m/s, {back}"));
+            }
+        }
+        // And from a circle whose acceleration is twice what the vehicle flies by itself.
+        for phase in 0..4 {
+            let mut vehicle = offboard(&config);
+            let circle = |t: f32| {
+                let (sin, cos) = (0.8 * t).sin_cos();
+                position([10.0 * sin, 10.0 - 10.0 * cos, 4.0], 0.0)
+            };
+            stream(&mut vehicle, 14.0 + phase as f32, circle);
+            let mut bends = Bends::default();
+            vehicle.ask(Request::Hold);
+            stream_while(&mut vehicle, 6.0, circle, |_, vehicle| bends.look(vehicle));
+            bends.check(limit_m_s3, &format!("{limit_m_s3} m/s³ from a circle, {phase}"));
         }
     }
 }

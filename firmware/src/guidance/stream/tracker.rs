@@ -214,11 +214,11 @@ impl<const N: usize> Tracker<N> {
         let (wanted, passed_on) = self.slow_down(free, target.jerk);
         let correction = (wanted - acceleration) * ACCELERATION_RAD_S;
         let Limits { jerk, sharpest, .. } = self.limits;
-        if !target.settled {
-            return shorten(passed_on + correction, jerk);
-        }
         // A target that turns at its limits would carry the reference beyond the speed while that turns more slowly.
         let most = if wanted == free { jerk } else { sharpest };
+        if !target.settled {
+            return shorten(passed_on + correction, most);
+        }
         passed_on + shorten(correction, most + against(&passed_on, &correction))
     }
 
