@@ -56,13 +56,11 @@ pub struct Switches {
     pub mode: Option<u8>,
     /// Whether the arming switch is on.
     pub arm: Option<bool>,
-    /// Whether the kill switch is on.
-    pub kill: bool,
 }
 
 impl Switches {
     /// None.
-    pub const NONE: Self = Self { mode: None, arm: None, kill: false };
+    pub const NONE: Self = Self { mode: None, arm: None };
 }
 
 /// Positions of a mode switch.
@@ -100,6 +98,8 @@ pub struct Latest {
     pub sticks: Option<Stamped<Sticks>>,
     /// The set-point of who streams them; `None` if there was none.
     pub setpoint: Option<Stamped<SetPoint>>,
+    /// Whether a radio's kill switch is on, whether its sticks count or not.
+    pub kill_switch: bool,
     /// When a ground station was last heard, on whatever link; `None` if none ever was.
     pub station: Option<Tick>,
 }
@@ -150,6 +150,7 @@ mod tests {
         let read = Latest {
             sticks: Some(Stamped { value: Sticks::CENTRED, at: 7 }),
             setpoint: Some(Stamped { value: SetPoint::Motion { motion: Motion::default(), sent_ms: None }, at: 7 }),
+            kill_switch: false,
             station: Some(7),
         };
         let mut latest = read;

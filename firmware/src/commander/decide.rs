@@ -1,5 +1,6 @@
 //! Decisions on requests: refused with a reason, or the new intent and the state that it leads to.
 
+use super::manual::check_kill_switch;
 use super::ticks;
 use super::{
     Commander, CommanderInput, Course, Goal, Intent, Outcome, Override, Refusal, Request, SpeedKind, State,
@@ -51,7 +52,7 @@ impl Commander {
         // Not even forced: nobody can know what it would do, or somebody does not want it.
         self.check_configured()?;
         self.check_terminated()?;
-        self.check_kill_switch(effective.wrapping_sub(COMMANDER.offset), input)?;
+        check_kill_switch(input)?;
         let intent = self.intent;
         let launch = if intent.leaves_ground() { self.check_take_off(&intent, input) } else { Ok(()) };
         if !force {
@@ -88,6 +89,15 @@ impl Commander {
         match self.state {
             State::Disarmed => self.intend_disarmed(intent, effective, input),
             State::Idle { .. } => self.intend_idle(intent, effective, input),
+            // Its rotors turn, and it stands.
+            standing @ (State::Manual(_) | State::Offboard) if !self.ground.is_airborne() => {
+                self.state = State::Idle { disarm_at: self.unused_until(effective) };
+                let done = self.intend_idle(intent, effective, input);
+                if done.is_err() {
+                    self.state = standing;
+                }
+                done
+            }
             _ => self.intend_flying(intent, effective, input),
         }
     }
@@ -139,6 +149,11 @@ impl Commander {
         let is_simpler = matches!(intent, Intent::Manual(mode) if self.state != State::Manual(mode));
         if self.pursued() == Some(intent) && !is_simpler && !matches!(intent, Intent::Velocity { .. }) {
             // It does so already: a repetition changes nothing, and what a failure has begun is now the pilot's.
+            if let (State::GoTo(course), Intent::GoTo(Goal { speed_m_s: Some(speed_m_s), .. })) =
+                (&mut self.state, intent)
+            {
+                course.speed_m_s = Some(speed_m_s);
+            }
             self.keep(intent, None);
             self.overridden = None;
             return Ok(());

@@ -247,15 +247,9 @@ impl Commander {
         }
     }
 
-    /// Whether no kill switch is on.
-    pub(super) fn check_kill_switch(&self, now: Tick, input: &CommanderInput) -> Result<(), Refusal> {
-        let killed = self.hand.sticks(now, input).is_some_and(|sticks| sticks.switches.kill);
-        if killed { Err(Refusal::KillSwitch) } else { Ok(()) }
-    }
-
     /// Whether sticks and set-points let the vehicle be armed: a mode that needs them has them, and sticks would not lift it.
     pub(super) fn check_sticks(&self, now: Tick, input: &CommanderInput) -> Result<(), Refusal> {
-        self.check_kill_switch(now, input)?;
+        check_kill_switch(input)?;
         let sticks = self.hand.sticks(now, input);
         let mode = match self.intent {
             Intent::Manual(mode) => mode,
@@ -267,16 +261,27 @@ impl Commander {
         if is_down { Ok(()) } else { Err(Refusal::ThrottleUp) }
     }
 
+    /// Whether there are sticks.
+    pub(super) fn has_sticks(&self, now: Tick, input: &CommanderInput) -> bool {
+        self.hand.sticks(now, input).is_some()
+    }
+
     /// What is known of the motion if the sticks may be bringing the vehicle to the ground.
     pub(super) fn descends_by_hand(&self, mode: ManualMode, now: Tick, input: &CommanderInput) -> Option<Known> {
         let sticks = self.hand.sticks(now, input)?;
         let below = match (mode.has_direct_thrust(), self.ground.is_airborne()) {
             (true, true) => LANDS_BELOW,
             (true, false) => DOWN,
-            (false, _) => BELOW_CENTRE,
+            (false, true) => BELOW_CENTRE,
+            (false, false) => LIFTS_FROM_CENTRE,
         };
         (sticks.throttle < below).then_some(self.navigation.known())
     }
+}
+
+/// Whether no kill switch is on.
+pub(super) fn check_kill_switch(input: &CommanderInput) -> Result<(), Refusal> {
+    if input.latest.kill_switch { Err(Refusal::KillSwitch) } else { Ok(()) }
 }
 
 /// Whether the throttle stick lifts a vehicle that stands.

@@ -465,7 +465,7 @@ impl Commander {
         self.ground.is_airborne() && math::abs(nav.position.z - to_m) < within_m
     }
 
-    /// What has come down idles. Before the orders: none of them is for a vehicle that flies any more.
+    /// What has come down, or never left the ground and is not lifted any more, idles. Before the orders: none of them is for a vehicle that flies any more.
     fn rest_if_down(&mut self, effective: Tick, input: &CommanderInput) {
         let (now, height) = (effective.wrapping_sub(COMMANDER.offset), input.nav.position.z);
         let touched = core::mem::take(&mut self.ground.touched);
@@ -477,8 +477,12 @@ impl Commander {
                 self.forget_intent();
                 self.land(effective, height)
             }
-            State::Offboard if self.descends_by_setpoint(now, input).is_some() => self.land(effective, height),
-            State::Manual(mode) if self.descends_by_hand(mode, now, input).is_some() => self.land(effective, height),
+            State::Offboard if !self.lifts_by_setpoint(now, input) => self.land(effective, height),
+            State::Manual(mode)
+                if !self.has_sticks(now, input) || self.descends_by_hand(mode, now, input).is_some() =>
+            {
+                self.land(effective, height)
+            }
             _ if touched => self.land(effective, height),
             state => state,
         };

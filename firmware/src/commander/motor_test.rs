@@ -2,9 +2,9 @@
 
 use core::ops::RangeInclusive;
 
+use super::manual::check_kill_switch;
 use super::{Commander, CommanderInput, Refusal, State, has_come, ticks};
 use crate::airframe::ROTORS;
-use crate::schedule::COMMANDER;
 use crate::signals::Tick;
 
 /// Accepted speeds, as a fraction of the greatest: with the last the rotor has a tenth of its thrust.
@@ -43,7 +43,7 @@ impl Commander {
             return Err(Refusal::InAir);
         }
         self.check_terminated()?;
-        self.check_kill_switch(effective.wrapping_sub(COMMANDER.offset), input)?;
+        check_kill_switch(input)?;
         self.motor_test = Some((test, effective.wrapping_add(ticks(seconds))));
         Ok(())
     }

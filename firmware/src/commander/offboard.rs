@@ -94,6 +94,11 @@ impl Commander {
         }
     }
 
+    /// Whether the set-point lifts a vehicle that stands where it has stood last.
+    pub(super) fn lifts_by_setpoint(&self, now: Tick, input: &CommanderInput) -> bool {
+        self.setpoint(now, input).is_some_and(|setpoint| asks_up(setpoint, self.ground_m()))
+    }
+
     fn lose_stream(&mut self, effective: Tick, input: &CommanderInput) -> Event {
         let now = effective.wrapping_sub(COMMANDER.offset);
         let action = match self.stream.lost {

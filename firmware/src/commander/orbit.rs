@@ -1,7 +1,7 @@
 //! Flying circles.
 
 use super::request::within;
-use super::{Commander, FARTHEST_M, FASTEST_M_S};
+use super::{Commander, FARTHEST_M, FASTEST_M_S, State};
 use crate::math;
 use nalgebra::Vector3;
 
@@ -12,7 +12,7 @@ const RADII_M: core::ops::RangeInclusive<f32> = 1.0..=1000.0;
 /// Part of the horizontal acceleration that a circle may need; the rest corrects.
 const ACCELERATION_PART: f32 = 0.8;
 
-/// A circle to fly, as it is asked for. What is not given is chosen: the place and the height where the vehicle is.
+/// A circle to fly, as it is asked for. What is not given is as on the circle that is flown, or chosen: the place and the height where the vehicle is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrbitGoal {
     /// x and y of the centre, m.
@@ -83,15 +83,20 @@ impl OrbitGoal {
 impl Commander {
     /// The circle that a goal asks for, of a vehicle at a place: no faster than it can turn.
     pub(super) fn orbit(&self, goal: &OrbitGoal, here: &Vector3<f32>) -> Orbit {
-        let [x, y] = goal.center_m.unwrap_or([here.x, here.y]);
-        let radius_m = goal.radius_m.unwrap_or(RADIUS_M);
+        let before = if let State::Orbit(orbit) = self.state { Some(orbit) } else { None };
+        let center = before.map_or(*here, |orbit| orbit.center);
+        let [x, y] = goal.center_m.unwrap_or([center.x, center.y]);
+        let radius_m = goal.radius_m.or(before.map(|orbit| orbit.radius_m)).unwrap_or(RADIUS_M);
         let settings = &self.settings;
         let turns = math::sqrt(ACCELERATION_PART * settings.acceleration_m_s2 * radius_m);
         let most = math::min(settings.fastest_m_s, turns);
         Orbit {
-            center: Vector3::new(x, y, goal.height_m.unwrap_or(here.z)),
+            center: Vector3::new(x, y, goal.height_m.unwrap_or(center.z)),
             radius_m,
-            speed_m_s: math::limit(goal.speed_m_s.unwrap_or(settings.cruise_m_s), most),
+            speed_m_s: math::limit(
+                goal.speed_m_s.or(before.map(|orbit| orbit.speed_m_s)).unwrap_or(settings.cruise_m_s),
+                most,
+            ),
             heading: goal.heading,
         }
     }

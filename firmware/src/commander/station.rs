@@ -77,17 +77,20 @@ impl Commander {
         None
     }
 
-    /// Whether it goes on with what nobody may be watching. A vehicle that comes down or returns does not.
+    /// Whether it goes on with what nobody may be watching. A vehicle that comes down or returns does not, nor does one that
+    /// set-points have not lifted.
     fn flies_by_itself(&self) -> bool {
-        !matches!(
-            self.state,
-            State::Disarmed
-                | State::Idle { .. }
-                | State::Manual(_)
-                | State::Return { .. }
-                | State::Land
-                | State::Descent
-                | State::MotorOut
-        )
+        let stands = self.state == State::Offboard && !self.ground.is_airborne();
+        !stands
+            && !matches!(
+                self.state,
+                State::Disarmed
+                    | State::Idle { .. }
+                    | State::Manual(_)
+                    | State::Return { .. }
+                    | State::Land
+                    | State::Descent
+                    | State::MotorOut
+            )
     }
 }

@@ -6,6 +6,7 @@ use crate::config::ModeSettings;
 use crate::math;
 use crate::schedule::COMMANDER;
 use crate::signals::{NavHealth, TICK_S};
+use nalgebra::Vector3;
 
 /// Number of commander jobs in a time.
 pub(super) const fn jobs(seconds: f32) -> u16 {
@@ -157,10 +158,23 @@ const RESTING_THRUST: f32 = 0.95;
 const RESTING_M_S: f32 = 0.1;
 const RESTING_S: f32 = 2.0;
 
+/// Faster upwards than this, m/s, nothing stands: there the thrust that carries the vehicle is learnt, with this gain per job,
+/// in 0.75 s. Downwards the air carries a part. No less than this part of the weight is believed.
+const CLIMBS_M_S: f32 = 0.25;
+const CARRYING_GAIN: f32 = 0.026;
+const CARRYING_LEAST: f32 = 0.4;
+/// Near enough for that, m/s².
+const GRAVITY_M_S2: f32 = 9.81;
+
 /// Detects lift-off and touchdown.
 #[derive(Clone, Debug)]
 pub(super) struct GroundWatch {
     airborne: bool,
+    /// Thrust that carries it in this flight, as a part of the weight: less than 1 if that is less than what is set, or the
+    /// rotors are stronger. Compared with the weight, such a vehicle would seem to stand while it hovers.
+    carrying: f32,
+    /// Of the last job.
+    climb_m_s: f32,
     /// Whether it is high enough to lean.
     clear: bool,
     /// Whether the ground was just found in a mode that does not lead there.
@@ -178,7 +192,20 @@ impl GroundWatch {
     pub(super) fn new(airborne: bool, ground_m: f32) -> Self {
         let none = Persistence::default();
         let (lifting, leaving, standing, resting, at_rest) = (none, none, none, none, none);
-        Self { airborne, clear: airborne, touched: false, ground_m, lifting, leaving, standing, resting, at_rest }
+        let clear = airborne;
+        Self {
+            airborne,
+            carrying: 1.0,
+            climb_m_s: 0.0,
+            clear,
+            touched: false,
+            ground_m,
+            lifting,
+            leaving,
+            standing,
+            resting,
+            at_rest,
+        }
     }
 
     /// With rotors stopped or idling: landed once the vehicle has come to rest.
@@ -206,12 +233,26 @@ impl GroundWatch {
         let has_left = self.leaving.step(thrust > CLEAR_THRUST, jobs(CLEAR_S));
         self.clear |= is_high || has_left || (self.airborne && !input.health.height);
         let vertical = math::abs(input.nav.velocity.z);
-        let standing = (descend || may_stand) && thrust < STANDING_THRUST && vertical < STANDING_M_S;
-        let resting = descend && thrust < RESTING_THRUST && vertical < RESTING_M_S;
+        let climb = input.nav.velocity.z;
+        let before = core::mem::replace(&mut self.climb_m_s, climb);
+        if self.airborne && climb > CLIMBS_M_S && input.health.climb {
+            self.learn(thrust * (input.nav.attitude * Vector3::z()).z, climb - before);
+        }
+        let part = thrust / self.carrying;
+        let standing = (descend || may_stand) && part < STANDING_THRUST && vertical < STANDING_M_S;
+        let resting = descend && part < RESTING_THRUST && vertical < RESTING_M_S;
         let stands = self.standing.step(standing, jobs(STANDING_S)) | self.resting.step(resting, jobs(RESTING_S));
         if stands || (descends.is_some() && !self.airborne) {
             *self = Self::new(false, input.nav.position.z);
         }
+    }
+
+    /// Learns what carries the vehicle from a thrust upwards, as a part of the weight, with which it has become so much faster
+    /// in a job, m/s.
+    fn learn(&mut self, upwards: f32, faster: f32) {
+        let in_g = 1.0 + faster / (COMMANDER.period as f32 * TICK_S * GRAVITY_M_S2);
+        let carrying = upwards / math::max(in_g, 0.2);
+        self.carrying = math::clamp(self.carrying + CARRYING_GAIN * (carrying - self.carrying), CARRYING_LEAST, 1.0);
     }
 
     pub(super) fn is_airborne(&self) -> bool {

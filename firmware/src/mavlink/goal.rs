@@ -68,8 +68,11 @@ pub(super) fn orbit(message: &CommandMessage, view: &View) -> Result<Request, Ef
     let heading = match behaviour {
         0.0 => OrbitHeading::Center,
         3.0 => OrbitHeading::Along,
-        1.0 | 2.0 | 4.0 | 5.0 => OrbitHeading::Kept,
-        nan if nan.is_nan() => OrbitHeading::Center,
+        1.0 | 2.0 | 4.0 => OrbitHeading::Kept,
+        // As it is on the circle that is flown.
+        unchanged if unchanged == 5.0 || unchanged.is_nan() => {
+            view.input.control.orbit.map_or(OrbitHeading::Center, |orbit| orbit.heading)
+        }
         _ => return Err(DENIED),
     };
     // MAVSDK sends a height above the sea in a frame of heights above home. One that would be below the ground is above home.
@@ -84,7 +87,12 @@ pub(super) fn orbit(message: &CommandMessage, view: &View) -> Result<Request, Ef
     let radius = given(radius);
     // Clockwise is negative here. Of a speed that is not given the direction is that of the radius.
     let clockwise = radius.is_none_or(|radius| radius > 0.0) != given(speed).is_some_and(|speed| speed < 0.0);
-    let speed = given(speed).map_or(view.cruise_m_s, math::abs);
+    let usual = view.input.control.orbit.map_or(view.cruise_m_s, |orbit| math::abs(orbit.speed_m_s));
+    let clockwise = match view.input.control.orbit {
+        Some(orbit) if radius.is_none() && speed.is_nan() => orbit.speed_m_s < 0.0,
+        _ => clockwise,
+    };
+    let speed = given(speed).map_or(usual, math::abs);
     Ok(Request::Orbit(OrbitGoal {
         center_m,
         height_m,

@@ -109,7 +109,6 @@ impl RadioMap {
             switches: Switches {
                 mode: part(&self.mode).map(|part| math::min(part * f32::from(MODE_POSITIONS), 5.0) as u8),
                 arm: is_on(&self.arm),
-                kill: self.kill_switch(channels) == Some(true),
             },
         })
     }

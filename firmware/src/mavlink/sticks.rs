@@ -131,9 +131,6 @@ pub(super) struct Hands {
     channels: Option<Stamped<Channels>>,
     /// Since when each of them has been as it is.
     set_at: [Tick; CHANNELS],
-    /// Whether a radio's kill switch is on, and when one last said something of it.
-    is_killing: bool,
-    kill_told_at: Tick,
 }
 
 /// How sticks are taken, by the settings.
@@ -176,27 +173,11 @@ impl Hands {
         taking: &Taking,
         latest: &mut Latest,
     ) -> bool {
-        let is_turned_on = self.turn_kill_switch(message, now, taking);
-        if let Some(mut sticks) = self.counted(message, from, now, taking, latest) {
-            sticks.switches.kill = self.is_killing && !is_older(self.kill_told_at, now, taking.loss_s);
+        let is_turned_on = turn_kill_switch(message, taking, &mut latest.kill_switch);
+        if let Some(sticks) = self.counted(message, from, now, taking, latest) {
             latest.sticks = Some(Stamped { value: sticks, at: now });
         }
         is_turned_on
-    }
-
-    /// Takes what a radio's message says of its kill switch, and returns whether that was turned on.
-    fn turn_kill_switch(&mut self, message: &StickMessage, now: Tick, taking: &Taking) -> bool {
-        let (StickMessage::Channels(said), Some(index)) = (message, taking.radio.kill_channel()) else { return false };
-        let is_on = match said.get(index) {
-            _ if !taking.takes(Kind::Radio) => None,
-            Some(Channel::Released) => Some(false),
-            _ => taking.radio.kill_switch(&said.map(Channel::pulse)),
-        };
-        let Some(is_on) = is_on else { return false };
-        // One that is on when a lost radio comes back has been turned on.
-        let was_on = self.is_killing && !is_older(self.kill_told_at, now, taking.loss_s);
-        (self.is_killing, self.kill_told_at) = (is_on, now);
-        is_on && !was_on
     }
 
     /// The sticks of a message if they count. While a source has said something within half of `loss_s`, no other one does:
@@ -254,9 +235,6 @@ impl Hands {
     pub(super) fn forget_old(&mut self, now: Tick) {
         let is_old = |at: Tick| now.wrapping_sub(at) > Tick::MAX / 2;
         self.channels = self.channels.filter(|channels| !is_old(channels.at));
-        if is_old(self.kill_told_at) {
-            self.kill_told_at = now.wrapping_sub(Tick::MAX / 2);
-        }
     }
 
     /// The channels after a message. One that it ignores stays as it is, unless it was lost.
@@ -272,6 +250,20 @@ impl Hands {
         }
         channels
     }
+}
+
+/// Takes what a radio's message says of its kill switch, and returns whether that was turned on. It stays as it was said to
+/// be last: who loses the radio with the switch on has not turned it off.
+fn turn_kill_switch(message: &StickMessage, taking: &Taking, kill_switch: &mut bool) -> bool {
+    let (StickMessage::Channels(said), Some(index)) = (message, taking.radio.kill_channel()) else { return false };
+    let is_on = match said.get(index) {
+        _ if !taking.takes(Kind::Radio) => None,
+        Some(Channel::Released) => Some(false),
+        _ => taking.radio.kill_switch(&said.map(Channel::pulse)),
+    };
+    let Some(is_on) = is_on else { return false };
+    let was_on = core::mem::replace(kill_switch, is_on);
+    is_on && !was_on
 }
 
 /// The channels, while there are any that are not lost.

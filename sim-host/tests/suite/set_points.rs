@@ -54,3 +54,36 @@ fn a_circle_at_eight_metres_a_second_is_flown_within_5_cm() {
     // What the local frame's origin is off by is in it too.
     assert!(count > 10_000.0 && rms < 0.05, "{rms:.3} m");
 }
+
+#[test]
+fn a_light_vehicle_that_sinks_slowly_does_not_land_in_the_air() {
+    for (key, factor) in [
+        ("truth.mass_factor", "0.85"),
+        ("truth.mass_factor", "0.75"),
+        ("truth.rotor_effectiveness", "[1.15, 1.15, 1.15, 1.15]"),
+    ] {
+        let mut bytes = Bytes::new(2);
+        bytes.wait(4.0);
+        bytes.arm();
+        bytes.wait(0.3);
+        bytes.take_off(HEIGHT_M as f32);
+        bytes.wait(12.0);
+        // Down at 3 cm/s, and nothing else.
+        let sinks = |_: f64| {
+            let type_mask = 0b1101_1100_0111;
+            SET_POSITION_TARGET_LOCAL_NED_DATA { vz: 0.03, type_mask, ..Default::default() }
+        };
+        bytes.stream(0.5, sinks);
+        bytes.mode(OFFBOARD, 0.0);
+        bytes.stream(15.0, sinks);
+        let end = bytes.now;
+        let mut scenario = load("field", &["sensors=\"mocap\"", &format!("{key}={factor}")]);
+        scenario.replay = Some(bytes.into_entries().into());
+        let mut flight = flight::lockstep(&scenario, 1, flight::rigid_body(&scenario, 1)).expect("flies");
+        while flight.next_tick() < end {
+            assert!(flight.step(&mut ()));
+        }
+        let height = flight.plant().motion().position.z;
+        assert!((height - (HEIGHT_M - 0.45)).abs() < 0.3, "{key} {factor}: {height} m");
+    }
+}

@@ -1,7 +1,7 @@
 //! Motor test, termination, and how long an armed vehicle waits on the ground.
 
 use super::*;
-use crate::latest::{Stamped, Sticks, Switches};
+use crate::latest::{AttitudeSetPoint, SetPoint, Stamped, Sticks, Switches};
 
 fn test(rotor: u8, part: f32, seconds: f32) -> Request {
     Request::TestMotor { test: MotorTest { rotor, part }, seconds }
@@ -148,8 +148,10 @@ fn nothing_lifts_the_vehicle_before_the_rotors_have_spun_up() {
 
 /// Standing with the throttle down, and with switches.
 fn switched(arm: bool, kill: bool) -> CommanderInput {
-    let switches = Switches { arm: Some(arm), kill, mode: None };
-    with_sticks(Sticks { throttle: 0.0, switches, ..Sticks::CENTRED })
+    let switches = Switches { arm: Some(arm), mode: None };
+    let mut input = with_sticks(Sticks { throttle: 0.0, switches, ..Sticks::CENTRED });
+    input.latest.kill_switch = kill;
+    input
 }
 
 #[test]
@@ -196,7 +198,7 @@ fn with_sticks(sticks: Sticks) -> CommanderInput {
 
 #[test]
 fn no_motor_is_tested_with_a_kill_switch_on_or_after_a_termination() {
-    let killed = with_sticks(Sticks { switches: Switches { kill: true, ..Switches::NONE }, ..Sticks::CENTRED });
+    let killed = CommanderInput { latest: Latest { kill_switch: true, ..Latest::default() }, ..standing() };
     let ended = CommanderInput { terminated: true, ..standing() };
     for (input, refusal) in [(killed, Refusal::KillSwitch), (ended, Refusal::Terminated)] {
         let mut bench = Bench::new(State::Disarmed);
@@ -314,7 +316,7 @@ fn standing_with_thrust() -> CommanderInput {
 
 #[test]
 fn a_kill_switch_that_is_on_is_not_armed_against_not_even_by_force() {
-    let killed = with_sticks(Sticks { switches: Switches { kill: true, ..Switches::NONE }, ..Sticks::CENTRED });
+    let killed = CommanderInput { latest: Latest { kill_switch: true, ..Latest::default() }, ..standing() };
     for force in [false, true] {
         let mut bench = Bench::new(State::Disarmed);
         assert_eq!(bench.ask(Request::Arm { force }, &killed), Outcome::TemporarilyRejected(Refusal::KillSwitch));
@@ -332,5 +334,78 @@ fn rotors_that_cannot_lift_the_vehicle_are_not_armed_not_even_by_force() {
         let outcome = bench.ask(Request::Arm { force: true }, &standing());
         let refused = Outcome::TemporarilyRejected(Refusal::ThrustToWeight);
         assert_eq!(outcome, if flies { Outcome::Accepted } else { refused });
+    }
+}
+
+/// Attitude set-points with a thrust, standing.
+fn streaming(thrust: f32) -> CommanderInput {
+    let value = SetPoint::Attitude(AttitudeSetPoint { attitude: None, rates: Vector3::zeros(), thrust });
+    let mut input = standing();
+    input.latest.setpoint = Some(Stamped { value, at: 0 });
+    input
+}
+
+#[test]
+fn what_stands_with_its_rotors_above_idle_stays_on_the_ground_whatever_is_lost_or_asked_for() {
+    let by_hand = |mode| (Request::Manual(mode), with_throttle(0.0), with_throttle(0.3));
+    for (request, before, stands) in [
+        by_hand(ManualMode::Stabilized),
+        by_hand(ManualMode::Acro),
+        (Request::Offboard, streaming(0.0), streaming(0.3)),
+    ] {
+        let begun = || {
+            let mut bench = Bench::new(State::Disarmed);
+            bench.ask(request, &before);
+            bench.ask(ARM, &before);
+            bench.run(1.0, &stands);
+            assert_eq!(bench.commander.state.mode(), bench.commander.intent.mode(), "{request:?}");
+            bench
+        };
+        // Sticks or set-points are lost.
+        let mut bench = begun();
+        assert_eq!(bench.run(0.5, &standing()), []);
+        assert_eq!(bench.step(&standing()).mode, Mode::Idle, "{request:?}");
+        // It is told to fly, or to stay.
+        for (asked, outcome) in [
+            (Request::Hold, Outcome::Accepted),
+            (Request::Return, Outcome::TemporarilyRejected(Refusal::OnGround)),
+            (GO_TO, Outcome::TemporarilyRejected(Refusal::OnGround)),
+        ] {
+            let mut bench = begun();
+            assert_eq!(bench.ask(asked, &stands), outcome, "{request:?}");
+            let after = bench.step(&stands).mode;
+            assert!(if asked == Request::Hold { after == Mode::Idle } else { after != Mode::Return }, "{after:?}");
+        }
+        assert_eq!(begun().ask(TAKE_OFF, &stands), Outcome::Accepted);
+    }
+}
+
+#[test]
+fn a_lifted_stick_that_is_let_go_before_it_lifts_leaves_the_rotors_idling() {
+    let mut bench = Bench::new(State::Disarmed);
+    bench.ask(Request::Manual(ManualMode::Position), &with_throttle(0.5));
+    bench.ask(ARM, &with_throttle(0.5));
+    bench.run(0.1, &with_throttle(0.72));
+    assert_eq!(bench.step(&with_throttle(0.72)).mode, Mode::Position);
+    bench.run(0.1, &with_throttle(0.5));
+    assert_eq!(bench.step(&with_throttle(0.5)).mode, Mode::Idle);
+}
+
+#[test]
+fn a_vehicle_that_is_lighter_than_is_set_does_not_land_in_the_air() {
+    for mass in [1.0, 0.85, 0.7, 0.5] {
+        let mut bench = Bench::new(State::Land);
+        let weight = hovering().thrust_n;
+        let moving = |climb: f32, thrust: f32| {
+            let velocity = Vector3::new(0.0, 0.0, climb);
+            CommanderInput { nav: NavState { velocity, ..hovering().nav }, thrust_n: thrust * weight, ..hovering() }
+        };
+        // It has climbed here, and sinks so slowly that the estimate is at rest.
+        bench.run(3.0, &moving(1.0, mass));
+        bench.run(20.0, &moving(-0.05, mass));
+        assert_eq!(bench.step(&moving(-0.05, mass)).mode, Mode::Land, "{mass}");
+        // On the ground a tenth of its weight is taken away.
+        bench.run(2.5, &moving(0.0, 0.85 * mass));
+        assert_eq!(bench.step(&moving(0.0, 0.85 * mass)).mode, Mode::Idle, "{mass}");
     }
 }

@@ -50,7 +50,7 @@ fn a_kill_switch_kills_when_it_is_turned_on_and_not_again_while_it_stays_on() {
     {
         let switched = RC_CHANNELS_OVERRIDE_DATA { chan7_raw, ..CENTRED };
         let output = bench.output_of(&frame(&switched)).0;
-        let is_on = output.latest.sticks.expect("sticks").value.switches.kill;
+        let is_on = output.latest.kill_switch;
         assert_eq!((is_on, output.kill), (chan7_raw > 1500, kills), "{chan7_raw} µs");
     }
 }
