@@ -340,6 +340,7 @@ fn a_hung_commander_is_told_as_a_descent_and_what_is_asked_of_it_is_refused_and_
     vehicle.pilot.mail.commander.finish(late);
     vehicle.run(2.0);
     assert_eq!(vehicle.mode(), Mode::Follow, "the order of then is forgotten");
+    assert_eq!(last_heartbeat(&vehicle.sent).custom_mode.to_le_bytes()[2..], [4, 4], "and what it does is told again");
 }
 
 #[test]

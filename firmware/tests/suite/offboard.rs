@@ -4,6 +4,7 @@ use firmware::commander::{Goal, ManualMode, Mode, Request};
 use firmware::config::FlightConfig;
 use firmware::guidance::stream::Motion;
 use firmware::latest::{AttitudeSetPoint, SetPoint, Stamped, Sticks};
+use firmware::math;
 use firmware::outer::OuterOutput;
 use firmware::signals::TICK_S;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -369,4 +370,42 @@ fn ways_that_follow_a_stream_keep_the_jerk_limit_that_is_set_also_when_they_turn
             bends.check(limit_m_s3, &format!("{limit_m_s3} m/s³ from a circle, {phase}"));
         }
     }
+}
+
+#[test]
+fn places_that_begin_to_move_are_met_within_the_jerk_limit() {
+    let mut vehicle = offboard(&agile());
+    let mut bends = Bends::default();
+    // They stand, and then run round a circle at once.
+    let path = |t: f32| {
+        let (sin, cos) = (0.8 * math::max(t - 3.0, 0.0)).sin_cos();
+        position([10.0 * sin, 10.0 - 10.0 * cos, 4.0], 0.0)
+    };
+    stream_while(&mut vehicle, 4.0, path, |_, vehicle| bends.look(vehicle));
+    bends.check(10.0, "from standing to 8 m/s");
+}
+
+#[test]
+fn a_way_after_a_stream_is_no_slower_than_any_other() {
+    let arrival = |vehicle: &mut Vehicle| {
+        let from = vehicle.body.nav.position;
+        vehicle.ask(Request::GoTo(Goal::at([from.x + 3.0, from.y, from.z], 0.0)));
+        for tick in 0..10_000_u32 {
+            vehicle.tick();
+            if vehicle.body.nav.position.x - from.x > 2.9 {
+                return tick;
+            }
+        }
+        panic!("it does not arrive: {:?}", vehicle.body.nav);
+    };
+    let mut vehicle = offboard(&agile());
+    vehicle.ask(Request::Hold);
+    vehicle.run(3.0);
+    let usual = arrival(&mut vehicle);
+    let mut vehicle = offboard(&agile());
+    stream(&mut vehicle, 14.0, |t| position([10.0 * (0.8 * t).sin(), 10.0 - 10.0 * (0.8 * t).cos(), 4.0], 0.0));
+    vehicle.ask(Request::Hold);
+    vehicle.run(8.0);
+    let after = arrival(&mut vehicle);
+    assert!(after.abs_diff(usual) < 60, "{after} and {usual} ms");
 }

@@ -121,6 +121,7 @@ fn nothing_lifts_the_vehicle_before_the_rotors_have_spun_up() {
     let refused = bench.run(0.2, &CommanderInput { health: NavHealth::NONE, ..standing() });
     assert_eq!(refused, [Event::TakeOffRefused { refusal: Refusal::NotAligned }]);
     assert_eq!(refused[0].text(), "Takeoff refused: no valid attitude estimate");
+    assert_eq!(bench.commander.intent, Intent::Hold, "it does not wait on");
     // What is asked for in its place ends it.
     let mut bench = spinning();
     bench.ask(ARM, &standing());
@@ -408,4 +409,42 @@ fn a_vehicle_that_is_lighter_than_is_set_does_not_land_in_the_air() {
         bench.run(2.5, &moving(0.0, 0.85 * mass));
         assert_eq!(bench.step(&moving(0.0, 0.85 * mass)).mode, Mode::Idle, "{mass}");
     }
+}
+
+#[test]
+fn a_circle_on_the_ground_or_below_is_come_down_to_straight_unless_there_is_no_ground() {
+    let circling = |from_m: f32, height_m: f32| {
+        let mut bench = Bench::new(State::Hold);
+        bench.commander.home = Vector3::zeros();
+        let at = CommanderInput { nav: NavState::at_rest_at(Vector3::new(0.0, 0.0, from_m)), ..hovering() };
+        let goal = OrbitGoal { height_m: Some(height_m), ..ORBIT };
+        assert_eq!(bench.ask(Request::Orbit(goal), &at), Outcome::Accepted);
+        bench.step(&at).directive
+    };
+    for (from_m, height_m) in [(20.0, 0.0), (20.0, 0.2), (20.0, -30.0), (1.0, -1.0), (-10.0, -30.0)] {
+        let Directive::Climb { height_m: to_m, .. } = circling(from_m, height_m) else { panic!("{from_m} {height_m}") };
+        assert_eq!(to_m, height_m);
+    }
+    // In a valley below where it began there is none at that height.
+    for (from_m, height_m) in [(20.0, 1.0), (20.0, 20.0), (-29.0, -30.0)] {
+        assert!(matches!(circling(from_m, height_m), Directive::Orbit(_)), "{from_m} {height_m}");
+    }
+}
+
+#[test]
+fn of_another_circle_what_is_left_open_stays_as_it_is_flown() {
+    let mut bench = Bench::new(State::Hold);
+    let first = OrbitGoal {
+        center_m: Some([60.0, 60.0]),
+        height_m: Some(25.0),
+        radius_m: Some(20.0),
+        speed_m_s: Some(-4.0),
+        heading: OrbitHeading::Along,
+    };
+    bench.ask(Request::Orbit(first), &hovering());
+    let open = OrbitGoal { center_m: None, height_m: None, radius_m: Some(30.0), speed_m_s: None, ..first };
+    bench.ask(Request::Orbit(open), &hovering());
+    let State::Orbit(orbit) = bench.commander.state else { panic!("{:?}", bench.commander.state) };
+    assert_eq!((orbit.center, orbit.radius_m), (Vector3::new(60.0, 60.0, 25.0), 30.0));
+    assert_eq!((orbit.speed_m_s, orbit.heading), (-4.0, OrbitHeading::Along));
 }

@@ -194,3 +194,14 @@ fn speeds_are_set_left_and_reset() {
     }
     assert!(bench.commands.is_empty());
 }
+
+#[test]
+fn degrees_that_are_none_are_no_place_and_not_one_that_is_left_open() {
+    let mut bench = holding();
+    for latitude in [91.0, 300.0, 473_976_843.0, -473_976_843.0, f32::INFINITY] {
+        for command in [REPOSITION, LAND] {
+            let wrong = long(command, [-1.0, 1.0, 0.0, NAN, latitude, 8.0, 450.0]);
+            assert_eq!(bench.result_of(&wrong), Some(MavResult::MAV_RESULT_DENIED), "{command} {latitude}");
+        }
+    }
+}

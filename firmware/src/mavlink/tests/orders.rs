@@ -113,6 +113,13 @@ fn an_orbit_has_a_direction_a_heading_and_a_centre() {
     let [x, y] = told.center_m.expect("a centre");
     assert!(crate::math::abs(x - 1.1118) < 0.01 && crate::math::abs(y + 0.7551) < 0.01);
     assert!(told.height_m.is_some_and(|z| crate::math::abs(z - 10.0) < 0.01));
+    // In a frame of heights above home: above the sea, as MAVSDK means it, unless that is below the ground.
+    for (z, height) in [(451.0, 10.0), (7.0, 7.0), (-3.0, -3.0)] {
+        let Request::Orbit(told) = asked(&mut bench, &frame(&COMMAND_INT_DATA { frame: 6, z, ..there.clone() })) else {
+            panic!("no orbit")
+        };
+        assert!(told.height_m.is_some_and(|told| crate::math::abs(told - height) < 0.01), "{z}: {told:?}");
+    }
     let denied = [orbit(20.0, 3.0, 9.0), long(ORBIT, [20.0, 3.0, 0.0, 2.0, NAN, NAN, NAN])];
     for bytes in denied {
         assert_eq!(bench.result_of(&bytes), Some(MavResult::MAV_RESULT_DENIED));

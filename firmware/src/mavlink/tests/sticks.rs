@@ -249,4 +249,7 @@ fn a_kill_switch_stays_on_when_the_radio_is_lost() {
         assert!(output.latest.kill_switch, "{job}");
     }
     assert_eq!(kills, [0]);
+    // The ground station lets go of the channel.
+    let released = bench.output_of(&frame(&RC_CHANNELS_OVERRIDE_DATA { chan5_raw: 0, ..OVERRIDE })).0;
+    assert!(!released.latest.kill_switch);
 }
