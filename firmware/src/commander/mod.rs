@@ -465,7 +465,8 @@ impl Commander {
         self.ground.is_airborne() && math::abs(nav.position.z - to_m) < within_m
     }
 
-    /// What has come down, or never left the ground and is not lifted any more, idles. Before the orders: none of them is for a vehicle that flies any more.
+    /// What has come down, or never left the ground and is not lifted any more, idles. Before the orders: none of them is for a
+    /// vehicle that flies any more.
     fn rest_if_down(&mut self, effective: Tick, input: &CommanderInput) {
         let (now, height) = (effective.wrapping_sub(COMMANDER.offset), input.nav.position.z);
         let touched = core::mem::take(&mut self.ground.touched);

@@ -12,7 +12,8 @@ const RADII_M: core::ops::RangeInclusive<f32> = 1.0..=1000.0;
 /// Part of the horizontal acceleration that a circle may need; the rest corrects.
 const ACCELERATION_PART: f32 = 0.8;
 
-/// A circle to fly, as it is asked for. What is not given is as on the circle that is flown, or chosen: the place and the height where the vehicle is.
+/// A circle to fly, as it is asked for. What is not given is as on the circle that is flown, or chosen: the place and the
+/// height where the vehicle is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrbitGoal {
     /// x and y of the centre, m.
