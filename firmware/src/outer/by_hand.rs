@@ -16,7 +16,7 @@ use crate::guidance::hands::{ManualMode, Smooth};
 use crate::latest::Sticks;
 use crate::math;
 use crate::schedule::{OUTER, OUTER_AHEAD_S};
-use crate::signals::{AttitudeReference, AttitudeTarget, NavState, TICK_S, Tick};
+use crate::signals::{AttitudeReference, AttitudeTarget, FlatReference, NavState, TICK_S, Tick};
 
 /// Time between two jobs, s.
 const STEP_S: f32 = OUTER.period as f32 * TICK_S;
@@ -269,7 +269,7 @@ impl<P: PositionLaw> Outer<P> {
         self.setpoint.put_horizontally(now.position.x, now.position.y);
         let mut reference = self.advance(&velocity(Vector3::new(0.0, 0.0, climb), 0.0));
         self.leash(&mut reference, &now, climb < 0.0);
-        self.source = Source::ByHand(as_it_moves(&now, &heading));
+        self.source = Source::ByHand(with_height_of(as_it_moves(&now, &heading), &reference));
         now.forget_horizontal();
         forget_horizontal(&mut reference);
         (reference.yaw, reference.yaw_rate, reference.yaw_acceleration) =
@@ -315,4 +315,12 @@ impl<P: PositionLaw> Outer<P> {
             AttitudeReference { valid_at: effective, target, thrust_n: thrust.value, thrust_rate_n_s: thrust.rate };
         OuterOutput { attitude, ..self.output(effective, &now, &hover, &reference, s) }
     }
+}
+
+/// A reference with the vertical motion of another.
+fn with_height_of(mut reference: FlatReference, other: &FlatReference) -> FlatReference {
+    let FlatReference { position, velocity, acceleration, jerk, snap, .. } = &mut reference;
+    (position.z, velocity.z, acceleration.z) = (other.position.z, other.velocity.z, other.acceleration.z);
+    (jerk.z, snap.z) = (other.jerk.z, other.snap.z);
+    reference
 }

@@ -409,3 +409,33 @@ fn a_way_after_a_stream_is_no_slower_than_any_other() {
     let after = arrival(&mut vehicle);
     assert!(after.abs_diff(usual) < 60, "{after} and {usual} ms");
 }
+
+#[test]
+fn altitude_mode_is_left_without_a_bend_of_the_height() {
+    for leaves in [Some(Request::Hold), Some(Request::Return), None] {
+        for ticks in [200, 400, 700] {
+            let mut vehicle = offboard(&agile());
+            vehicle.hold(Sticks::CENTRED);
+            vehicle.run(0.1);
+            vehicle.ask(Request::Manual(ManualMode::Altitude));
+            vehicle.run(0.5);
+            let mut bends = Bends::default();
+            let climbs = Sticks { throttle: 1.0, ..Sticks::CENTRED };
+            // It gathers speed upwards when that is no longer wanted.
+            for tick in 0..3_000 {
+                if tick < ticks {
+                    vehicle.hold(climbs);
+                } else if tick == ticks {
+                    match leaves {
+                        Some(request) => vehicle.ask(request),
+                        None => vehicle.latest.sticks = None,
+                    }
+                }
+                vehicle.tick();
+                bends.look(&vehicle);
+            }
+            assert_ne!(vehicle.told.mode, Mode::Altitude);
+            assert!(bends.vertical_m_s3 < 10.3, "{leaves:?} after {ticks} ms: {} m/s³", bends.vertical_m_s3);
+        }
+    }
+}
