@@ -286,8 +286,10 @@ impl<A: AttitudeLaw> InnerTask<A> {
     /// Answers what waits for a commander that hangs, which may go on much later.
     #[cold]
     fn refuse_all(&mut self) {
-        for command in core::mem::take(&mut self.commands) {
-            self.refuse(command, Refusal::NoCommander);
+        // By reference: what consumes a vector can panic.
+        let waiting = core::mem::take(&mut self.commands);
+        for command in &waiting {
+            self.refuse(*command, Refusal::NoCommander);
         }
     }
 
