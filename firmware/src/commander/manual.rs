@@ -261,11 +261,6 @@ impl Commander {
         if is_down { Ok(()) } else { Err(Refusal::ThrottleUp) }
     }
 
-    /// Whether there are sticks.
-    pub(super) fn has_sticks(&self, now: Tick, input: &CommanderInput) -> bool {
-        self.hand.sticks(now, input).is_some()
-    }
-
     /// What is known of the motion if the sticks may be bringing the vehicle to the ground.
     pub(super) fn descends_by_hand(&self, mode: ManualMode, now: Tick, input: &CommanderInput) -> Option<Known> {
         let sticks = self.hand.sticks(now, input)?;

@@ -480,7 +480,7 @@ impl Commander {
             }
             State::Offboard if !self.lifts_by_setpoint(now, input) => self.land(effective, height),
             State::Manual(mode)
-                if !self.has_sticks(now, input) || self.descends_by_hand(mode, now, input).is_some() =>
+                if self.hand.sticks(now, input).is_none() || self.descends_by_hand(mode, now, input).is_some() =>
             {
                 self.land(effective, height)
             }

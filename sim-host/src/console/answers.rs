@@ -1,5 +1,6 @@
 //! The answers to ground stations' commands that never reach the commander: unsupported ones, those whose parameters make
-//! no request, and those that act at once. They are read from what the vehicle sends, so that the firmware need not tell of them twice.
+//! no request, and those that act at once. They are read from what the vehicle sends, so that the firmware need not tell of
+//! them twice.
 
 use firmware::commander::{Origin, Reply};
 use glissade_dialect::mavlink_core::{MavlinkVersion, MessageData, consts};
