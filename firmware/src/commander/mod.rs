@@ -341,7 +341,11 @@ impl Commander {
         let home = self.known_home(input);
         let armable = self.check(input).and_then(|()| self.check_sticks(released, input));
         let motor_test = self.tested_motor(effective);
-        CommanderOutput { motor_test, home, ..self.output(&input.nav, armable, replies, event) }
+        let mut output = self.output(&input.nav, armable, replies, event);
+        if self.settles(released, input) {
+            output.directive = self.descend(self.settings.touchdown_m_s, input.nav.position.z, false);
+        }
+        CommanderOutput { motor_test, home, ..output }
     }
 
     /// The output, from a motion, while home is unknown.

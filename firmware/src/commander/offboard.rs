@@ -4,6 +4,7 @@
 //! set-point asks for going up; a set-point at or below the ground brings it down to idling again. Once the stream is lost,
 //! `COM_OBL_RC_ACT` says what is done.
 
+use super::steer::GROUND_M;
 use super::{Commander, CommanderInput, Event, Intent, Known, ManualMode, Override, Refusal, State, StationAction};
 use crate::latest::SetPoint;
 use crate::schedule::COMMANDER;
@@ -18,8 +19,6 @@ const UP_M_S2: f32 = 0.3;
 /// A thrust above this lifts the vehicle, and one below this part of what it hovers with may be a landing.
 const LIFTS: f32 = 0.15;
 const LANDS: f32 = 0.8;
-/// A set-point at most this far above the ground may be a landing, m.
-const GROUND_M: f32 = 0.1;
 
 /// When set-points count as lost, and what is done then.
 #[derive(Clone, Debug)]
@@ -113,6 +112,14 @@ impl Commander {
         };
         self.override_by(Override::SetPointsLost { action }, effective, &input.nav.position);
         Event::SetPointsLost { action: Some(action) }
+    }
+
+    /// Height to which the set-point leads, m.
+    pub(super) fn height_by_setpoint(&self, now: Tick, input: &CommanderInput) -> Option<f32> {
+        match self.setpoint(now, input)? {
+            SetPoint::Motion { motion, .. } => motion.position()[2],
+            SetPoint::Attitude(_) => None,
+        }
     }
 
     /// What is known of the motion if the set-point may be bringing the vehicle to the ground.

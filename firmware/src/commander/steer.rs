@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::{Commander, Course, Directive, Ground, Known, Orbit, State};
+use super::{Commander, CommanderInput, Course, Directive, Ground, Known, Orbit, State};
 use crate::guidance::setpoint::{self, Speeds};
 use crate::math;
-use crate::signals::NavState;
+use crate::signals::{NavState, Tick};
 
 /// What stands does not move up or down as fast as this, m/s. Chosen: above the speed of a touchdown.
 const FALLS_M_S: f32 = 0.6;
@@ -22,6 +22,8 @@ const UNDERFOOT_M: f32 = 0.15;
 const LOWER_M: f32 = 0.1;
 /// A goal below this height over the ground, m, leads to it.
 const LEADS_DOWN_M: f32 = 0.3;
+/// A goal at most this far above the ground is on it, m.
+pub(super) const GROUND_M: f32 = 0.1;
 /// Part of the vertical acceleration with which a descent slows down: the vehicle is late, and catches up with the rest.
 const BRAKING_PART: f32 = 0.5;
 /// At this height, m, it has slowed down to it. Chosen: more than the height's error and what the vehicle lags behind.
@@ -94,7 +96,20 @@ impl Commander {
         Directive::Orbit(orbit)
     }
 
-    fn descend(&self, rate_m_s: f32, height: f32, heading_free: bool) -> Directive {
+    /// Whether the vehicle is at the ground and sent to it, or below: it comes down then as in a landing. Sent no lower than
+    /// where it stands it would bear a part of its weight and balance on its feet.
+    pub(super) fn settles(&self, released: Tick, input: &CommanderInput) -> bool {
+        let height_m = match self.state {
+            State::Offboard => self.height_by_setpoint(released, input),
+            State::GoTo(course) | State::Approach(course) => Some(course.height_m),
+            State::Orbit(orbit) => Some(orbit.center.z),
+            _ => None,
+        };
+        height_m.is_some_and(|height_m| self.over_ground(height_m) < GROUND_M)
+            && self.ground_below(&input.nav) == Ground::Underfoot
+    }
+
+    pub(super) fn descend(&self, rate_m_s: f32, height: f32, heading_free: bool) -> Directive {
         let known = self.navigation.known();
         Directive::Descend { rate_m_s: self.rate_of_descent(rate_m_s, height), known, heading_free }
     }

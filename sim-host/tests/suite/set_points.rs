@@ -88,3 +88,40 @@ fn a_light_vehicle_that_sinks_slowly_does_not_land_in_the_air() {
         assert!((height - (HEIGHT_M - 0.45)).abs() < 0.3, "{key} {factor}: {height} m");
     }
 }
+
+#[test]
+fn a_place_on_the_ground_is_landed_at_without_a_turn() {
+    // Held at the height of the ground it would balance on its feet, and turn.
+    for seed in 0..20 {
+        let mut bytes = Bytes::new(seed);
+        bytes.wait(4.0);
+        bytes.arm();
+        let to = |z: f32| {
+            let type_mask = 0b1001_1111_1000;
+            SET_POSITION_TARGET_LOCAL_NED_DATA { y: 4.0, z, yaw: 1.0, type_mask, ..Default::default() }
+        };
+        bytes.stream(0.5, |_| to(0.0));
+        bytes.mode(OFFBOARD, 0.0);
+        bytes.stream(10.0, |_| to(-4.0));
+        bytes.stream(11.0, |_| to(0.0));
+        let end = bytes.now;
+        let mut scenario = load("field", &[]);
+        scenario.replay = Some(bytes.into_entries().into());
+        let mut flight = flight::lockstep(&scenario, seed, flight::rigid_body(&scenario, seed)).expect("flies");
+        let (mut high, mut lean) = (0.0_f64, 0.0_f64);
+        while flight.next_tick() < end {
+            assert!(flight.step(&mut ()));
+            let motion = flight.plant().motion();
+            high = high.max(motion.position.z);
+            if flight.next_tick() + 7_000 > end {
+                let (x, y) = (motion.attitude.i, motion.attitude.j);
+                lean = lean.max((1.0 - 2.0 * (x * x + y * y)).acos().to_degrees());
+            }
+        }
+        let motion = flight.plant().motion();
+        let turned = (motion.attitude.k / motion.attitude.w).atan() * 2.0 + 1.0;
+        let turned = turned.to_degrees();
+        assert!(high > 3.0 && motion.position.z < 0.02, "seed {seed}: {high} m, {} m", motion.position.z);
+        assert!(turned.abs() < 8.0 && lean < 12.0, "seed {seed}: turned by {turned:.1}°, leant {lean:.1}°");
+    }
+}
