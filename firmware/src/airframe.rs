@@ -159,11 +159,22 @@ impl Airframe {
 
     /// Angular acceleration about the slower of roll and pitch with all the torque that the rotors can give, rad/s².
     pub fn tilting_rad_s2(&self) -> f32 {
-        let [_, roll, pitch, _] = self.geometry.rows();
-        let [about_x, about_y, _] = self.inertia_kg_m2;
+        let [about_x, about_y, _] = self.turning();
+        math::min(about_x, about_y)
+    }
+
+    /// The same about yaw.
+    pub fn yawing_rad_s2(&self) -> f32 {
+        self.turning()[2]
+    }
+
+    /// Angular acceleration about each axis with all the torque that the rotors can give, rad/s².
+    fn turning(&self) -> [f32; 3] {
+        let [_, roll, pitch, yaw] = self.geometry.rows();
         let torque = |row: [f32; ROTORS]| row.iter().map(|arm| math::max(*arm, 0.0)).sum::<f32>();
         let square = self.omega_max_rad_s * self.omega_max_rad_s;
-        square * math::min(torque(roll) / about_x, torque(pitch) / about_y)
+        let [about_x, about_y, about_z] = self.inertia_kg_m2;
+        [square * torque(roll) / about_x, square * torque(pitch) / about_y, square * torque(yaw) / about_z]
     }
 
     /// Ωr, the sum of the rotors' spins about +z (Eq. 2): −ω1 + ω2 − ω3 + ω4 on the plus layout.

@@ -6,6 +6,8 @@
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
+use nalgebra::SVector;
+
 /// Square root, correctly rounded, by the core's own instruction; `libm` would need 52 instructions.
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 #[inline]
@@ -103,6 +105,13 @@ pub fn braked(error: f32, gain: f32, most: f32) -> f32 {
     }
     let rate = sqrt(most * (2.0 * size - linear));
     if error < 0.0 { -rate } else { rate }
+}
+
+/// A vector limited to a length.
+#[inline]
+pub fn shorten<const N: usize>(vector: SVector<f32, N>, most: f32) -> SVector<f32, N> {
+    let square = vector.norm_squared();
+    if square <= most * most { vector } else { vector * (most / sqrt(square)) }
 }
 
 /// Magnitude.

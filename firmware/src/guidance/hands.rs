@@ -4,7 +4,7 @@
 //! *super expo* divides that by `1 − |x| g`, over `1/(1 − g)`, so that the ends become steeper. What a stick asks for at
 //! once passes through a critically damped filter, of which value and two derivatives go to the attitude law.
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{SVector, Vector2, Vector3};
 
 use crate::config::{ManualSettings, ModeSettings};
 use crate::latest::Sticks;
@@ -51,16 +51,15 @@ pub(crate) fn dead_zone(x: f32, zone: f32) -> f32 {
     if x < 0.0 { -beyond } else { beyond }
 }
 
-/// A vector no longer than 1: the corner of two sticks is no more than one at its end.
-fn within_circle(v: Vector2<f32>) -> Vector2<f32> {
-    let size = math::sqrt(v.norm_squared());
-    if size > 1.0 { v / size } else { v }
+/// Pitch and roll, forward and to the left: the corner of two sticks is no more than one at its end.
+fn forward_and_left(sticks: &Sticks) -> Vector2<f32> {
+    math::shorten(Vector2::new(sticks.pitch, -sticks.roll), 1.0)
 }
 
 impl ManualSettings {
     /// The tangent of the wanted tilt, forward and to the left.
     pub(crate) fn tilt(&self, sticks: &Sticks) -> Vector2<f32> {
-        let part = within_circle(Vector2::new(sticks.pitch, -sticks.roll));
+        let part = forward_and_left(sticks);
         let angle = math::sqrt(part.norm_squared()) * self.tilt_max_rad;
         let (sin, cos) = math::sin_cos(angle);
         // tan(a)/a is 1 where the stick is centred.
@@ -69,7 +68,7 @@ impl ManualSettings {
 
     /// The wanted horizontal velocity, forward and to the left, m/s.
     pub(crate) fn velocity(&self, sticks: &Sticks) -> Vector2<f32> {
-        let part = within_circle(Vector2::new(sticks.pitch, -sticks.roll));
+        let part = forward_and_left(sticks);
         let size = math::sqrt(part.norm_squared());
         let shaped = expo(dead_zone(size, self.dead_zone), self.expo_xy);
         part * (shaped * self.speed_m_s / math::max(size, 1e-3))
@@ -137,18 +136,38 @@ impl Smooth {
         self.rate = (slope - omega * growth * STEP_S) * decay;
         self.acceleration = omega * (omega * (input - self.value) - 2.0 * self.rate);
     }
+}
 
-    /// The same with an acceleration of at most `most`: what remains is braked along one curve, linear near its end, and
-    /// nothing is overshot, however great the step.
-    pub(crate) fn step_within(&mut self, input: f32, omega: f32, most: f32) {
-        let braking = BRAKING * most;
-        let wanted = math::braked(input - self.value, omega, braking);
-        // Of the rate with respect to the way: a constant near the end, and what brakes with `braking` before.
-        let slope = math::min(omega, braking / math::max(math::abs(wanted), 1e-6));
-        let acceleration = math::limit(omega * (wanted - self.rate) - slope * self.rate, most);
-        self.value += (self.rate + 0.5 * acceleration * STEP_S) * STEP_S;
-        self.rate += acceleration * STEP_S;
-        self.acceleration = acceleration;
+/// The filter of axes that share their torque, as one vector, with an acceleration of at most `most`: what remains is braked
+/// along one curve, linear near its end, and nothing is overshot, however great the step.
+pub(crate) fn step_within<const N: usize>(axes: &mut [Smooth; N], input: &SVector<f32, N>, omega: f32, most: f32) {
+    let braking = BRAKING * most;
+    let away = input - SVector::from(axes.map(|axis| axis.value));
+    let rate = SVector::from(axes.map(|axis| axis.rate));
+    let size = math::sqrt(away.norm_squared());
+    let speed = math::braked(size, omega, braking);
+    let wanted = away * (speed / math::max(size, 1e-9));
+    // Of the rate with respect to the way: a constant near the end, and what brakes with `braking` before.
+    let slope = math::min(omega, braking / math::max(speed, 1e-6));
+    let acceleration = math::shorten((wanted - rate) * omega - rate * slope, most);
+    for (axis, acceleration) in axes.iter_mut().zip(&acceleration) {
+        axis.value += (axis.rate + 0.5 * acceleration * STEP_S) * STEP_S;
+        axis.rate += acceleration * STEP_S;
+        axis.acceleration = *acceleration;
+    }
+}
+
+/// The same with a rate of at most `most`: the filter's two poles are a lag of the value and one of its rate, and the rate that
+/// the former wants is limited.
+pub(crate) fn step_slewing<const N: usize>(axes: &mut [Smooth; N], input: &SVector<f32, N>, omega: f32, most: f32) {
+    let away = input - SVector::from(axes.map(|axis| axis.value));
+    let wanted = math::shorten(away * (0.5 * omega), most);
+    let follows = 1.0 - math::exp(-2.0 * omega * STEP_S);
+    for (axis, wanted) in axes.iter_mut().zip(&wanted) {
+        let before = axis.rate;
+        axis.rate += (wanted - before) * follows;
+        axis.value += 0.5 * (before + axis.rate) * STEP_S;
+        axis.acceleration = (axis.rate - before) / STEP_S;
     }
 }
 
@@ -237,18 +256,45 @@ mod tests {
         }
     }
 
+    /// The greatest acceleration on the way, and how far the end is overshot along it, with its distance at last.
+    fn go<F: Fn(&mut [Smooth; 2], &Vector2<f32>)>(step: F, from: Vector2<f32>, to: Vector2<f32>) -> [f32; 3] {
+        let mut axes = [from.x, from.y].map(Smooth::at);
+        let (mut strongest, mut beyond) = (0.0_f32, 0.0_f32);
+        for _ in 0..250 {
+            let before = axes;
+            step(&mut axes, &to);
+            let faster = Vector2::from(core::array::from_fn(|i| axes[i].rate - before[i].rate));
+            let value = Vector2::from(axes.map(|axis| axis.value));
+            strongest = math::max(strongest, faster.norm() / STEP_S);
+            beyond = math::max(beyond, (value - to).dot(&(to - from).normalize()));
+        }
+        [strongest, beyond, (Vector2::from(axes.map(|axis| axis.value)) - to).norm()]
+    }
+
     #[test]
-    fn a_limited_step_arrives_without_overshoot_and_keeps_its_limit() {
-        let mut smooth = Smooth::default();
-        // From one end to the other, too.
-        for input in [0.7, -0.7] {
-            for _ in 0..250 {
-                let before = smooth;
-                smooth.step_within(input, 35.0, 90.0);
-                let accelerates = math::abs(smooth.rate - before.rate);
-                assert!(accelerates <= 90.001 * STEP_S && math::abs(smooth.value) < 0.7001);
+    fn a_limited_step_arrives_without_overshoot_and_keeps_its_limit_in_any_direction() {
+        for to in [Vector2::new(0.7, 0.0), Vector2::new(0.0, -0.7), Vector2::new(-0.5, 0.5), Vector2::new(0.01, 0.02)] {
+            // From one end to the other.
+            let [strongest, beyond, off] = go(|axes, to| step_within(axes, to, 35.0, 90.0), -to, to);
+            assert!(strongest <= 90.01 && beyond < 1e-4 && off < 1e-4, "{to}: {strongest} {beyond} {off}");
+        }
+    }
+
+    #[test]
+    fn a_rate_is_gone_to_with_limited_acceleration_and_not_overshot() {
+        for to in [Vector2::new(12.6, 0.0), Vector2::new(9.0, -9.0), Vector2::new(0.1, 0.0)] {
+            let mut axes = [Smooth::default(); 2];
+            let mut strongest = 0.0_f32;
+            for i in 0..250 {
+                step_slewing(&mut axes, &to, 40.0, 50.0);
+                strongest = math::max(strongest, Vector2::from(axes.map(|axis| axis.rate)).norm());
+                let value = Vector2::from(axes.map(|axis| axis.value));
+                assert!(value.norm() < 1.001 * to.norm(), "{i}: {value}");
+                // As soon as it can, and the filter's lag.
+                let lasts = to.norm() / 50.0 + 0.15;
+                assert!(f32::from(i as u16) * STEP_S < lasts || (value - to).norm() < 0.02 * to.norm(), "{i}: {value}");
             }
-            assert!(math::abs(smooth.value - input) < 1e-4 && math::abs(smooth.rate) < 1e-3);
+            assert!(strongest <= 50.01, "{to}: {strongest}");
         }
     }
 }

@@ -5,14 +5,14 @@
 //! sticks are body rates: the reference attitude is their integral on the rotation group, so that a flip is nothing
 //! special, and stays within reach of the vehicle's own.
 
-use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use nalgebra::{UnitQuaternion, Vector1, Vector2, Vector3};
 
 use super::{Outer, OuterInput, OuterOutput, Source, as_it_moves, forget_horizontal, velocity};
 use crate::airframe::Airframe;
 use crate::config::ManualSettings;
 use crate::control::flatness::{self, ForceProfile, Heading};
 use crate::control::law::PositionLaw;
-use crate::guidance::hands::{ManualMode, Smooth};
+use crate::guidance::hands::{self, ManualMode, Smooth};
 use crate::latest::Sticks;
 use crate::math;
 use crate::schedule::{OUTER, OUTER_AHEAD_S};
@@ -26,7 +26,8 @@ const STEP_S: f32 = OUTER.period as f32 * TICK_S;
 const TILT: f32 = 30.0;
 /// The same for the way to an attitude that is streamed.
 const APPROACH: f32 = 25.0;
-/// Part of the angular acceleration with full torque that a stick may ask for: what saturates falls behind, and comes late.
+/// Part of the angular acceleration with full torque that a stick may ask for, in any direction: what saturates falls behind,
+/// and comes late. About an axis between roll and pitch there is 0.7 of the torque.
 const AGILITY: f32 = 0.6;
 const RATE: f32 = 40.0;
 const THRUST: f32 = 40.0;
@@ -47,8 +48,10 @@ pub(super) struct ByHand {
     pub(super) settings: ManualSettings,
     /// The mode of the last job, if that was flown by hand.
     mode: Option<ManualMode>,
-    /// Greatest second derivative of the tilt's tangent that is asked for, 1/s².
+    /// Greatest second derivative of the tilt's tangent that is asked for, 1/s², and angular acceleration, rad/s².
     agility: f32,
+    /// Greatest angular acceleration of the heading that is asked for, rad/s².
+    yaw_agility: f32,
     /// Tangent of the tilt, forward and to the left.
     tilt: [Smooth; 2],
     /// Thrust, N.
@@ -66,6 +69,7 @@ impl ByHand {
         Self {
             settings: *settings,
             agility: AGILITY * airframe.tilting_rad_s2(),
+            yaw_agility: AGILITY * airframe.yawing_rad_s2(),
             mode: None,
             tilt: Default::default(),
             thrust: Smooth::default(),
@@ -138,16 +142,14 @@ impl ByHand {
     /// A step of the heading.
     fn turn(&mut self, rate: f32) -> Heading {
         let before = self.turn.value;
-        self.turn.step(rate, TURN);
+        hands::step_within(core::array::from_mut(&mut self.turn), &Vector1::new(rate), TURN, self.yaw_agility);
         self.yaw = math::wrap_angle(self.yaw + 0.5 * (before + self.turn.value) * STEP_S);
         Heading { angle: self.yaw, rate: self.turn.value, acceleration: self.turn.rate }
     }
 
     /// A step of the tilt, whose force is one along z, in the world.
     fn tilt(&mut self, wanted: Vector2<f32>, heading: &Heading) -> ForceProfile {
-        for (smooth, wanted) in self.tilt.iter_mut().zip(&wanted) {
-            smooth.step_within(*wanted, TILT, self.agility);
-        }
+        hands::step_within(&mut self.tilt, &wanted, TILT, self.agility);
         let [forward, left] = &self.tilt;
         let (sin, cos) = math::sin_cos(heading.angle);
         let turned = |x: f32, y: f32| Vector3::new(cos * x - sin * y, sin * x + cos * y, 0.0);
@@ -168,10 +170,11 @@ impl ByHand {
         let before = self.attitude_target();
         let reference = AttitudeReference { valid_at: 0, target: before, thrust_n: 0.0, thrust_rate_n_s: 0.0 };
         let turned = reference.target_after(STEP_S).attitude;
-        for (smooth, wanted) in self.rates.iter_mut().zip(wanted) {
-            smooth.step(*wanted, RATE);
-        }
-        let [.., yaw] = &mut self.rates;
+        let [roll, pitch, yaw] = &mut self.rates;
+        let mut across = [*roll, *pitch];
+        hands::step_slewing(&mut across, &wanted.xy(), RATE, self.agility);
+        [*roll, *pitch] = across;
+        hands::step_slewing(core::array::from_mut(yaw), &Vector1::new(wanted.z), RATE, self.yaw_agility);
         let behind = yaw.value - nav.rates.z;
         if math::abs(behind) > REACH_YAW_RATE {
             *yaw = Smooth::at(nav.rates.z + math::limit(behind, REACH_YAW_RATE));

@@ -21,7 +21,7 @@
 use nalgebra::SVector;
 
 use super::axis::{Axis, Given};
-use super::tracker::{Target, shorten};
+use super::tracker::Target;
 use crate::math;
 
 /// So long a target moves on without a sample, s.
@@ -294,15 +294,16 @@ impl<const N: usize> Group<N> {
         let known = |axis: &Axis| if axis.given.is_place_alone() { self.calm } else { 1.0 };
         let vector = |value: fn(&Axis) -> f32| SVector::from(axes.each_ref().map(|axis| known(axis) * value(axis)));
         let acceleration = vector(|axis| axis.acceleration + axis.drift[1]);
-        let jerk = shorten(vector(|axis| axis.jerk + axis.drift[2]), jerk);
-        let speed_kept = if N == 1 { speed.map(|speed| math::clamp(speed, -down, up)) } else { shorten(speed, up) };
+        let jerk = math::shorten(vector(|axis| axis.jerk + axis.drift[2]), jerk);
+        let speed_kept =
+            if N == 1 { speed.map(|speed| math::clamp(speed, -down, up)) } else { math::shorten(speed, up) };
         // Where one is cut off, what would lead farther beyond is not passed on; what turns the speed is.
         let excess = speed - speed_kept;
         let beyond = math::sqrt(excess.norm_squared());
         let direction = if beyond > 0.0 { excess / beyond } else { SVector::zeros() };
         let kept = |v: SVector<f32, N>| v - direction * math::max(v.dot(&direction), 0.0);
         let slower = kept(acceleration);
-        let acceleration = shorten(slower, strongest);
+        let acceleration = math::shorten(slower, strongest);
         let jerk = if acceleration == slower { kept(jerk) } else { SVector::zeros() };
         Target { place, speed: speed_kept, acceleration, jerk, placed, settled: self.settling_s <= 0.0 }
     }

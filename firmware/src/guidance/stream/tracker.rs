@@ -125,12 +125,6 @@ fn cube_root(x: f32) -> f32 {
     step(step(guess))
 }
 
-/// A vector limited to a length.
-pub(super) fn shorten<const N: usize>(vector: Axes<N>, most: f32) -> Axes<N> {
-    let square = vector.norm_squared();
-    if square <= most * most { vector } else { vector * (most / math::sqrt(square)) }
-}
-
 /// How much of what is passed on from a target acts against a correction. A correction may be larger by that: accelerations
 /// that do not lead where the given velocities do would outweigh it otherwise.
 fn against<const N: usize>(passed_on: &Axes<N>, correction: &Axes<N>) -> f32 {
@@ -210,16 +204,16 @@ impl<const N: usize> Tracker<N> {
         away += (moving + changing * (0.5 * AHEAD_S)) * AHEAD_S;
         let relative =
             self.wanted_acceleration(&away.component_mul(&target.placed), &(moving + changing * AHEAD_S), target);
-        let free = shorten(target.acceleration + relative, self.limits.strongest);
+        let free = math::shorten(target.acceleration + relative, self.limits.strongest);
         let (wanted, passed_on) = self.slow_down(free, target.jerk);
         let correction = (wanted - acceleration) * ACCELERATION_RAD_S;
         let Limits { jerk, sharpest, .. } = self.limits;
         // A target that turns at its limits would carry the reference beyond the speed while that turns more slowly.
         let most = if wanted == free { jerk } else { sharpest };
         if !target.settled {
-            return shorten(passed_on + correction, most);
+            return math::shorten(passed_on + correction, most);
         }
-        passed_on + shorten(correction, most + against(&passed_on, &correction))
+        passed_on + math::shorten(correction, most + against(&passed_on, &correction))
     }
 
     /// What of an acceleration and of a target's jerk remains, so that the reference does not become faster than it may be.
@@ -267,7 +261,7 @@ impl<const N: usize> Tracker<N> {
             0.0
         };
         let wanted = sideways - outward * along;
-        shorten(wanted, self.limits.acceleration + against(&target.acceleration, &wanted))
+        math::shorten(wanted, self.limits.acceleration + against(&target.acceleration, &wanted))
     }
 
     /// The greatest speed relative to the target in the direction −`outward`: within its own limit, and such that the sum
