@@ -227,16 +227,22 @@ pub struct ForceLimits {
     tan_tilt_max: f32,
     /// Least vertical component, m/s².
     floor: f32,
+    /// What feet may bear a part of, m/s²; 0 for a vehicle that flies.
+    weight: f32,
 }
 
 /// Least vertical component as a fraction of the greatest force: the thrust axis must not point down.
 const FLOOR: f32 = 0.02;
 
+/// Tangent of the greatest tilt of a vehicle that feet may bear, while its rotors carry all of its weight: enough against a
+/// storm. With less it goes by the square of what they carry.
+const TAN_TILT_ON_FEET: f32 = 0.5;
+
 impl ForceLimits {
     /// For an airframe and a greatest tilt (rad).
     pub fn new(airframe: &Airframe, tilt_max_rad: f32) -> Self {
         let force_max = airframe.thrust_max_n() / airframe.mass_kg;
-        Self { force_max, tan_tilt_max: 0.0, floor: FLOOR * force_max }.with_tilt(tilt_max_rad)
+        Self { force_max, tan_tilt_max: 0.0, floor: FLOOR * force_max, weight: 0.0 }.with_tilt(tilt_max_rad)
     }
 
     /// The same with another greatest tilt (rad).
@@ -251,6 +257,14 @@ impl ForceLimits {
     pub fn with_floor(self, floor: Option<f32>) -> Self {
         let least = FLOOR * self.force_max;
         Self { floor: floor.map_or(least, |floor| math::clamp(floor, least, self.force_max)), ..self }
+    }
+
+    /// The same for a vehicle whose feet may bear a part of its weight (as a specific force, m/s²), or for one that flies.
+    /// Feet hold it against a horizontal force. One that is given all the same leans it over, the more the less the rotors
+    /// carry, until one of them stands still and its heading is lost.
+    #[must_use]
+    pub fn with_feet(self, weight: Option<f32>) -> Self {
+        Self { weight: weight.unwrap_or(0.0), ..self }
     }
 
     /// Tangent of the greatest tilt.
@@ -271,7 +285,13 @@ impl ForceLimits {
         let (force, force_max) = (profile.force, self.force_max);
         let vertical = math::clamp(force.z, self.floor, force_max);
         let by_size = math::sqrt(math::max(force_max * force_max - vertical * vertical, 0.0));
-        let limit = math::min(by_size, vertical * self.tan_tilt_max);
+        let tan_tilt_max = if self.weight > 0.0 {
+            let carried = math::min(vertical / self.weight, 1.0);
+            math::min(self.tan_tilt_max, TAN_TILT_ON_FEET * carried * carried)
+        } else {
+            self.tan_tilt_max
+        };
+        let limit = math::min(by_size, vertical * tan_tilt_max);
         let horizontal = math::sqrt(force.x * force.x + force.y * force.y);
         let scale = if horizontal > limit { limit / horizontal } else { 1.0 };
         let limited = scale < 1.0 || vertical != force.z;

@@ -306,7 +306,13 @@ impl<P: PositionLaw> Outer<P> {
 
     /// An output with the authority that the ground leaves. Feet on the ground bear a part of the weight and turn the vehicle
     /// otherwise than its model says: with full authority it would rock until it tips over.
-    fn near_ground(&self, output: OuterOutput, ground: Ground, has_direct_thrust: bool, in_air: bool) -> OuterOutput {
+    fn near_ground(
+        &mut self,
+        output: OuterOutput,
+        ground: Ground,
+        has_direct_thrust: bool,
+        in_air: bool,
+    ) -> OuterOutput {
         let lands_below = if has_direct_thrust { LANDS_BY_HAND } else { LANDS } * self.mass_kg * self.model.gravity;
         let is_light = output.attitude.thrust_n < lands_below;
         let sinks = !has_direct_thrust && output.wanted_velocity.z < SINKS_M_S;
@@ -315,6 +321,8 @@ impl<P: PositionLaw> Outer<P> {
             Ground::Near => is_light || sinks,
             Ground::Underfoot => is_light || !has_direct_thrust,
         };
+        // In the next job.
+        self.limits = self.limits.with_feet(may_stand.then_some(self.model.gravity));
         OuterOutput { authority: if !in_air || may_stand { Authority::Gentle } else { Authority::Full }, ..output }
     }
 

@@ -1,7 +1,7 @@
 //! Flights by sticks and by set-points that a random generator moves, from end to end of their ranges, judged by the truth:
 //! no limit is exceeded, nothing tips over, nothing falls, and what is let go stands still and lands.
 //!
-//! `GLISSADE_FLIGHTS` is how many of each kind are flown; `tests/run --full` flies 1,000.
+//! `GLISSADE_FLIGHTS` is how many of each kind are flown; `tests/run --full` flies 1,000. `GLISSADE_SEED` flies one alone.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
@@ -213,8 +213,10 @@ impl Plan {
 
 /// Flies a plan for many seeds, on all threads.
 fn fly_all(scenario: &Scenario, plan: impl Fn(u64) -> Plan + Sync) {
-    let count = std::env::var("GLISSADE_FLIGHTS").ok().map_or(12, |count| count.parse().expect("a number"));
-    let next = AtomicU64::new(1);
+    let number = |name: &str| std::env::var(name).ok().map(|text| text.parse::<u64>().expect("a number"));
+    let alone = number("GLISSADE_SEED");
+    let count = alone.or(number("GLISSADE_FLIGHTS")).unwrap_or(12);
+    let next = AtomicU64::new(alone.unwrap_or(1));
     let fly = || {
         let mut failed = Vec::new();
         loop {
